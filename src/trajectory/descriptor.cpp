@@ -1,0 +1,108 @@
+#include "trajectory/descriptor.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "trajectory/minco.h"
+
+namespace mocha {
+namespace {
+
+void require(bool condition, const char* what) {
+  if (!condition) throw std::invalid_argument(std::string("rebuild: ") + what);
+}
+
+PhaseDescriptor describe_phase(const TurnPhase& turn) {
+  PhaseDescriptor phase;
+  phase.kind = PhaseDescriptor::Kind::kTurn;
+  phase.yaw_start_rad = turn.start.yaw_rad;
+  phase.yaw_change_rad = turn.yaw_change_rad;
+  phase.durations_s = {turn.duration_s};
+  phase.points = {turn.start.position};
+  return phase;
+}
+
+PhaseDescriptor describe_phase(const StandPhase& stand) {
+  PhaseDescriptor phase;
+  phase.kind = PhaseDescriptor::Kind::kStand;
+  phase.yaw_start_rad = stand.pose.yaw_rad;
+  phase.durations_s = {stand.duration_s};
+  phase.points = {stand.pose.position};
+  return phase;
+}
+
+PhaseDescriptor describe_phase(const DrivePhase& drive) {
+  PhaseDescriptor phase;
+  phase.kind = PhaseDescriptor::Kind::kDrive;
+  phase.direction = drive.direction;
+  phase.durations_s = drive.path.durations();
+  for (int i = 0; i < drive.path.pieces(); ++i) {
+    phase.points.push_back(drive.path.derivative({i, 0.0}, 0));
+  }
+  const PlanarPath::Location end{drive.path.pieces() - 1, 1.0};
+  phase.points.push_back(drive.path.derivative(end, 0));
+  for (int order = 1; order <= 2; ++order) {
+    phase.start_derivatives.col(order - 1) = drive.path.derivative({0, 0.0}, order);
+    phase.end_derivatives.col(order - 1) = drive.path.derivative(end, order);
+  }
+  return phase;
+}
+
+DrivePhase rebuild_drive(const PhaseDescriptor& phase) {
+  const int pieces = static_cast<int>(phase.durations_s.size());
+  require(phase.direction == 1 || phase.direction == -1, "a drive's direction is not +1 or -1");
+  require(pieces >= 1 && phase.points.size() == phase.durations_s.size() + 1,
+          "a drive needs one duration a piece and one point more");
+  Eigen::VectorXd durations(pieces);
+  for (int i = 0; i < pieces; ++i) {
+    durations[i] = phase.durations_s[i];
+    require(std::isfinite(durations[i]) && durations[i] > 0.0, "a duration is not positive");
+  }
+  PlanarMinco::Knots knots(2, pieces - 1);
+  for (int k = 0; k + 1 < pieces; ++k) knots.col(k) = phase.points[k + 1];
+  PlanarMinco::State start;
+  PlanarMinco::State end;
+  start << phase.points.front(), phase.start_derivatives;
+  end << phase.points.back(), phase.end_derivatives;
+  require(start.allFinite() && end.allFinite() && knots.allFinite(), "a drive is not finite");
+  PlanarMinco minco;
+  minco.resize(pieces);
+  minco.solve(start, end, knots, durations);
+  return DrivePhase{phase.direction, minco.curve()};
+}
+
+Phase rebuild_phase(const PhaseDescriptor& phase) {
+  if (phase.kind == PhaseDescriptor::Kind::kDrive) return rebuild_drive(phase);
+  require(phase.kind == PhaseDescriptor::Kind::kTurn || phase.kind == PhaseDescriptor::Kind::kStand,
+          "a phase is of no known kind");
+  require(phase.points.size() == 1 && phase.durations_s.size() == 1,
+          "a turn or a stand needs exactly one point and one duration");
+  require(phase.durations_s[0] >= 0.0, "a duration is negative");
+  const Pose pose{phase.points[0], phase.yaw_start_rad};
+  if (phase.kind == PhaseDescriptor::Kind::kTurn) {
+    require(phase.durations_s[0] > 0.0, "a turn takes no time");
+    return TurnPhase{pose, phase.yaw_change_rad, phase.durations_s[0]};
+  }
+  return StandPhase{pose, phase.durations_s[0]};
+}
+
+}  // namespace
+
+MotionDescriptor describe(const Motion& motion) {
+  MotionDescriptor descriptor;
+  descriptor.start_time_s = motion.start_time();
+  for (const Phase& phase : motion.phases()) {
+    descriptor.phases.push_back(
+        std::visit([](const auto& each) { return describe_phase(each); }, phase));
+  }
+  return descriptor;
+}
+
+Motion rebuild(const MotionDescriptor& descriptor) {
+  std::vector<Phase> phases;
+  for (const PhaseDescriptor& phase : descriptor.phases) phases.push_back(rebuild_phase(phase));
+  return Motion(descriptor.start_time_s, std::move(phases));
+}
+
+}  // namespace mocha

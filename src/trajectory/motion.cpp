@@ -1,0 +1,213 @@
+#include "trajectory/motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "trajectory/unicycle.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kRestSpeed = 1e-4;  // [m/s] slower is rest
+constexpr double kLeastSpeed =
+    1e-6;  // [m/s] below, the direction of the velocity is rounding noise
+constexpr double kRestAcceleration = 1e-3;  // [m/s^2] likewise
+constexpr double kRestJerk = 1e-3;          // [m/s^3] likewise
+constexpr double kShortestPhase_s = 1e-5;   // shorter parts of a phase are dropped when cutting
+
+/// Progress of a quintic turn and its rate, u in [0, 1].
+double turn_progress(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
+double turn_progress_rate(double u) { return 30.0 * u * u * (1.0 - u) * (1.0 - u); }
+
+MotionState state_in(const TurnPhase& turn, double t) {
+  const double u = std::clamp(t / turn.duration_s, 0.0, 1.0);
+  MotionState state;
+  state.pose.position = turn.start.position;
+  state.pose.yaw_rad = wrap_angle(turn.start.yaw_rad + turn.yaw_change_rad * turn_progress(u));
+  state.yaw_rate = turn.yaw_change_rad * turn_progress_rate(u) / turn.duration_s;
+  state.at_rest = u <= 0.0 || u >= 1.0;
+  return state;
+}
+
+MotionState state_in(const DrivePhase& drive, double t) {
+  const auto at = drive.path.locate(t);
+  MotionState state;
+  state.pose.position = drive.path.derivative(at, 0);
+  state.pose.yaw_rad = heading(drive, t);
+  state.velocity = drive.path.derivative(at, 1);
+  state.acceleration = drive.path.derivative(at, 2);
+  const UnicycleState body =
+      unicycle_state(drive.direction, state.velocity, state.acceleration,
+                     drive.path.derivative(at, 3), drive.path.derivative(at, 4));
+  state.speed = body.speed;
+  state.yaw_rate = body.yaw_rate;
+  state.at_rest = state.velocity.norm() < kRestSpeed;
+  return state;
+}
+
+MotionState state_in(const StandPhase& stand, double) {
+  MotionState state;
+  state.pose = stand.pose;
+  return state;
+}
+
+MotionState state_in(const Phase& phase, double t) {
+  return std::visit([t](const auto& each) { return state_in(each, t); }, phase);
+}
+
+/// The same state with all motion taken out: before the start and after the end a robot stands.
+MotionState standing(const MotionState& state) {
+  MotionState still;
+  still.pose = state.pose;
+  return still;
+}
+
+bool finite(const MotionState& state) {
+  return state.pose.position.allFinite() && std::isfinite(state.pose.yaw_rad) &&
+         state.velocity.allFinite() && state.acceleration.allFinite();
+}
+
+void require(bool condition, const std::string& what) {
+  if (!condition) throw std::invalid_argument("Motion: " + what);
+}
+
+}  // namespace
+
+double wrap_angle(double angle_rad) {
+  const double wrapped = std::remainder(angle_rad, 2.0 * M_PI);
+  return wrapped <= -M_PI ? M_PI : wrapped;
+}
+
+double turn_duration_s(double yaw_change_rad, double max_yaw_rate, double max_yaw_acceleration) {
+  // Peaks of the quintic: rate 15/8 change/T at the middle, acceleration 10/sqrt(3) change/T^2.
+  const double change = std::abs(yaw_change_rad);
+  return std::max(1.875 * change / max_yaw_rate,
+                  std::sqrt(10.0 / std::sqrt(3.0) * change / max_yaw_acceleration));
+}
+
+double duration_s(const Phase& phase) {
+  if (const auto* drive = std::get_if<DrivePhase>(&phase)) return drive->path.duration();
+  if (const auto* turn = std::get_if<TurnPhase>(&phase)) return turn->duration_s;
+  return std::get<StandPhase>(phase).duration_s;
+}
+
+double heading(const DrivePhase& drive, double t) {
+  const auto at = drive.path.locate(t);
+  Vector2 along = drive.path.derivative(at, 1);
+  if (along.norm() < kLeastSpeed) {
+    // At rest the heading is the limit of the velocity's direction from inside the phase.
+    const double side = t < 0.5 * drive.path.duration() ? 1.0 : -1.0;
+    along = side * drive.path.derivative(at, 2);
+    if (along.norm() < kRestAcceleration) along = drive.path.derivative(at, 3);
+    if (along.norm() < kRestJerk) along = side * drive.path.derivative(at, 4);
+  }
+  return std::atan2(drive.direction * along.y(), drive.direction * along.x());
+}
+
+Motion::Motion(double start_time_s, std::vector<Phase> phases)
+    : start_time_s_(start_time_s), phases_(std::move(phases)) {
+  require(std::isfinite(start_time_s_), "the start time is not finite");
+  require(!phases_.empty(), "has no phases");
+  double t = start_time_s_;
+  phase_starts_.push_back(t);
+  for (std::size_t i = 0; i < phases_.size(); ++i) {
+    const Phase& phase = phases_[i];
+    const double duration = duration_s(phase);
+    if (const auto* drive = std::get_if<DrivePhase>(&phase)) {
+      require(drive->direction == 1 || drive->direction == -1,
+              "a drive's direction is not +1 or -1");
+    }
+    require(std::isfinite(duration) && duration >= 0.0, "a duration is negative or not finite");
+    require(finite(state_in(phase, 0.0)) && finite(state_in(phase, duration)),
+            "a phase is not finite");
+    if (i > 0) {
+      const MotionState before = state_in(phases_[i - 1], mocha::duration_s(phases_[i - 1]));
+      const MotionState after = state_in(phase, 0.0);
+      require((before.pose.position - after.pose.position).norm() <= 1e-3,
+              "jumps in position between phases");
+      require(std::abs(wrap_angle(before.pose.yaw_rad - after.pose.yaw_rad)) <= 0.01,
+              "jumps in heading between phases");
+      require((before.velocity - after.velocity).norm() <= 0.01,
+              "jumps in velocity between phases");
+    }
+    phase_starts_.push_back(t += duration);
+  }
+  const MotionState end = state_in(phases_.back(), mocha::duration_s(phases_.back()));
+  require(end.velocity.norm() <= 1e-3, "does not end at rest");
+}
+
+double Motion::end_time() const { return phases_.empty() ? start_time_s_ : phase_starts_.back(); }
+
+int Motion::phase_at(double t) const {
+  const auto next = std::upper_bound(phase_starts_.begin(), phase_starts_.end(), t);
+  const int index = static_cast<int>(next - phase_starts_.begin()) - 1;
+  return std::clamp(index, 0, static_cast<int>(phases_.size()) - 1);
+}
+
+MotionState Motion::at(double t) const {
+  require(!phases_.empty(), "at() of an empty motion");
+  const int i = phase_at(t);
+  const MotionState state = state_in(phases_[i], t - phase_starts_[i]);
+  return t < start_time_s_ || t >= end_time() ? standing(state) : state;
+}
+
+Pose Motion::end_pose() const { return at(end_time()).pose; }
+
+double Motion::length_m() const {
+  constexpr double kStep_s = 0.02;
+  double length = 0.0;
+  for (const Phase& phase : phases_) {
+    const auto* drive = std::get_if<DrivePhase>(&phase);
+    if (drive == nullptr) continue;
+    const int steps = 1 + static_cast<int>(drive->path.duration() / kStep_s);
+    Vector2 last = drive->path.position(0.0);
+    for (int i = 1; i <= steps; ++i) {
+      const Vector2 next = drive->path.position(drive->path.duration() * i / steps);
+      length += (next - last).norm();
+      last = next;
+    }
+  }
+  return length;
+}
+
+double Motion::switch_time(double t) const {
+  if (phases_.empty() || t <= start_time_s_ || t >= end_time()) return t;
+  const int i = phase_at(t);
+  const bool turning = std::holds_alternative<TurnPhase>(phases_[i]);
+  return turning && t > phase_starts_[i] + kShortestPhase_s ? phase_starts_[i + 1] : t;
+}
+
+double Motion::cut_time(double t) const {
+  if (phases_.empty() || t <= start_time_s_ || t >= end_time()) return t;
+  const int i = phase_at(t);
+  return std::holds_alternative<TurnPhase>(phases_[i]) ? phase_starts_[i] : t;
+}
+
+std::vector<Phase> Motion::phases_between(double t0, double t1) const {
+  std::vector<Phase> parts;
+  for (int i = 0; i < static_cast<int>(phases_.size()); ++i) {
+    const double begin = phase_starts_[i];
+    // Absolute times are coarse: a whole phase is asked for by its end, not by a difference of two
+    // large numbers.
+    const double whole = mocha::duration_s(phases_[i]);
+    const double from = std::max(0.0, t0 - begin);
+    const double to = t1 >= phase_starts_[i + 1] ? whole : std::min(t1 - begin, whole);
+    if (to - from < kShortestPhase_s) continue;
+    if (const auto* drive = std::get_if<DrivePhase>(&phases_[i])) {
+      parts.push_back(DrivePhase{drive->direction, drive->path.slice(from, to)});
+    } else if (const auto* stand = std::get_if<StandPhase>(&phases_[i])) {
+      parts.push_back(StandPhase{stand->pose, to - from});
+    } else {
+      const auto& turn = std::get<TurnPhase>(phases_[i]);
+      require(to - from > turn.duration_s - 2.0 * kShortestPhase_s,
+              "a turn in place cannot be cut");
+      parts.push_back(turn);
+    }
+  }
+  return parts;
+}
+
+}  // namespace mocha

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "trajectory/piecewise_polynomial.h"
+
+namespace mocha {
+
+/// Position [m] and heading [rad] in the map frame.
+struct Pose {
+  Vector2 position = Vector2::Zero();
+  double yaw_rad = 0.0;
+};
+
+/// Turn in place, from rest to rest, with a quintic heading profile. Positive change is
+/// counter-clockwise.
+struct TurnPhase {
+  Pose start;
+  double yaw_change_rad;
+  double duration_s;
+};
+
+/// Drive along a polynomial; the heading is that of the velocity (direction +1) or its opposite
+/// (-1).
+struct DrivePhase {
+  int direction;
+  PlanarPath path;
+};
+
+struct StandPhase {
+  Pose pose;
+  double duration_s;
+};
+
+using Phase = std::variant<TurnPhase, DrivePhase, StandPhase>;
+
+double duration_s(const Phase& phase);
+
+/// Where a robot on a motion is at one time, and how it moves. Map frame.
+struct MotionState {
+  Pose pose;
+  Vector2 velocity = Vector2::Zero();      ///< [m/s]
+  Vector2 acceleration = Vector2::Zero();  ///< [m/s^2]
+  double speed = 0.0;     ///< [m/s] along the heading; negative when driving backward
+  double yaw_rate = 0.0;  ///< [rad/s]
+  bool at_rest = true;    ///< not moving and not in the middle of a turn
+};
+
+/// What a robot does from start_time_s on: phases without gaps; before the first it stands at the
+/// start, after the last it stands at the end.
+class Motion {
+ public:
+  Motion() = default;
+  /// Throws std::invalid_argument without phases, with values that are not finite, with a jump
+  /// between phases (more than 1 mm, 0.01 rad or 0.01 m/s), or if the motion does not end at rest.
+  Motion(double start_time_s, std::vector<Phase> phases);
+
+  bool empty() const { return phases_.empty(); }
+  double start_time() const { return start_time_s_; }
+  double end_time() const;
+  const std::vector<Phase>& phases() const { return phases_; }
+  double phase_start_time(int i) const { return phase_starts_[i]; }
+
+  /// State at absolute time t [s].
+  MotionState at(double t) const;
+  Pose end_pose() const;
+  double length_m() const;
+
+  /// The first time >= t at which another motion can take over: t itself while driving or standing,
+  /// else the end of the turn in place that is under way.
+  double switch_time(double t) const;
+
+  /// The last time <= t at which the motion can be cut: t itself, or the start of the turn in place
+  /// that is under way.
+  double cut_time(double t) const;
+
+  /// The phases between absolute times t0 and t1 (clamped); empty where t1 <= t0. Used to compose
+  /// motions. Turns in place are never cut: t0 and t1 must be switch times, or
+  /// std::invalid_argument is thrown.
+  std::vector<Phase> phases_between(double t0, double t1) const;
+
+ private:
+  int phase_at(double t) const;
+
+  double start_time_s_ = 0.0;
+  std::vector<Phase> phases_;
+  std::vector<double> phase_starts_;  // absolute; one more than phases
+};
+
+/// Heading of a drive phase at time t within it; continuous through points of rest at its ends.
+double heading(const DrivePhase& drive, double t);
+
+/// Duration of the quintic turn by `yaw_change_rad` within the limits of rate [rad/s] and
+/// acceleration [rad/s^2].
+double turn_duration_s(double yaw_change_rad, double max_yaw_rate, double max_yaw_acceleration);
+
+/// Wraps into (-pi, pi].
+double wrap_angle(double angle_rad);
+
+}  // namespace mocha

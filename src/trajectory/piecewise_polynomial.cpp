@@ -1,0 +1,93 @@
+#include "trajectory/piecewise_polynomial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace mocha {
+
+template <int D, int S>
+PiecewisePolynomial<D, S>::PiecewisePolynomial(std::vector<Piece> pieces,
+                                               std::vector<double> durations_s)
+    : pieces_(std::move(pieces)), durations_(std::move(durations_s)) {
+  if (pieces_.empty() || pieces_.size() != durations_.size()) {
+    throw std::invalid_argument("PiecewisePolynomial: needs one duration per piece, at least one");
+  }
+  double end = 0.0;
+  for (const double tau : durations_) {
+    if (!(tau > 0.0) || !std::isfinite(tau)) {
+      throw std::invalid_argument("PiecewisePolynomial: a duration is not positive and finite");
+    }
+    knots_.push_back(end += tau);
+  }
+}
+
+template <int D, int S>
+auto PiecewisePolynomial<D, S>::locate(double t) const -> Location {
+  const auto knot = std::upper_bound(knots_.begin(), knots_.end(), t);
+  const int i = std::min<int>(static_cast<int>(knot - knots_.begin()), pieces() - 1);
+  return {i, std::clamp((t - piece_start(i)) / durations_[i], 0.0, 1.0)};
+}
+
+template <int D, int S>
+auto PiecewisePolynomial<D, S>::derivative(double t, int order) const -> Vector {
+  return derivative(locate(t), order);
+}
+
+template <int D, int S>
+auto PiecewisePolynomial<D, S>::derivative(const Location& at, int order) const -> Vector {
+  const Piece& c = pieces_[at.piece];
+  Vector sum = Vector::Zero();
+  for (int k = kCoefficients - 1; k >= order; --k) {
+    double falling = 1.0;
+    for (int j = 0; j < order; ++j) falling *= k - j;
+    sum = sum * at.u + falling * c.col(k);
+  }
+  return sum / std::pow(durations_[at.piece], order);
+}
+
+template <int D, int S>
+auto PiecewisePolynomial<D, S>::state(double t) const -> State {
+  const Location at = locate(t);
+  State state;
+  for (int order = 0; order < S; ++order) state.col(order) = derivative(at, order);
+  return state;
+}
+
+template <int D, int S>
+PiecewisePolynomial<D, S> PiecewisePolynomial<D, S>::slice(double t0, double t1) const {
+  if (!(t0 >= 0.0 && t0 < t1 && t1 <= duration() * (1.0 + 1e-12))) {
+    throw std::invalid_argument("PiecewisePolynomial::slice: needs 0 <= t0 < t1 <= duration");
+  }
+  std::vector<Piece> pieces;
+  std::vector<double> durations;
+  for (int i = 0; i < this->pieces(); ++i) {
+    const double tau = durations_[i];
+    const double u0 = std::clamp((t0 - piece_start(i)) / tau, 0.0, 1.0);
+    const double u1 = std::clamp((t1 - piece_start(i)) / tau, 0.0, 1.0);
+    // A sliver of a microsecond would only spoil the conditioning.
+    if ((u1 - u0) * tau < 1e-6) continue;
+    // Taylor shift to u0, then scale by (u1 - u0).
+    Piece shifted = pieces_[i];
+    for (int j = 0; j < kCoefficients; ++j) {
+      for (int k = kCoefficients - 2; k >= j; --k) shifted.col(k) += u0 * shifted.col(k + 1);
+    }
+    for (int k = 0; k < kCoefficients; ++k) shifted.col(k) *= std::pow(u1 - u0, k);
+    pieces.push_back(shifted);
+    durations.push_back((u1 - u0) * tau);
+  }
+  return PiecewisePolynomial(std::move(pieces), std::move(durations));
+}
+
+template <int D, int S>
+PiecewisePolynomial<D, S> PiecewisePolynomial<D, S>::stretched(double factor) const {
+  std::vector<double> durations = durations_;
+  for (double& tau : durations) tau *= factor;
+  return PiecewisePolynomial(pieces_, std::move(durations));
+}
+
+template class PiecewisePolynomial<2, 3>;
+template class PiecewisePolynomial<3, 3>;
+
+}  // namespace mocha

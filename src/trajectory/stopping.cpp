@@ -1,0 +1,168 @@
+#include "trajectory/stopping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "trajectory/minco.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kSlowest = 1e-3;  // [m/s] slower is rest
+constexpr double kRamp_s = 0.2;    // longest time from the present acceleration to the deceleration
+constexpr double kKnotSpacing_s = 0.2;
+constexpr double kStand_s = 0.1;
+
+/// What a braking robot follows: states by the time at which the original motion has them, up to
+/// where that ends.
+struct Track {
+  std::function<MotionState(double)> at;
+  double start_s;
+  double end_s;
+};
+
+/// The braking's own time against the track's, at equal steps; the last step is shorter.
+struct Schedule {
+  std::vector<double> track_s;
+  double step_s;
+  double duration_s;
+  bool reaches_end;  ///< of the track: its own end comes first
+
+  double track_time(double own_s) const {
+    const int last = static_cast<int>(track_s.size()) - 2;
+    const int i = std::clamp(static_cast<int>(own_s / step_s), 0, last);
+    const double span = i == last ? duration_s - last * step_s : step_s;
+    const double share = std::clamp((own_s - i * step_s) / span, 0.0, 1.0);
+    return track_s[i] + share * (track_s[i + 1] - track_s[i]);
+  }
+};
+
+void check_deceleration(double deceleration) {
+  if (!(deceleration > 0.0) || !std::isfinite(deceleration)) {
+    throw std::invalid_argument("braking: the deceleration is not positive and finite");
+  }
+}
+
+/// Slows down from the track's state at its start: a ramp to the deceleration, then that, but never
+/// faster than the track at the same place (which may be slowing down for a bend).
+Schedule slow_down(const Track& track, double deceleration) {
+  const MotionState start = track.at(track.start_s);
+  double speed = start.velocity.norm();
+  const double acceleration = start.acceleration.dot(start.velocity) / speed;
+  // The ramp leaves at least half of the speed to brake with.
+  const double drop = std::max(deceleration - acceleration, 1e-3 * deceleration);
+  const double ramp_s = std::min(kRamp_s, speed / drop);
+  const double expected_s = ramp_s + speed / deceleration;
+  Schedule schedule{{track.start_s}, std::min(0.004, expected_s / 64.0), 0.0, false};
+  double t = track.start_s;
+  for (int i = 0;; ++i) {
+    const double share = std::min(1.0, (i + 0.5) * schedule.step_s / ramp_s);
+    const double rate = acceleration + share * (-deceleration - acceleration);
+    const double track_speed = track.at(t).velocity.norm();
+    speed = std::min(speed, track_speed);
+    const double next_speed = speed + rate * schedule.step_s;
+    const double step = next_speed > 0.0 ? schedule.step_s : -speed / rate;
+    // Half a step ahead on the track, for its speed in the middle of the step.
+    const double ahead = t + 0.5 * step * speed / track_speed;
+    const double middle_speed = 0.5 * (speed + std::max(0.0, next_speed));
+    t += step * std::min(1.0, middle_speed / track.at(ahead).velocity.norm());
+    schedule.duration_s += step;
+    if (!(t < track.end_s) || !(track.at(t).velocity.norm() > kSlowest)) {
+      schedule.reaches_end = true;
+      return schedule;
+    }
+    schedule.track_s.push_back(t);
+    if (next_speed <= 0.0) return schedule;
+    speed = next_speed;
+  }
+}
+
+DrivePhase drive_to_rest(const Track& track, const Schedule& schedule, double deceleration) {
+  const int pieces = std::max(1, static_cast<int>(std::ceil(schedule.duration_s / kKnotSpacing_s)));
+  const double spacing = schedule.duration_s / pieces;
+  PlanarMinco::Knots knots(2, pieces - 1);
+  for (int k = 1; k < pieces; ++k) {
+    knots.col(k - 1) = track.at(schedule.track_time(k * spacing)).pose.position;
+  }
+  const MotionState first = track.at(track.start_s);
+  const MotionState last = track.at(schedule.track_s.back());
+  PlanarMinco::State start;
+  PlanarMinco::State end;
+  start << first.pose.position, first.velocity, first.acceleration;
+  // Ending on the deceleration, not on zero jerk: the heading at rest is then well defined.
+  end << last.pose.position, Vector2::Zero(), -deceleration * last.velocity.normalized();
+  PlanarMinco minco;
+  minco.resize(pieces);
+  minco.solve(start, end, knots, Eigen::VectorXd::Constant(pieces, spacing));
+  return DrivePhase{first.speed < 0.0 ? -1 : 1, minco.curve()};
+}
+
+/// The end of the path that is being driven at t, through drives without rest between them; t
+/// itself if none is.
+double path_end(const Motion& motion, double t) {
+  double end = t;
+  for (int i = 0; i < static_cast<int>(motion.phases().size()); ++i) {
+    const double phase_end = motion.phase_start_time(i) + duration_s(motion.phases()[i]);
+    if (phase_end <= t) continue;
+    const auto* drive = std::get_if<DrivePhase>(&motion.phases()[i]);
+    if (drive == nullptr) return end;
+    end = phase_end;
+    if (drive->path.derivative(drive->path.duration(), 1).norm() < kSlowest) return end;
+  }
+  return end;
+}
+
+/// A circle driven at constant speed, or a straight line.
+MotionState on_circle(const Pose& pose, double speed, double yaw_rate, double t) {
+  const double turned = yaw_rate * t;
+  const double chord =
+      std::abs(turned) < 1e-6 ? speed * t : 2.0 * speed / yaw_rate * std::sin(0.5 * turned);
+  const double towards = pose.yaw_rad + 0.5 * turned;
+  MotionState state;
+  state.pose.yaw_rad = wrap_angle(pose.yaw_rad + turned);
+  state.pose.position = pose.position + chord * Vector2(std::cos(towards), std::sin(towards));
+  const Vector2 heading(std::cos(state.pose.yaw_rad), std::sin(state.pose.yaw_rad));
+  state.velocity = speed * heading;
+  state.acceleration = speed * yaw_rate * Vector2(-heading.y(), heading.x());
+  state.speed = speed;
+  state.yaw_rate = yaw_rate;
+  state.at_rest = false;
+  return state;
+}
+
+}  // namespace
+
+std::vector<Phase> brake_along(const Motion& motion, double t, double deceleration) {
+  check_deceleration(deceleration);
+  t = motion.switch_time(t);
+  const MotionState now = motion.at(t);
+  if (now.velocity.norm() < kSlowest) return {StandPhase{now.pose, kStand_s}};
+  const Track track{[&motion](double when) { return motion.at(when); }, t, path_end(motion, t)};
+  const Schedule schedule = slow_down(track, deceleration);
+  if (schedule.reaches_end) return motion.phases_between(t, track.end_s);
+  return {drive_to_rest(track, schedule, deceleration)};
+}
+
+std::vector<Phase> brake_from(const Pose& pose, double speed, double yaw_rate,
+                              double deceleration) {
+  check_deceleration(deceleration);
+  if (std::abs(speed) < kSlowest) return {StandPhase{pose, kStand_s}};
+  const Track track{[&](double t) { return on_circle(pose, speed, yaw_rate, t); }, 0.0,
+                    std::numeric_limits<double>::infinity()};
+  return {drive_to_rest(track, slow_down(track, deceleration), deceleration)};
+}
+
+Motion with_brake(const Motion& motion, double t0, double t_brake, double deceleration) {
+  const double start = std::max(t0, motion.start_time());
+  const double switch_s = motion.switch_time(t_brake);
+  std::vector<Phase> phases = motion.phases_between(start, switch_s);
+  if (phases.empty() || switch_s == t_brake) {
+    for (Phase& phase : brake_along(motion, switch_s, deceleration))
+      phases.push_back(std::move(phase));
+  }
+  return Motion(start, std::move(phases));
+}
+
+}  // namespace mocha

@@ -1,0 +1,207 @@
+#include "trajectory/stopping.h"
+
+#include <gtest/gtest.h>
+
+#include "trajectory/random_motion.h"
+
+namespace mocha {
+namespace {
+
+/// Smallest distance of a place from the motion's path from `from_s` on.
+double off_path_m(const Motion& motion, const Vector2& place, double from_s) {
+  double nearest = std::numeric_limits<double>::infinity();
+  Vector2 last = motion.at(from_s).pose.position;
+  for (double t = from_s; t < motion.end_time() + 0.02; t += 0.02) {
+    const Vector2 next = motion.at(t).pose.position;
+    const Vector2 along = next - last;
+    const double share =
+        along.isZero() ? 0.0
+                       : std::clamp((place - last).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (place - last - share * along).norm());
+    last = next;
+  }
+  return nearest;
+}
+
+void expect_joins(const MotionState& before, const MotionState& after) {
+  EXPECT_LT((before.pose.position - after.pose.position).norm(), 1e-9);
+  EXPECT_LT((before.velocity - after.velocity).norm(), 1e-9);
+  EXPECT_LT((before.acceleration - after.acceleration).norm(), 1e-8);
+  EXPECT_NEAR(wrap_angle(before.pose.yaw_rad - after.pose.yaw_rad), 0.0, 1e-6);
+}
+
+struct Fleet {
+  Peaks limits;
+  double deceleration;
+};
+
+TEST(Stopping, BrakesAlongRandomMotions) {
+  const Fleet fleets[] = {{{2.0, 4.0, 2.0}, 2.8}, {{1.0, 0.8, 1.5}, 0.56}, {{2.0, 2.0, 2.0}, 1.4}};
+  double worst_off = 0.0;
+  double worst_acceleration = 0.0;
+  double worst_yaw_rate = 0.0;
+  for (const Fleet& fleet : fleets) {
+    for (int seed = 0; seed < 12; ++seed) {
+      const Motion motion = within(random_drive(seed, 8, seed % 3 ? 1 : -1), fleet.limits, 50.0);
+      for (double share = 0.02; share < 1.0; share += 0.07) {
+        const double t = 50.0 + share * (motion.end_time() - 50.0);
+        const Motion braking(t, brake_along(motion, t, fleet.deceleration));
+        if (motion.at(t).velocity.norm() > 1e-3) expect_joins(motion.at(t), braking.at(t));
+        EXPECT_LE(braking.end_time(),
+                  std::max(motion.end_time(),
+                           t + 0.5 + motion.at(t).velocity.norm() / fleet.deceleration));
+        for (double when = t; when <= braking.end_time(); when += 0.05) {
+          worst_off = std::max(worst_off, off_path_m(motion, braking.at(when).pose.position, t));
+        }
+        const Peaks peaks = sampled_peaks(braking, t, 500);
+        EXPECT_LE(peaks.speed, 1.05 * fleet.limits.speed);
+        worst_acceleration =
+            std::max(worst_acceleration, peaks.acceleration / fleet.limits.acceleration);
+        worst_yaw_rate = std::max(worst_yaw_rate, peaks.yaw_rate / fleet.limits.yaw_rate);
+      }
+    }
+  }
+  EXPECT_LT(worst_off, 0.01);
+  EXPECT_LT(worst_acceleration, 1.15);
+  EXPECT_LT(worst_yaw_rate, 1.15);
+}
+
+TEST(Stopping, StopsWithinTheDistanceOfTheDeceleration) {
+  const Motion motion = within(random_drive(4, 12), {1.5, 1.5, 2.0}, 0.0);
+  const double t = 0.4 * motion.end_time();
+  const double speed = motion.at(t).velocity.norm();
+  const Motion braking(t, brake_along(motion, t, 1.0));
+  EXPECT_LT(braking.length_m(), speed * speed / 2.0 + 0.25 * speed);
+  EXPECT_GT(braking.length_m(), 0.0);
+  const MotionState end = braking.at(braking.end_time() - 1e-6);
+  EXPECT_NEAR(end.acceleration.norm(), 1.0, 1e-3);  // ends on the deceleration
+}
+
+TEST(Stopping, FollowsTheMotionWhereItStopsSooner) {
+  const Motion motion = within(random_drive(2, 6), {1.0, 2.0, 1.5}, 7.0);
+  const double t = motion.end_time() - 0.6;
+  const std::vector<Phase> phases = brake_along(motion, t, 0.05);
+  const Motion braking(t, phases);
+  EXPECT_NEAR(braking.end_time(), motion.end_time(), 1e-9);
+  for (double when = t; when < motion.end_time(); when += 0.05) {
+    EXPECT_LT((braking.at(when).pose.position - motion.at(when).pose.position).norm(), 1e-9);
+  }
+}
+
+TEST(Stopping, EndsAtARestBetweenDrives) {
+  // Ahead, then back: braking hard or weakly never runs into the second drive.
+  const DrivePhase ahead = random_drive(3, 5);
+  const double duration = ahead.path.duration();
+  PlanarPath::Piece piece = PlanarPath::Piece::Zero();
+  const double yaw = heading(ahead, duration);
+  const Vector2 back = -2.0 * Vector2(std::cos(yaw), std::sin(yaw));
+  piece.col(0) = ahead.path.position(duration);
+  piece.col(3) = 10.0 * back;
+  piece.col(4) = -15.0 * back;
+  piece.col(5) = 6.0 * back;
+  const Motion motion(0.0, {ahead, DrivePhase{-1, PlanarPath({piece}, {4.0})}});
+  for (const double deceleration : {0.01, 0.3, 5.0}) {
+    const Motion braking(0.9 * duration, brake_along(motion, 0.9 * duration, deceleration));
+    EXPECT_LE(braking.end_time(), duration + 1e-9);
+  }
+  const Motion in_reverse(duration + 2.0, brake_along(motion, duration + 2.0, 2.0));
+  EXPECT_LT(in_reverse.at(duration + 2.1).speed, 0.0);
+}
+
+TEST(Stopping, BrakesThroughDrivesThatFollowEachOtherWithoutRest) {
+  const Motion whole = within(random_drive(6, 8), {1.0, 1.0, 1.5}, 0.0);
+  const double middle = 0.5 * whole.end_time();
+  std::vector<Phase> phases = whole.phases_between(0.0, middle);
+  for (Phase& phase : whole.phases_between(middle, whole.end_time())) phases.push_back(phase);
+  const Motion halves(0.0, phases);
+  const double t = middle - 0.3;
+  const Motion a(t, brake_along(whole, t, 0.7));
+  const Motion b(t, brake_along(halves, t, 0.7));
+  EXPECT_NEAR(a.end_time(), b.end_time(), 1e-6);
+  EXPECT_LT((a.end_pose().position - b.end_pose().position).norm(), 1e-6);
+}
+
+TEST(Stopping, StandsWhereTheMotionStands) {
+  const Motion motion(0.0, {random_drive(1, 4)});
+  for (const double t : {-1.0, 0.0, motion.end_time(), motion.end_time() + 5.0}) {
+    const Motion braking(t, brake_along(motion, t, 1.0));
+    EXPECT_LT((braking.end_pose().position - motion.at(t).pose.position).norm(), 1e-9);
+    EXPECT_EQ(braking.length_m(), 0.0);
+  }
+}
+
+TEST(Stopping, CrawlingIsNoSpecialCase) {
+  for (int seed = 0; seed < 10; ++seed) {
+    const Motion motion = within(random_drive(seed, 5), {1.0, 1.0, 1.5}, 0.0);
+    for (double after = 0.001; after < 0.5; after *= 1.3) {
+      for (const double t : {after, motion.end_time() - after}) {
+        const Motion braking(t, brake_along(motion, t, 0.7));
+        EXPECT_LE(braking.end_time(), t + 1.0);
+        EXPECT_LT((braking.at(t).velocity - motion.at(t).velocity).norm(), 1.01e-3);
+        EXPECT_LT(sampled_peaks(braking, t, 200).acceleration, 1.15) << seed << " " << t;
+      }
+    }
+  }
+}
+
+TEST(Stopping, FinishesTurns) {
+  const DrivePhase drive = random_drive(1, 4);
+  const double yaw = heading(drive, 0.0);
+  const Motion motion(10.0, {TurnPhase{{Vector2::Zero(), yaw - 1.0}, 1.0, 2.0}, drive});
+  const Motion braking(12.0, brake_along(motion, 11.0, 1.0));
+  EXPECT_EQ(braking.length_m(), 0.0);
+  EXPECT_NEAR(wrap_angle(braking.end_pose().yaw_rad - yaw), 0.0, 1e-6);
+  const Motion composed = with_brake(motion, 10.0, 11.0, 1.0);
+  EXPECT_EQ(composed.phases().size(), 1u);
+  EXPECT_EQ(composed.end_time(), 12.0);
+}
+
+TEST(Stopping, ComposesMotionAndBrake) {
+  const Motion motion = within(random_drive(9, 10), {1.5, 2.0, 2.0}, 20.0);
+  const double t0 = 21.0;
+  const double t_brake = 20.0 + 0.5 * (motion.end_time() - 20.0);
+  const Motion braking = with_brake(motion, t0, t_brake, 1.4);
+  EXPECT_EQ(braking.start_time(), t0);
+  for (double t = t0; t < t_brake; t += 0.01) {
+    EXPECT_LT((braking.at(t).pose.position - motion.at(t).pose.position).norm(), 1e-9);
+  }
+  expect_joins(motion.at(t_brake), braking.at(t_brake + 1e-12));
+  EXPECT_LT(braking.end_time(), motion.end_time());
+  EXPECT_EQ(with_brake(motion, 0.0, 5.0, 1.0).length_m(), 0.0);  // not yet begun
+}
+
+TEST(Stopping, OffTheMotionStaysOnItsCircle) {
+  const Pose pose{{1.0, 2.0}, 0.7};
+  for (const double speed : {1.5, 0.2, 0.004, -0.8}) {
+    for (const double yaw_rate : {0.0, 1.2, -2.0}) {
+      const Motion braking(3.0, brake_from(pose, speed, yaw_rate, 1.0));
+      const MotionState start = braking.at(3.0);
+      EXPECT_LT((start.pose.position - pose.position).norm(), 1e-9);
+      EXPECT_NEAR(wrap_angle(start.pose.yaw_rad - pose.yaw_rad), 0.0, 1e-9);
+      EXPECT_NEAR(start.speed, speed, 1e-9);
+      EXPECT_NEAR(start.yaw_rate, yaw_rate, 1e-9);
+      for (double t = 3.0; t < braking.end_time(); t += 0.01) {
+        const MotionState state = braking.at(t);
+        EXPECT_LE(std::abs(state.speed), std::abs(speed) * 1.001);
+        EXPECT_LE(std::abs(state.yaw_rate), 1.1 * std::abs(yaw_rate) + 1e-6);
+        if (yaw_rate == 0.0) continue;
+        const double radius = speed / yaw_rate;
+        const Vector2 centre = pose.position + radius * Vector2(-std::sin(0.7), std::cos(0.7));
+        EXPECT_NEAR((state.pose.position - centre).norm(), std::abs(radius), 5e-3);
+      }
+    }
+  }
+  EXPECT_EQ(Motion(0.0, brake_from(pose, 0.0, 1.0, 1.0)).length_m(), 0.0);
+}
+
+TEST(Stopping, RefusesDecelerationsThatAreNone) {
+  const Motion motion(0.0, {random_drive(1, 4)});
+  for (const double deceleration : {0.0, -1.0, std::nan(""), static_cast<double>(INFINITY)}) {
+    EXPECT_THROW(brake_along(motion, 1.0, deceleration), std::invalid_argument);
+    EXPECT_THROW(brake_from({}, 1.0, 0.0, deceleration), std::invalid_argument);
+    EXPECT_THROW(with_brake(motion, 0.0, 1.0, deceleration), std::invalid_argument);
+  }
+}
+
+}  // namespace
+}  // namespace mocha
