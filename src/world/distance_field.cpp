@@ -1,0 +1,183 @@
+#include "world/distance_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace mocha {
+namespace {
+
+constexpr float kFar =
+    1e12f;  // squared cells; stands for "no site", finite so that the envelope's algebra holds
+
+/// Squared distances along one line to parabolas f(q) + (x - q)^2 (Felzenszwalb and Huttenlocher
+/// 2012), in place.
+class LineTransform {
+ public:
+  explicit LineTransform(int longest) : value_(longest), vertex_(longest), boundary_(longest + 1) {}
+
+  void run(float* line, int count, std::ptrdiff_t stride) {
+    for (int i = 0; i < count; ++i) value_[i] = line[i * stride];
+    int last = -1;
+    for (int q = 0; q < count; ++q) {
+      if (value_[q] >= kFar) continue;
+      double start = -std::numeric_limits<double>::infinity();
+      while (last >= 0) {
+        start = intersection(vertex_[last], q);
+        if (start > boundary_[last]) break;
+        --last;
+        start = -std::numeric_limits<double>::infinity();
+      }
+      vertex_[++last] = q;
+      boundary_[last] = start;
+    }
+    if (last < 0) return;
+    int k = 0;
+    for (int x = 0; x < count; ++x) {
+      while (k < last && boundary_[k + 1] < x) ++k;
+      const float offset = static_cast<float>(x - vertex_[k]);
+      line[x * stride] = offset * offset + value_[vertex_[k]];
+    }
+  }
+
+ private:
+  double intersection(int p, int q) const {
+    const double fp = static_cast<double>(value_[p]) + static_cast<double>(p) * p;
+    const double fq = static_cast<double>(value_[q]) + static_cast<double>(q) * q;
+    return (fq - fp) / (2.0 * (q - p));
+  }
+
+  std::vector<float> value_;
+  std::vector<int> vertex_;
+  std::vector<double> boundary_;
+};
+
+/// Distances [cells] from every corner to the nearest site; `squared` holds 0 at sites and kFar
+/// elsewhere.
+void distance_transform(std::vector<float>& squared, int columns, int rows) {
+  LineTransform line(std::max(columns, rows));
+  for (int y = 0; y < rows; ++y)
+    line.run(&squared[static_cast<std::size_t>(y) * columns], columns, 1);
+  for (int x = 0; x < columns; ++x) line.run(&squared[x], rows, columns);
+}
+
+/// Marks the corners of all cells that are (or are not) solid as sites.
+std::vector<float> corner_sites(const OccupancyGrid& grid, const std::vector<bool>& solid,
+                                bool wanted) {
+  const int columns = grid.width + 1;
+  std::vector<float> sites(static_cast<std::size_t>(columns) * (grid.height + 1), kFar);
+  for (int y = 0; y < grid.height; ++y) {
+    for (int x = 0; x < grid.width; ++x) {
+      if (solid[static_cast<std::size_t>(y) * grid.width + x] != wanted) continue;
+      const std::size_t corner = static_cast<std::size_t>(y) * columns + x;
+      sites[corner] = sites[corner + 1] = sites[corner + columns] = sites[corner + columns + 1] =
+          0.0f;
+    }
+  }
+  return sites;
+}
+
+/// Corners on the rim of the map become sites as well: outside is solid.
+void add_rim(std::vector<float>& sites, int columns, int rows) {
+  for (int x = 0; x < columns; ++x) {
+    sites[x] = sites[static_cast<std::size_t>(rows - 1) * columns + x] = 0.0f;
+  }
+  for (int y = 0; y < rows; ++y) {
+    const std::size_t row = static_cast<std::size_t>(y) * columns;
+    sites[row] = sites[row + columns - 1] = 0.0f;
+  }
+}
+
+}  // namespace
+
+DistanceField::DistanceField(const OccupancyGrid& grid, Solid solid)
+    : resolution_m_(grid.resolution_m),
+      origin_(grid.origin),
+      columns_(grid.width + 1),
+      rows_(grid.height + 1),
+      outside_solid_(solid == Solid::kOccupiedOrUnknown) {
+  const std::size_t cells =
+      static_cast<std::size_t>(std::max(0, grid.width)) * std::max(0, grid.height);
+  if (cells == 0 || grid.cells.size() != cells || !(grid.resolution_m > 0.0)) {
+    throw std::invalid_argument("DistanceField: the grid is empty or its sizes do not match");
+  }
+  std::vector<bool> is_solid(cells);
+  for (std::size_t i = 0; i < cells; ++i) {
+    const int8_t cell = grid.cells[i];
+    is_solid[i] =
+        cell == OccupancyGrid::kOccupied || (outside_solid_ && cell == OccupancyGrid::kUnknown);
+  }
+  std::vector<float> outside = corner_sites(grid, is_solid, true);
+  if (outside_solid_) add_rim(outside, columns_, rows_);
+  distance_transform(outside, columns_, rows_);
+  std::vector<float> inside(outside.size(), 0.0f);
+  if (!outside_solid_) {
+    inside = corner_sites(grid, is_solid, false);
+    distance_transform(inside, columns_, rows_);
+  }
+  distance_m_.resize(outside.size());
+  const float scale = static_cast<float>(resolution_m_);
+  for (std::size_t i = 0; i < outside.size(); ++i) {
+    distance_m_[i] = scale * (outside[i] > 0.0f ? std::sqrt(outside[i]) : -std::sqrt(inside[i]));
+  }
+}
+
+DistanceField::Sample DistanceField::sample(const Vector2& p) const {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  if (!p.allFinite()) return {kNan, Vector2(kNan, kNan)};
+  const Vector2 at = (p - origin_) / resolution_m_;
+  const double x = std::clamp(at.x(), 0.0, columns_ - 1.0);
+  const double y = std::clamp(at.y(), 0.0, rows_ - 1.0);
+  const int i = std::min(static_cast<int>(x), columns_ - 2);
+  const int j = std::min(static_cast<int>(y), rows_ - 2);
+  const double u = x - i;
+  const double v = y - j;
+  const double d00 = at_corner(i, j);
+  const double d10 = at_corner(i + 1, j);
+  const double d01 = at_corner(i, j + 1);
+  const double d11 = at_corner(i + 1, j + 1);
+  Sample sample;
+  sample.distance_m = (1 - v) * ((1 - u) * d00 + u * d10) + v * ((1 - u) * d01 + u * d11);
+  sample.gradient.x() = ((1 - v) * (d10 - d00) + v * (d11 - d01)) / resolution_m_;
+  sample.gradient.y() = ((1 - u) * (d01 - d00) + u * (d11 - d10)) / resolution_m_;
+  const Vector2 beyond = resolution_m_ * (at - Vector2(x, y));
+  const double beyond_m = beyond.norm();
+  if (!(beyond_m > 0.0)) return sample;
+  // Outside, what counts is what distance_bound() can prove there.
+  const Vector2 outwards = beyond / beyond_m;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (beyond[axis] != 0.0) sample.gradient[axis] = 0.0;
+  }
+  if (sample.distance_m - beyond_m < beyond_m) return {beyond_m, outwards};
+  return {sample.distance_m - beyond_m, sample.gradient - outwards};
+}
+
+double DistanceField::distance_bound(const Vector2& p) const {
+  if (!p.allFinite()) return 0.0;
+  const Vector2 at = (p - origin_) / resolution_m_;
+  const Vector2 inside(std::clamp(at.x(), 0.0, columns_ - 1.0),
+                       std::clamp(at.y(), 0.0, rows_ - 1.0));
+  const double beyond_m = resolution_m_ * (at - inside).norm();
+  if (beyond_m > 0.0 && outside_solid_) return 0.0;
+  const int i = std::min(static_cast<int>(inside.x()), columns_ - 2);
+  const int j = std::min(static_cast<int>(inside.y()), rows_ - 2);
+  const double u = inside.x() - i;
+  const double v = inside.y() - j;
+  const auto squared = [this](int x, int y) {
+    const double distance = std::max(0.0, at_corner(x, y));
+    return distance * distance;
+  };
+  const double mean = (1 - v) * ((1 - u) * squared(i, j) + u * squared(i + 1, j)) +
+                      v * ((1 - u) * squared(i, j + 1) + u * squared(i + 1, j + 1));
+  const double sag = resolution_m_ * resolution_m_ * (u * (1 - u) + v * (1 - v));
+  const double bound = std::sqrt(std::max(0.0, mean - sag));
+  // Every solid cell lies inside the map, and a distance changes no faster than one moves.
+  return beyond_m > 0.0 ? std::max(beyond_m, bound - beyond_m) : bound;
+}
+
+bool DistanceField::clear(const Box& box, double radius_m) const {
+  return distance_bound(box.center()) >= radius_m + 0.5 * box.diagonal().norm();
+}
+
+}  // namespace mocha

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "trajectory/motion.h"
+
+namespace mocha {
+
+/// A disc whose motion is known or predicted: a peer on its promised motion, or a thing at constant
+/// velocity. Map frame.
+class MovingObstacle {
+ public:
+  struct Disc {
+    Vector2 centre;
+    Vector2 velocity;  ///< [m/s]
+    double radius_m;
+    double radius_rate;  ///< [m/s]
+  };
+
+  virtual ~MovingObstacle() = default;
+  virtual Disc at(double t) const = 0;
+  /// Upper bounds over all times from t on: on the speed [m/s] of the centre plus the growth of the
+  /// radius.
+  virtual double max_closing_speed(double t) const = 0;
+  /// From this time on it stands still (infinity if never).
+  virtual double rest_time() const = 0;
+  virtual const std::string& name() const = 0;
+};
+
+/// A team-mate on its promised motion.
+class PeerObstacle : public MovingObstacle {
+ public:
+  /// Throws std::invalid_argument without a motion or for a radius that is negative or not finite.
+  PeerObstacle(std::string name, std::shared_ptr<const Motion> motion, double radius_m);
+  Disc at(double t) const override;
+  double max_closing_speed(double t) const override;
+  double rest_time() const override;
+  const std::string& name() const override { return name_; }
+  const Motion& motion() const { return *motion_; }
+
+ private:
+  std::string name_;
+  std::shared_ptr<const Motion> motion_;
+  double radius_m_;
+  double max_speed_;
+};
+
+/// A thing seen at time t0 at constant velocity, its radius growing with the uncertainty of the
+/// prediction.
+class PredictedDisc : public MovingObstacle {
+ public:
+  /// Throws std::invalid_argument for values that are not finite and for a negative radius or
+  /// growth.
+  PredictedDisc(std::string name, double t0, const Vector2& centre, const Vector2& velocity,
+                double radius_m, double radius_rate);
+  Disc at(double t) const override;
+  double max_closing_speed(double t) const override;
+  double rest_time() const override;
+  const std::string& name() const override { return name_; }
+
+ private:
+  std::string name_;
+  double t0_;
+  Vector2 centre_;
+  Vector2 velocity_;
+  double radius_m_;
+  double radius_rate_;
+};
+
+}  // namespace mocha

@@ -1,0 +1,49 @@
+#include "world/occupancy_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mocha {
+
+OccupancyGrid grown_to_hold(const OccupancyGrid& grid, const std::vector<Vector2>& points,
+                            double border_m) {
+  int x0 = 0;
+  int y0 = 0;
+  int x1 = grid.width;
+  int y1 = grid.height;
+  for (const Vector2& point : points) {
+    const Vector2 at = (point - grid.origin) / grid.resolution_m;
+    const double border = border_m / grid.resolution_m;
+    x0 = std::min(x0, static_cast<int>(std::floor(at.x() - border)));
+    y0 = std::min(y0, static_cast<int>(std::floor(at.y() - border)));
+    x1 = std::max(x1, static_cast<int>(std::ceil(at.x() + border)));
+    y1 = std::max(y1, static_cast<int>(std::ceil(at.y() + border)));
+  }
+  OccupancyGrid grown;
+  grown.resolution_m = grid.resolution_m;
+  grown.origin = grid.origin + grid.resolution_m * Vector2(x0, y0);
+  grown.width = x1 - x0;
+  grown.height = y1 - y0;
+  grown.cells.assign(static_cast<std::size_t>(grown.width) * grown.height, OccupancyGrid::kUnknown);
+  for (int y = 0; y < grid.height; ++y) {
+    const auto row = grid.cells.begin() + static_cast<std::ptrdiff_t>(y) * grid.width;
+    std::copy(row, row + grid.width, &grown.at(-x0, y - y0));
+  }
+  return grown;
+}
+
+void fill_disc(OccupancyGrid& grid, const Vector2& centre, double radius_m, int8_t value) {
+  const Vector2 at = (centre - grid.origin) / grid.resolution_m;
+  const double radius = radius_m / grid.resolution_m;
+  const int x0 = std::max(0, static_cast<int>(std::floor(at.x() - radius)));
+  const int x1 = std::min(grid.width - 1, static_cast<int>(std::ceil(at.x() + radius)));
+  const int y0 = std::max(0, static_cast<int>(std::floor(at.y() - radius)));
+  const int y1 = std::min(grid.height - 1, static_cast<int>(std::ceil(at.y() + radius)));
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      if ((Vector2(x + 0.5, y + 0.5) - at).norm() <= radius) grid.at(x, y) = value;
+    }
+  }
+}
+
+}  // namespace mocha

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "trajectory/motion.h"
+
+namespace mocha {
+
+/// A planar map of square cells, row by row from its lower left corner `origin` [m, map frame].
+struct OccupancyGrid {
+  static constexpr int8_t kUnknown = -1;
+  static constexpr int8_t kFree = 0;
+  static constexpr int8_t kOccupied = 100;
+
+  double resolution_m = 0.05;
+  Vector2 origin = Vector2::Zero();
+  int width = 0;
+  int height = 0;
+  std::vector<int8_t> cells;  ///< width * height values: kUnknown, kFree or kOccupied
+
+  bool contains(int x, int y) const { return x >= 0 && x < width && y >= 0 && y < height; }
+  int8_t& at(int x, int y) { return cells[static_cast<std::size_t>(y) * width + x]; }
+  int8_t at(int x, int y) const { return cells[static_cast<std::size_t>(y) * width + x]; }
+  Vector2 cell_centre(int x, int y) const {
+    return origin + resolution_m * Vector2(x + 0.5, y + 0.5);
+  }
+};
+
+/// The same map on a grid that holds `points` with `border_m` around them as well; new cells are
+/// unknown.
+OccupancyGrid grown_to_hold(const OccupancyGrid& grid, const std::vector<Vector2>& points,
+                            double border_m);
+
+/// Sets every cell whose centre is within `radius_m` of `centre`.
+void fill_disc(OccupancyGrid& grid, const Vector2& centre, double radius_m, int8_t value);
+
+}  // namespace mocha

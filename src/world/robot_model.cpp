@@ -1,0 +1,84 @@
+#include "world/robot_model.h"
+
+#include <sstream>
+
+#include "config/parameter_table.h"
+
+namespace mocha {
+namespace {
+
+LidarModel read_lidar(const ParameterTable& values) {
+  LidarModel lidar;
+  lidar.mount.position = {values.number("lidar_x"), values.number("lidar_y")};
+  lidar.mount.yaw_rad = values.number("lidar_yaw");
+  lidar.height_m = values.number("lidar_z");
+  lidar.field_of_view_rad = values.number("lidar_field_of_view");
+  lidar.beams = values.integer("lidar_beams");
+  lidar.min_range_m = values.number("lidar_min_range");
+  lidar.max_range_m = values.number("lidar_max_range");
+  lidar.rate_hz = values.number("lidar_rate");
+  lidar.sweep_time_s = values.number("lidar_sweep_time");
+  lidar.noise_m = values.number("lidar_noise");
+  lidar.dropout = values.number("lidar_dropout");
+  return lidar;
+}
+
+Footprint read_footprint(const ParameterTable& values) {
+  if (values.text("footprint") == "disc") return Footprint::disc(values.number("footprint_radius"));
+  return Footprint::rectangle(values.number("footprint_length"), values.number("footprint_width"),
+                              values.integer("footprint_discs"));
+}
+
+void check_wheels(const RobotModel& model, const std::string& path) {
+  const double needed = model.limits.max_speed + 0.5 * model.track_m * model.limits.max_yaw_rate;
+  if (needed <= model.max_wheel_speed) return;
+  std::ostringstream message;
+  message << path << ": max_speed and max_yaw_rate together need wheels of " << needed
+          << " m/s, but max_wheel_speed = " << model.max_wheel_speed;
+  throw ParameterError(message.str());
+}
+
+void check_lidar(const LidarModel& lidar, const std::string& path) {
+  std::ostringstream message;
+  if (lidar.min_range_m >= lidar.max_range_m) {
+    message << path << ": lidar_min_range = " << lidar.min_range_m
+            << " m is not below lidar_max_range = " << lidar.max_range_m << " m";
+    throw ParameterError(message.str());
+  }
+  constexpr double kRounding_s = 1e-6;
+  if (lidar.sweep_time_s > 1.0 / lidar.rate_hz + kRounding_s) {
+    message << path << ": lidar_sweep_time = " << lidar.sweep_time_s
+            << " s is longer than a sweep may take at lidar_rate = " << lidar.rate_hz << " Hz";
+    throw ParameterError(message.str());
+  }
+}
+
+}  // namespace
+
+RobotModel load_robot_model(const std::string& config_directory, const std::string& model) {
+  const std::string path = config_directory + "/robots/" + model + ".yaml";
+  ParameterTable values = ParameterTable::from_schema(config_directory + "/robot.yaml");
+  values.assign_file(path);
+  RobotModel robot;
+  robot.name = model;
+  robot.limits = {values.number("max_speed"), values.number("max_acceleration"),
+                  values.number("max_yaw_rate"), values.number("max_yaw_acceleration")};
+  robot.max_wheel_speed = values.number("max_wheel_speed");
+  robot.max_wheel_acceleration = values.number("max_wheel_acceleration");
+  robot.track_m = values.number("track");
+  robot.actuator_lag_s = values.number("actuator_lag");
+  robot.command_age_limit_s = values.number("command_age_limit");
+  robot.footprint = read_footprint(values);
+  robot.lidar = read_lidar(values);
+  robot.margins = {values.number("margin_tracking"), values.number("margin_localisation"),
+                   values.number("margin_map"), values.number("margin_clock")};
+  robot.peer_clearance_m = values.number("peer_clearance");
+  robot.map_resolution_m = values.number("map_resolution");
+  robot.odometry_noise_distance = values.number("odometry_noise_distance");
+  robot.odometry_noise_yaw = values.number("odometry_noise_yaw");
+  check_wheels(robot, path);
+  check_lidar(robot.lidar, path);
+  return robot;
+}
+
+}  // namespace mocha

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+
+#include "world/footprint.h"
+
+namespace mocha {
+
+/// What a motion may ask of the robot. SI units.
+struct MotionLimits {
+  double max_speed = 1.0;             ///< [m/s]
+  double max_acceleration = 1.0;      ///< [m/s^2] of the base, along and across together
+  double max_yaw_rate = 1.5;          ///< [rad/s]
+  double max_yaw_acceleration = 4.0;  ///< [rad/s^2] of turns in place
+};
+
+/// Contributions to the room that is kept around the body.
+struct Margins {
+  double tracking_m;      ///< e_track: base off its motion
+  double localisation_m;  ///< pose off the truth
+  double map_m;           ///< obstacle nearer than its map cells
+  double clock_s;         ///< own clock against the fleet's
+};
+
+struct LidarModel {
+  Pose mount;                ///< in base_link
+  double height_m;           ///< above the ground
+  double field_of_view_rad;  ///< centred ahead; 2 pi is all round
+  int beams;
+  double min_range_m;
+  double max_range_m;
+  double rate_hz;
+  double sweep_time_s;  ///< first beam to last
+  double noise_m;       ///< standard deviation of a range
+  double dropout;       ///< share of beams without return
+};
+
+/// One kind of robot, as `config/robots/<model>.yaml` describes it.
+struct RobotModel {
+  std::string name;
+  MotionLimits limits;
+  double max_wheel_speed;         ///< [m/s] rim
+  double max_wheel_acceleration;  ///< [m/s^2] rim
+  double track_m;
+  double actuator_lag_s;
+  double command_age_limit_s;
+  Footprint footprint;
+  LidarModel lidar;
+  Margins margins;
+  double peer_clearance_m;  ///< kept between the discs of two robots, on top of the margins
+  double map_resolution_m;
+  double odometry_noise_distance;  ///< [m/sqrt(m)]
+  double odometry_noise_yaw;       ///< [rad/sqrt(rad)]
+};
+
+/// Loads `<config_directory>/robots/<model>.yaml` under the schema `<config_directory>/robot.yaml`.
+/// Throws ParameterError for unknown models and keys, values out of range, limits that the wheels
+/// cannot deliver together, and sweeps that overlap.
+RobotModel load_robot_model(const std::string& config_directory, const std::string& model);
+
+}  // namespace mocha

@@ -1,0 +1,169 @@
+#include "world/world_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <sstream>
+
+#include "config/parameter_table.h"
+#include "world/yaml_reader.h"
+
+namespace mocha {
+namespace {
+
+constexpr int kRectangleDiscs = 2;  // that cover a rectangle where the model is a disc
+
+Eigen::AlignedBox2d read_bounds(const YamlReader& reader) {
+  reader.allow_keys({"min", "max"});
+  const Eigen::AlignedBox2d bounds(reader.at("min").point(), reader.at("max").point());
+  if ((bounds.sizes().array() <= 0.0).any()) reader.refuse("max must exceed min in x and y");
+  return bounds;
+}
+
+Circle read_circle(const YamlReader& reader) {
+  const auto values = reader.items(3, 3);
+  return {Vector2(values[0].number(), values[1].number()), values[2].positive()};
+}
+
+/// A last corner that repeats the first only says that the polygon is closed, which all are.
+Polygon read_polygon(const YamlReader& reader) {
+  Polygon polygon{reader.points()};
+  auto& corners = polygon.corners;
+  if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+  const std::string fault = fault_of(polygon);
+  if (!fault.empty()) reader.refuse(fault);
+  return polygon;
+}
+
+Mover read_mover(const YamlReader& reader) {
+  reader.allow_keys({"radius", "speed", "loop", "path"});
+  Mover mover;
+  mover.radius_m = reader.at("radius").positive();
+  mover.speed_mps = reader.at("speed").not_negative();
+  mover.loop = reader.has("loop") && reader.at("loop").flag();
+  mover.path = reader.at("path").points();
+  if (mover.path.empty()) reader.at("path").refuse("needs at least one point");
+  return mover;
+}
+
+std::string read_name(const YamlReader& reader, const std::vector<WorldRobot>& others) {
+  const std::string name = reader.text();
+  const auto usable = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  if (name.empty() || std::isalpha(static_cast<unsigned char>(name[0])) == 0 ||
+      !std::all_of(name.begin(), name.end(), usable)) {
+    reader.refuse("a robot's name is a letter followed by letters, digits and underscores");
+  }
+  if (name == "static" || name == "moving")
+    reader.refuse("contact reports use this word otherwise");
+  for (const WorldRobot& other : others) {
+    if (other.name == name) reader.refuse("two robots have this name");
+  }
+  return name;
+}
+
+RobotModel read_model(const YamlReader& reader, const std::string& config_directory) {
+  const std::string name = reader.text();
+  if (name.empty() || name.find_first_of("/.") != std::string::npos) {
+    reader.refuse("is not the name of a file in config/robots, without .yaml");
+  }
+  try {
+    return load_robot_model(config_directory, name);
+  } catch (const ParameterError& error) {
+    reader.refuse(error.what());
+  }
+}
+
+void override_footprint(const YamlReader& reader, RobotModel& model) {
+  if (reader.has("radius") && reader.has("footprint")) {
+    reader.at("footprint").refuse("give either a radius or a footprint");
+  }
+  if (reader.has("radius")) model.footprint = Footprint::disc(reader.at("radius").positive());
+  if (!reader.has("footprint")) return;
+  const auto sides = reader.at("footprint").items(2, 2);
+  const int discs = model.footprint.is_disc() ? kRectangleDiscs
+                                              : static_cast<int>(model.footprint.cover().size());
+  model.footprint = Footprint::rectangle(sides[0].positive(), sides[1].positive(), discs);
+}
+
+Vector2 read_place(const YamlReader& reader, const std::vector<YamlReader>& values,
+                   const Eigen::AlignedBox2d& bounds) {
+  const Vector2 place(values[0].number(), values[1].number());
+  if (!bounds.contains(place)) reader.refuse("lies outside the bounds");
+  return place;
+}
+
+WorldRobot read_robot(const YamlReader& reader, const World& world,
+                      const std::string& config_directory) {
+  reader.allow_keys({"name", "model", "start", "goal", "radius", "footprint"});
+  WorldRobot robot;
+  robot.name = read_name(reader.at("name"), world.robots);
+  robot.model = read_model(reader.at("model"), config_directory);
+  override_footprint(reader, robot.model);
+  const YamlReader start = reader.at("start");
+  const auto from = start.items(3, 3);
+  robot.start = {read_place(start, from, world.bounds), from[2].number()};
+  if (reader.has("goal")) {
+    const YamlReader goal = reader.at("goal");
+    const auto to = goal.items(2, 3);
+    robot.goal = Goal{read_place(goal, to, world.bounds), {}};
+    if (to.size() == 3) robot.goal->yaw_rad = to[2].number();
+  }
+  return robot;
+}
+
+void check_apart(const YamlReader& start, const Obstacle& robot, const Obstacle& other,
+                 const std::string& what) {
+  const Gap between = gap(robot, other);
+  if (between.distance_m >= 0.0) return;
+  std::ostringstream why;
+  why << "the robot's footprint overlaps " << what << " by " << -between.distance_m << " m at ("
+      << between.place.x() << ", " << between.place.y() << ")";
+  start.refuse(why.str());
+}
+
+/// Refuses a start where the robot's true footprint overlaps anything solid.
+void check_start(const YamlReader& start, const World& world, const WorldRobot& robot) {
+  const Obstacle body = placed(robot.model.footprint, robot.start);
+  const auto indexed = [](const char* name, std::size_t i) {
+    return std::string(name) + "[" + std::to_string(i) + "]";
+  };
+  for (std::size_t i = 0; i < world.circles.size(); ++i) {
+    check_apart(start, body, world.circles[i], indexed("circles", i));
+  }
+  for (std::size_t i = 0; i < world.polygons.size(); ++i) {
+    check_apart(start, body, world.polygons[i], indexed("polygons", i));
+  }
+  for (std::size_t i = 0; i < world.moving.size(); ++i) {
+    const Mover& mover = world.moving[i];
+    check_apart(start, body, Circle{mover.path.front(), mover.radius_m}, indexed("moving", i));
+  }
+  for (const WorldRobot& other : world.robots) {
+    check_apart(start, body, placed(other.model.footprint, other.start), "robot " + other.name);
+  }
+}
+
+}  // namespace
+
+World load_world(const std::string& path, const std::string& config_directory) {
+  const YamlReader reader = YamlReader::file(path);
+  reader.allow_keys(
+      {"bounds", "optimal_time", "circles", "polygons", "keep_out", "moving", "robots"});
+  const auto list = [&](const char* key) {
+    return reader.has(key) ? reader.at(key).items() : std::vector<YamlReader>{};
+  };
+  World world;
+  world.bounds = read_bounds(reader.at("bounds"));
+  if (reader.has("optimal_time")) world.optimal_time_s = reader.at("optimal_time").positive();
+  for (const auto& item : list("circles")) world.circles.push_back(read_circle(item));
+  for (const auto& item : list("polygons")) world.polygons.push_back(read_polygon(item));
+  for (const auto& item : list("keep_out")) world.keep_out.push_back(read_polygon(item));
+  for (const auto& item : list("moving")) world.moving.push_back(read_mover(item));
+  for (const auto& item : list("robots")) {
+    const WorldRobot robot = read_robot(item, world, config_directory);
+    check_start(item.at("start"), world, robot);
+    world.robots.push_back(robot);
+  }
+  return world;
+}
+
+}  // namespace mocha

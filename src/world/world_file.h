@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "world/obstacle.h"
+#include "world/robot_model.h"
+
+namespace mocha {
+
+/// A world file cannot be used. what() names file, key and value in one line.
+class WorldError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A disc that travels along a path at constant speed, beginning at the path's first point.
+struct Mover {
+  double radius_m;
+  double speed_mps;
+  bool loop;  ///< from the last point straight on to the first, and so on (two points: back and
+              ///< forth); else it stops there
+  std::vector<Vector2> path;
+};
+
+struct Goal {
+  Vector2 position;
+  std::optional<double> yaw_rad;
+};
+
+struct WorldRobot {
+  std::string name;
+  RobotModel model;  ///< with the footprint that the world file asks for
+  Pose start;
+  std::optional<Goal> goal;
+};
+
+/// What a world file says. Map frame, SI units.
+struct World {
+  Eigen::AlignedBox2d bounds;
+  std::optional<double>
+      optimal_time_s;  ///< of BARN worlds: they count as reached within 1 m of the goal
+  std::vector<Circle> circles;
+  std::vector<Polygon> polygons;
+  std::vector<Polygon> keep_out;  ///< not solid, but not to be entered
+  std::vector<Mover> moving;
+  std::vector<WorldRobot> robots;
+};
+
+/// Loads a world; `config_directory` holds robot.yaml and robots/<model>.yaml. Throws WorldError
+/// for whatever is missing, misspelt, not finite or impossible, and for robots whose true footprint
+/// overlaps an obstacle or another robot at the start.
+World load_world(const std::string& path, const std::string& config_directory);
+
+}  // namespace mocha

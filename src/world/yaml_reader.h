@@ -1,0 +1,47 @@
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "trajectory/piecewise_polynomial.h"
+
+namespace mocha {
+
+/// A value in a YAML file together with where it stands, so that every refusal names file, key and
+/// value. Whatever does not hold what is asked for throws WorldError.
+class YamlReader {
+ public:
+  /// The whole file, which must be a map.
+  static YamlReader file(const std::string& path);
+
+  /// Refuses keys that are not listed, or stand twice, and anything that is not a map.
+  void allow_keys(std::initializer_list<const char*> keys) const;
+
+  bool has(const std::string& key) const;
+  YamlReader at(const std::string& key) const;  ///< must exist
+  std::vector<YamlReader> items() const;        ///< of a list
+  std::vector<YamlReader> items(std::size_t least, std::size_t most) const;
+
+  double number() const;  ///< finite
+  double positive() const;
+  double not_negative() const;
+  bool flag() const;
+  std::string text() const;
+  Vector2 point() const;                ///< [x, y]
+  std::vector<Vector2> points() const;  ///< [[x, y], ...]
+
+  /// Throws WorldError: "<file>: <key> = <value>: <why>".
+  [[noreturn]] void refuse(const std::string& why) const;
+
+ private:
+  YamlReader(std::string file, std::string key, YAML::Node node);
+
+  std::string file_;
+  std::string key_;
+  YAML::Node node_;
+};
+
+}  // namespace mocha

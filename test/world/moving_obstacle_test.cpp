@@ -1,0 +1,64 @@
+#include "world/moving_obstacle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "trajectory/random_motion.h"
+
+namespace mocha {
+namespace {
+
+TEST(PeerObstacle, FollowsItsMotion) {
+  const auto motion = std::make_shared<const Motion>(10.0, std::vector<Phase>{random_drive(1, 6)});
+  const PeerObstacle peer("ugv2", motion, 0.3);
+  EXPECT_EQ(peer.name(), "ugv2");
+  EXPECT_EQ(peer.rest_time(), motion->end_time());
+  for (double t = 9.0; t < motion->end_time() + 2.0; t += 0.1) {
+    const MovingObstacle::Disc disc = peer.at(t);
+    EXPECT_EQ(disc.centre, motion->at(t).pose.position);
+    EXPECT_EQ(disc.velocity, motion->at(t).velocity);
+    EXPECT_EQ(disc.radius_m, 0.3);
+    EXPECT_EQ(disc.radius_rate, 0.0);
+  }
+}
+
+TEST(PeerObstacle, ClosingSpeedIsABoundAndNotALooseOne) {
+  for (int seed = 0; seed < 20; ++seed) {
+    const auto motion =
+        std::make_shared<const Motion>(0.0, std::vector<Phase>{random_drive(seed, 9)});
+    const PeerObstacle peer("peer", motion, 0.3);
+    const double fastest = sampled_peaks(*motion, 0.0).speed;
+    EXPECT_GE(peer.max_closing_speed(0.0), fastest);
+    EXPECT_LE(peer.max_closing_speed(0.0), 1.5 * fastest);
+    EXPECT_EQ(peer.max_closing_speed(motion->end_time()), 0.0);
+  }
+}
+
+TEST(PredictedDisc, GrowsAsItIsPredicted) {
+  const PredictedDisc disc("person", 5.0, {1.0, 2.0}, {0.6, -0.8}, 0.25, 0.1);
+  EXPECT_LT((disc.at(7.0).centre - Vector2(2.2, 0.4)).norm(), 1e-12);
+  EXPECT_NEAR(disc.at(7.0).radius_m, 0.45, 1e-12);
+  EXPECT_NEAR(disc.at(4.0).radius_m, 0.25, 1e-12);  // no growth backward
+  EXPECT_NEAR(disc.max_closing_speed(5.0), 1.1, 1e-12);
+  EXPECT_TRUE(std::isinf(disc.rest_time()));
+}
+
+TEST(MovingObstacle, RefusesWhatIsNone) {
+  const auto motion = std::make_shared<const Motion>(0.0, std::vector<Phase>{random_drive(1, 2)});
+  const double nan = std::nan("");
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(PeerObstacle("a", nullptr, 0.3), std::invalid_argument);
+  EXPECT_THROW(PeerObstacle("a", std::make_shared<const Motion>(), 0.3), std::invalid_argument);
+  EXPECT_THROW(PeerObstacle("a", motion, -0.1), std::invalid_argument);
+  EXPECT_THROW(PeerObstacle("a", motion, nan), std::invalid_argument);
+  EXPECT_THROW(PredictedDisc("a", nan, {0, 0}, {0, 0}, 0.1, 0.0), std::invalid_argument);
+  EXPECT_THROW(PredictedDisc("a", 0.0, {nan, 0}, {0, 0}, 0.1, 0.0), std::invalid_argument);
+  EXPECT_THROW(PredictedDisc("a", 0.0, {0, 0}, {infinity, 0}, 0.1, 0.0), std::invalid_argument);
+  EXPECT_THROW(PredictedDisc("a", 0.0, {0, 0}, {0, 0}, -0.1, 0.0), std::invalid_argument);
+  EXPECT_THROW(PredictedDisc("a", 0.0, {0, 0}, {0, 0}, 0.1, -0.1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mocha

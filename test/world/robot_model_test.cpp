@@ -1,0 +1,90 @@
+#include "world/robot_model.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "config/parameter_table.h"
+
+namespace mocha {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A config directory of its own, with the package's schema and one robot.
+class RobotModelTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() / ("mocha_robot_model_" + std::to_string(::getpid()));
+    fs::create_directories(directory_ / "robots");
+    fs::copy_file("config/robot.yaml", directory_ / "robot.yaml",
+                  fs::copy_options::overwrite_existing);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  RobotModel load(const std::string& text) {
+    std::ofstream(directory_ / "robots/test.yaml") << text;
+    return load_robot_model(directory_.string(), "test");
+  }
+
+  std::string refusal(const std::string& text) {
+    try {
+      load(text);
+    } catch (const ParameterError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  fs::path directory_;
+};
+
+TEST_F(RobotModelTest, EveryShippedRobotLoads) {
+  int count = 0;
+  for (const auto& file : fs::directory_iterator("config/robots")) {
+    const std::string name = file.path().stem().string();
+    EXPECT_NO_THROW(EXPECT_EQ(load_robot_model("config", name).name, name)) << name;
+    ++count;
+  }
+  EXPECT_GE(count, 2);
+}
+
+TEST_F(RobotModelTest, TheJackalIsThatOfTheBarnChallenge) {
+  const RobotModel jackal = load_robot_model("config", "jackal");
+  EXPECT_EQ(jackal.limits.max_speed, 2.0);
+  EXPECT_EQ(jackal.limits.max_acceleration, 4.0);
+  EXPECT_EQ(jackal.limits.max_yaw_rate, 4.0);
+  EXPECT_FALSE(jackal.footprint.is_disc());
+  EXPECT_EQ(jackal.lidar.beams, 1081);
+  EXPECT_NEAR(jackal.lidar.field_of_view_rad / (jackal.lidar.beams - 1), M_PI / 720.0, 1e-8);
+  EXPECT_EQ(jackal.lidar.rate_hz, 40.0);
+  EXPECT_EQ(jackal.lidar.max_range_m, 10.0);
+}
+
+TEST_F(RobotModelTest, ValuesThatAreNotGivenAreTheSchemasDefaults) {
+  const RobotModel robot = load("max_speed: 0.5\nlidar_x: 0.2\n");
+  EXPECT_EQ(robot.limits.max_speed, 0.5);
+  EXPECT_EQ(robot.lidar.mount.position.x(), 0.2);
+  EXPECT_EQ(robot.footprint.circumscribed_radius_m(), 0.3);
+  EXPECT_NEAR(robot.lidar.field_of_view_rad, 2.0 * M_PI, 1e-6);
+}
+
+TEST_F(RobotModelTest, RefusalsNameFileKeyAndValue) {
+  const std::string unknown = refusal("max_sped: 1.0\n");
+  EXPECT_NE(unknown.find("test.yaml"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("max_sped"), std::string::npos) << unknown;
+  const std::string range = refusal("track: -0.3\n");
+  EXPECT_NE(range.find("track = -0.3"), std::string::npos) << range;
+  EXPECT_NE(refusal("max_speed: 3.0\n").find("max_wheel_speed"), std::string::npos);
+  EXPECT_NE(refusal("lidar_min_range: 5.0\nlidar_max_range: 4.0\n").find("lidar_min_range = 5"),
+            std::string::npos);
+  EXPECT_NE(refusal("lidar_rate: 20.0\n").find("lidar_sweep_time"), std::string::npos);
+  EXPECT_THROW(load_robot_model("config", "no_such_robot"), ParameterError);
+}
+
+}  // namespace
+}  // namespace mocha
