@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "safety/certificate.h"
+#include "safety/drive_piece.h"
+#include "trajectory/bernstein.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kResolution_m =
+    5e-4;  // an interval that sweeps less is refused rather than halved
+constexpr double kShortest_s = 1e-6;
+constexpr double kReportStep_s = 5e-3;
+constexpr int kReportSteps = 400;
+
+/// Bounds on where a robot is during an interval of time: the base within `travel_m` of `place`,
+/// the heading's unit vector within `swing` of `heading` (infinite where the heading is not
+/// defined).
+struct Sweep {
+  Vector2 place;
+  Vector2 heading;
+  double travel_m;
+  double swing;
+};
+
+/// An interval of a drive.
+struct DriveArc {
+  Bernstein<2, 5> position;
+  Bernstein<2, 4> course;
+  int drive_direction;
+  double start_s;
+  double duration_s;
+
+  std::pair<DriveArc, DriveArc> halves() const {
+    const auto places = split(position);
+    const auto courses = split(course);
+    const double half = 0.5 * duration_s;
+    return {{places.first, courses.first, drive_direction, start_s, half},
+            {places.second, courses.second, drive_direction, start_s + half, half}};
+  }
+
+  Sweep sweep(const DriveArc& second_half) const {
+    const Vector2 place = second_half.position.col(0);
+    const Vector2 along = second_half.course.col(0);
+    Sweep sweep{place, drive_direction * along.normalized(), 0.0, 0.0};
+    sweep.travel_m = (position.colwise() - place).colwise().norm().maxCoeff();
+    for (int j = 0; j < course.cols(); ++j) {
+      // The courses between lie within the widest angle to a control point; a chord is shorter than
+      // the tangent.
+      const double ahead = along.dot(course.col(j));
+      const double aside = std::abs(along.x() * course(1, j) - along.y() * course(0, j));
+      const double tangent = ahead > 0.0 ? aside / ahead : std::numeric_limits<double>::infinity();
+      sweep.swing = std::max(sweep.swing, tangent);
+    }
+    return sweep;
+  }
+};
+
+/// An interval of a turn in place, by normalised time.
+struct TurnArc {
+  const TurnPhase* turn;
+  double u0;
+  double u1;
+  double start_s;
+  double duration_s;
+
+  std::pair<TurnArc, TurnArc> halves() const {
+    const double half = 0.5 * duration_s;
+    const double middle = 0.5 * (u0 + u1);
+    return {{turn, u0, middle, start_s, half}, {turn, middle, u1, start_s + half, half}};
+  }
+
+  Sweep sweep(const TurnArc& second_half) const {
+    const double middle = progress(second_half.u0);
+    const double yaw = turn->start.yaw_rad + turn->yaw_change_rad * middle;
+    const double part = std::max(middle - progress(u0), progress(u1) - middle);
+    return {turn->start.position,
+            {std::cos(yaw), std::sin(yaw)},
+            0.0,
+            part * std::abs(turn->yaw_change_rad)};
+  }
+
+  static double progress(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
+};
+
+/// What has to stay clear of what.
+class Keepout {
+ public:
+  Keepout(const Footprint& footprint, const ObstacleField<2>& field, double margin_m)
+      : footprint_(footprint), field_(field), margin_m_(margin_m) {
+    for (const auto& disc : footprint.cover()) {
+      offset_m_ = std::max(offset_m_, std::abs(disc.offset_m));
+      reach_m_ = std::max(reach_m_, std::abs(disc.offset_m) + disc.radius_m);
+    }
+  }
+
+  bool clear(const Pose& pose) const {
+    return clear({pose.position, {std::cos(pose.yaw_rad), std::sin(pose.yaw_rad)}, 0.0, 0.0});
+  }
+
+  /// A proof that all cover discs keep the margin throughout the interval.
+  bool clear(const Sweep& sweep) const {
+    const double at_base = field_.distance_bound(sweep.place);
+    if (at_base >= sweep.travel_m + reach_m_ + margin_m_) return true;  // whatever the heading is
+    for (const auto& disc : footprint_.cover()) {
+      const double needed = disc.radius_m + margin_m_ + sweep.travel_m +
+                            (disc.offset_m == 0.0 ? 0.0 : std::abs(disc.offset_m) * sweep.swing);
+      const double bound = disc.offset_m == 0.0
+                               ? at_base
+                               : field_.distance_bound(sweep.place + disc.offset_m * sweep.heading);
+      if (!(bound >= needed)) return false;
+    }
+    return true;
+  }
+
+  /// How far the discs move in the interval, at most.
+  double sweep_m(const Sweep& sweep) const {
+    return sweep.travel_m + (offset_m_ == 0.0 ? 0.0 : offset_m_ * sweep.swing);
+  }
+
+  /// Clearance at one pose [m], never overstated.
+  double clearance_m(const Pose& pose) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& disc : footprint_.cover()) {
+      least = std::min(least, field_.distance_bound(cover_centre(pose, disc)) - disc.radius_m);
+    }
+    return least;
+  }
+
+  double margin_m() const { return margin_m_; }
+
+ private:
+  const Footprint& footprint_;
+  const ObstacleField<2>& field_;
+  double margin_m_;
+  double offset_m_ = 0.0;
+  double reach_m_ = 0.0;
+};
+
+/// Absolute time of the first interval of an arc that cannot be proved clear.
+template <typename Arc>
+std::optional<double> first_contact(const Arc& arc, const Keepout& keepout) {
+  const auto [before, after] = arc.halves();
+  const Sweep sweep = arc.sweep(after);
+  if (keepout.clear(sweep)) return std::nullopt;
+  if (arc.duration_s < kShortest_s || keepout.sweep_m(sweep) < kResolution_m) return arc.start_s;
+  if (const auto t = first_contact(before, keepout)) return t;
+  return first_contact(after, keepout);
+}
+
+std::optional<double> first_contact(const Motion& motion, int phase, const Keepout& keepout,
+                                    double from_s) {
+  const double start = motion.phase_start_time(phase);
+  const Phase& what = motion.phases()[phase];
+  if (const auto* turn = std::get_if<TurnPhase>(&what)) {
+    const double u = std::clamp((from_s - start) / turn->duration_s, 0.0, 1.0);
+    const double left = (1.0 - u) * turn->duration_s;
+    return first_contact(TurnArc{turn, u, 1.0, start + turn->duration_s - left, left}, keepout);
+  }
+  if (const auto* stand = std::get_if<StandPhase>(&what)) {
+    return keepout.clear(stand->pose) ? std::nullopt : std::make_optional(std::max(start, from_s));
+  }
+  for (const DrivePiece& piece : drive_pieces(motion, phase, from_s)) {
+    const DriveArc arc{piece.position, piece.course, piece.drive_direction, piece.start_s,
+                       piece.duration_s};
+    if (const auto t = first_contact(arc, keepout)) return t;
+  }
+  return std::nullopt;
+}
+
+/// The violation that begins at `t`, with the least clearance of the stretch that begins there.
+Violation report(const Motion& motion, const Keepout& keepout, double t) {
+  Violation violation;
+  violation.term = ViolatedTerm::kClearance;
+  violation.time_s = t;
+  violation.place = motion.at(t).pose.position;
+  violation.limit = keepout.margin_m();
+  violation.value = keepout.clearance_m(motion.at(t).pose);
+  for (int i = 1; i <= kReportSteps && t + i * kReportStep_s <= motion.end_time(); ++i) {
+    const double value = keepout.clearance_m(motion.at(t + i * kReportStep_s).pose);
+    if (!(value < violation.limit)) break;
+    violation.value = std::min(violation.value, value);
+  }
+  return violation;
+}
+
+}  // namespace
+
+Violation check_clearance(const Motion& motion, const Footprint& footprint,
+                          const ObstacleField<2>& field, double margin_m, double from_s) {
+  const Keepout keepout(footprint, field, margin_m);
+  if (from_s >= motion.end_time()) {
+    return keepout.clear(motion.end_pose()) ? Violation{} : report(motion, keepout, from_s);
+  }
+  for (int i = 0; i < static_cast<int>(motion.phases().size()); ++i) {
+    if (motion.phase_start_time(i) + duration_s(motion.phases()[i]) <= from_s) continue;
+    if (const auto t = first_contact(motion, i, keepout, from_s))
+      return report(motion, keepout, *t);
+  }
+  return {};
+}
+
+}  // namespace mocha

@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "safety/certificate.h"
+#include "safety/drive_piece.h"
+#include "trajectory/bernstein.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kTolerance = 1e-6;  // relative
+constexpr double kCourseStep_s =
+    1e-3;  // a velocity that turns by 90 degrees in less passes through zero
+constexpr double kReportStep_s = 5e-3;
+
+/// The first violation in one piece or turn, the earliest of those considered.
+struct Earliest {
+  ViolatedTerm term = ViolatedTerm::kNothing;
+  double u = 2.0;      ///< normalised time
+  bool flips = false;  ///< the velocity passes through zero, so that the heading has no rate
+
+  void consider(ViolatedTerm candidate, const std::optional<double>& at) {
+    if (at && *at < u) {
+      term = candidate;
+      u = *at;
+    }
+  }
+};
+
+/// The last or first instants of a drive from or to rest: too little motion for its direction to be
+/// more than rounding.
+bool is_standing(const DrivePiece& piece) {
+  return piece.begins_or_ends_drive && piece.duration_s < 0.01 && piece.max_speed() < 1e-4;
+}
+
+/// First u at which the velocity may vanish: where halving down to `resolution` finds no half-plane
+/// for its directions.
+std::optional<double> first_stop(const Bernstein<2, 4>& course, double resolution) {
+  const Vector2 mean = course.rowwise().sum();
+  if (((mean.transpose() * course).array() > 0.0).all()) return std::nullopt;
+  if (!(resolution < 1.0)) return 0.0;
+  const auto [before, after] = split(course);
+  if (const auto u = first_stop(before, 2.0 * resolution)) return 0.5 * *u;
+  if (const auto u = first_stop(after, 2.0 * resolution)) return 0.5 + 0.5 * *u;
+  return std::nullopt;
+}
+
+/// With tau the duration, the yaw rate is (c x c') / (tau |c|^2) for the course c, whatever zeros
+/// the velocity has at rests: they cancel. No quotient is formed.
+std::optional<double> first_swerve(const DrivePiece& piece, int side, double max_yaw_rate) {
+  const Bernstein<1, 7> turning = cross(piece.course, derivative(piece.course));
+  Bernstein<1, 8> excess = -max_yaw_rate * piece.duration_s * squared_norm(piece.course);
+  for (int j = 0; j <= 8; ++j) {  // elevated to degree 8
+    if (j > 0) excess[j] += side * turning[j - 1] * j / 8.0;
+    if (j < 8) excess[j] += side * turning[j] * (8 - j) / 8.0;
+  }
+  return first_positive(excess);
+}
+
+/// Where a motion's norm exceeds a limit.
+template <int C>
+std::optional<double> first_above(const Eigen::Matrix<double, 2, C>& vector, double limit) {
+  Eigen::Matrix<double, 1, 2 * C - 1> excess = squared_norm(vector);
+  excess.array() -= limit * limit;
+  return first_positive(excess);
+}
+
+Earliest first_violation(const DrivePiece& piece, const MotionLimits& limits) {
+  const double tau = piece.duration_s;
+  const double slack = 1.0 + kTolerance;
+  Earliest first;
+  first.consider(ViolatedTerm::kSpeed, first_above(piece.velocity, slack * limits.max_speed * tau));
+  first.consider(
+      ViolatedTerm::kAcceleration,
+      first_above(derivative(piece.velocity), slack * limits.max_acceleration * tau * tau));
+  if (is_standing(piece)) return first;
+  for (const int side : {-1, 1}) {
+    first.consider(ViolatedTerm::kYawRate, first_swerve(piece, side, slack * limits.max_yaw_rate));
+  }
+  const auto stop = first_stop(piece.course, kCourseStep_s / tau);
+  first.consider(ViolatedTerm::kYawRate, stop);
+  first.flips =
+      stop && first.term == ViolatedTerm::kYawRate && *stop <= first.u + kCourseStep_s / tau;
+  return first;
+}
+
+/// Turns in place: rate and acceleration of the quintic profile are polynomials too. `u` is where
+/// the check begins.
+Earliest first_violation(const TurnPhase& turn, const MotionLimits& limits, double u) {
+  const double slack = 1.0 + kTolerance;
+  const double change = std::abs(turn.yaw_change_rad);
+  const double tau = turn.duration_s;
+  Bernstein<1, 4> rate;
+  rate << 0.0, 0.0, 5.0 * change, 0.0, 0.0;  // 30 u^2 (1 - u)^2
+  const Bernstein<1, 3> acceleration = derivative(rate);
+  Earliest first;
+  const auto check = [&](ViolatedTerm term, auto excess, double limit) {
+    excess.array() -= slack * limit;
+    first.consider(term, first_positive(split(excess, u).second));
+  };
+  check(ViolatedTerm::kYawRate, rate, limits.max_yaw_rate * tau);
+  check(ViolatedTerm::kAcceleration, acceleration, limits.max_yaw_acceleration * tau * tau);
+  check(ViolatedTerm::kAcceleration, Bernstein<1, 3>(-acceleration),
+        limits.max_yaw_acceleration * tau * tau);
+  return first;
+}
+
+double yaw_acceleration(const TurnPhase& turn, double t) {
+  const double u = std::clamp(t / turn.duration_s, 0.0, 1.0);
+  return turn.yaw_change_rad * 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) /
+         (turn.duration_s * turn.duration_s);
+}
+
+/// The violation that begins at `t` in a phase, with the worst value of the stretch that begins
+/// there.
+Violation report(const Motion& motion, int phase, const MotionLimits& limits, const Earliest& first,
+                 double t) {
+  const ViolatedTerm term = first.term;
+  const auto* turn = std::get_if<TurnPhase>(&motion.phases()[phase]);
+  const double end = motion.phase_start_time(phase) + duration_s(motion.phases()[phase]);
+  const auto value_at = [&](double when) {
+    const MotionState state = motion.at(when);
+    if (term == ViolatedTerm::kSpeed) return state.velocity.norm();
+    if (term == ViolatedTerm::kYawRate) return std::abs(state.yaw_rate);
+    if (!turn) return state.acceleration.norm();
+    return std::abs(yaw_acceleration(*turn, when - motion.phase_start_time(phase)));
+  };
+  Violation violation;
+  violation.term = term;
+  violation.time_s = t;
+  violation.place = motion.at(t).pose.position;
+  violation.limit = term == ViolatedTerm::kSpeed     ? limits.max_speed
+                    : term == ViolatedTerm::kYawRate ? limits.max_yaw_rate
+                    : turn                           ? limits.max_yaw_acceleration
+                                                     : limits.max_acceleration;
+  if (first.flips) {
+    violation.value = std::numeric_limits<double>::infinity();
+    return violation;
+  }
+  violation.value = value_at(t);
+  for (double when = t + kReportStep_s; when < end; when += kReportStep_s) {
+    const double value = value_at(when);
+    if (!(value > violation.limit)) break;
+    violation.value = std::max(violation.value, value);
+  }
+  return violation;
+}
+
+}  // namespace
+
+Violation check_limits(const Motion& motion, const MotionLimits& limits, double from_s) {
+  for (int i = 0; i < static_cast<int>(motion.phases().size()); ++i) {
+    const Phase& phase = motion.phases()[i];
+    const double start = motion.phase_start_time(i);
+    if (start + duration_s(phase) <= from_s) continue;
+    if (const auto* turn = std::get_if<TurnPhase>(&phase)) {
+      const double u = std::max(0.0, (from_s - start) / turn->duration_s);
+      const Earliest first = first_violation(*turn, limits, u);
+      if (first.term == ViolatedTerm::kNothing) continue;
+      const double at = start + turn->duration_s * (u + (1.0 - u) * first.u);
+      return report(motion, i, limits, first, at);
+    }
+    if (!std::holds_alternative<DrivePhase>(phase)) continue;
+    for (const DrivePiece& piece : drive_pieces(motion, i, from_s)) {
+      const Earliest first = first_violation(piece, limits);
+      if (first.term == ViolatedTerm::kNothing) continue;
+      return report(motion, i, limits, first, piece.start_s + first.u * piece.duration_s);
+    }
+  }
+  return {};
+}
+
+}  // namespace mocha

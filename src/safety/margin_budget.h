@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "world/robot_model.h"
+
+namespace mocha {
+
+/// Where a robot may be besides where its motion says: every contribution once, and the sums that
+/// planning and proofs use. The body itself is not in it: it is the footprint.
+struct MarginBudget {
+  double tracking_m = 0.0;      ///< base off its motion, until the tracker brakes
+  double localisation_m = 0.0;  ///< pose off the truth, in the shared map
+  double map_m = 0.0;           ///< obstacle nearer than the map says
+  double clock_s = 0.0;         ///< own clock against the peers'
+  double max_speed = 0.0;       ///< [m/s]
+
+  static MarginBudget of(const RobotModel& robot);
+
+  /// Throws std::invalid_argument naming the contribution that is negative or not finite.
+  void validate() const;
+
+  /// To keep from static obstacles.
+  double static_margin_m() const { return tracking_m + localisation_m + map_m; }
+
+  /// To keep from a peer's footprint on its promised motion, on top of both bodies; the map has no
+  /// part in it.
+  double peer_margin_m(const MarginBudget& peer) const;
+  /// To keep from a peer like oneself.
+  double peer_margin_m() const { return peer_margin_m(*this); }
+
+  /// Every contribution and both sums by name, for diagnostics; the unit ends the name.
+  std::vector<std::pair<std::string, double>> listed() const;
+};
+
+}  // namespace mocha
