@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+
+namespace mocha {
+
+/// Duration [s] of an unconstrained variable, always positive (12).
+inline double duration_of(double eta) {
+  return eta > 0.0 ? (0.5 * eta + 1.0) * eta + 1.0 : 1.0 / ((0.5 * eta - 1.0) * eta + 1.0);
+}
+
+/// Its derivative (20).
+inline double duration_slope(double eta) {
+  if (eta > 0.0) return eta + 1.0;
+  const double denominator = 0.5 * eta * eta - eta + 1.0;
+  return (1.0 - eta) / (denominator * denominator);
+}
+
+/// Inverse of duration_of() for a positive duration [s].
+inline double eta_of(double duration_s) {
+  return duration_s > 1.0 ? std::sqrt(2.0 * duration_s - 1.0) - 1.0
+                          : 1.0 - std::sqrt(2.0 / duration_s - 1.0);
+}
+
+/// A scalar kept inside (low, high) by a scaled logistic function (13)(19) of an unconstrained
+/// variable.
+///
+/// `scale` stretches the unconstrained axis: the paper's map has scale 1; choosing it so that one
+/// unit of the variable moves the knot about a metre makes all variables of the optimiser alike.
+struct LogisticMap {
+  double low;
+  double high;
+  double scale;
+
+  double value(double xi) const { return low + (high - low) * sigma(xi); }
+  double slope(double xi) const {
+    const double s = sigma(xi);
+    return (high - low) * scale * s * (1.0 - s);
+  }
+  /// Requires low < value < high.
+  double inverse(double value) const { return std::log((value - low) / (high - value)) / scale; }
+
+ private:
+  double sigma(double xi) const { return 1.0 / (1.0 + std::exp(-scale * xi)); }
+};
+
+}  // namespace mocha

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace mocha {
+
+/// How unconstrained optimisation variables place the interior knots of a trajectory.
+template <int D>
+class KnotMap {
+ public:
+  using Knots = Eigen::Matrix<double, D, Eigen::Dynamic>;
+
+  virtual ~KnotMap() = default;
+
+  /// Number of interior knots, and of variables.
+  virtual int knots() const = 0;
+  virtual int variables() const = 0;
+
+  /// The variables that put every knot on the prey path.
+  virtual Eigen::VectorXd initial() const = 0;
+
+  /// Knots [m] of `variables()` values starting at `x`. `knots` has the right size; nothing is
+  /// allocated.
+  virtual void place(const double* x, Knots& knots) const = 0;
+
+  /// Chain rule: gradient by knots to gradient by variables, written from `by_x` on.
+  virtual void pull_back(const double* x, const Knots& by_knot, double* by_x) const = 0;
+};
+
+/// The knots' coordinates themselves are the variables (plain MINCO).
+template <int D>
+class WaypointMap : public KnotMap<D> {
+ public:
+  using typename KnotMap<D>::Knots;
+  explicit WaypointMap(const Knots& prey) : prey_(prey) {}
+
+  int knots() const override { return static_cast<int>(prey_.cols()); }
+  int variables() const override { return static_cast<int>(prey_.size()); }
+  Eigen::VectorXd initial() const override {
+    return Eigen::Map<const Eigen::VectorXd>(prey_.data(), prey_.size());
+  }
+  void place(const double* x, Knots& knots) const override {
+    knots = Eigen::Map<const Knots>(x, D, prey_.cols());
+  }
+  void pull_back(const double*, const Knots& by_knot, double* by_x) const override {
+    Eigen::Map<Knots>(by_x, D, prey_.cols()) = by_knot;
+  }
+
+ private:
+  Knots prey_;
+};
+
+}  // namespace mocha

@@ -1,0 +1,132 @@
+#include "camouflage/reference_point.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "camouflage/camouflage_map.h"
+#include "safety/circle_field.h"
+#include "trajectory/motion.h"
+
+namespace mocha {
+namespace {
+
+const CircleField kOpen({});
+
+/// Points at equal steps along a course that changes by `bend(i)` at each.
+template <typename Bend>
+PlanarPoints path_of(int points, double step_m, const Bend& bend) {
+  PlanarPoints path(2, points);
+  path.col(0).setZero();
+  double course = 0.0;
+  for (int i = 1; i < points; ++i) {
+    path.col(i) = path.col(i - 1) + step_m * Vector2(std::cos(course), std::sin(course));
+    course += bend(i);
+  }
+  return path;
+}
+
+PlanarPoints straight(int points) {
+  return path_of(points, 1.0, [](int) { return 0.0; });
+}
+
+/// The smallest angle between a ray and a step of the path at its knot [rad].
+double smallest_angle(const PlanarPoints& path, const PlanarPoints& references) {
+  double least = M_PI;
+  for (int k = 1; k + 1 < path.cols(); ++k) {
+    const Vector2 ray = (path.col(k) - references.col(k - 1)).normalized();
+    for (const Vector2& step :
+         {Vector2(path.col(k) - path.col(k - 1)), Vector2(path.col(k + 1) - path.col(k))}) {
+      least = std::min(least, std::acos(std::min(1.0, std::abs(ray.dot(step.normalized())))));
+    }
+  }
+  return least;
+}
+
+TEST(ReferencePoint, IsTheApexOfTheRightTriangleOverAStraightPath) {
+  const auto references = choose_references(straight(11), CircleField({{{5.0, 0.8}, 0.3}}), {});
+  ASSERT_TRUE(references);
+  ASSERT_EQ(references->cols(), 9);
+  for (int k = 0; k < 9; ++k) {
+    EXPECT_NEAR(references->col(k).x(), 5.0, 1e-12);
+    EXPECT_NEAR(references->col(k).y(), -5.0, 1e-12);  // away from the obstacle on the left
+  }
+  const Vector2 to_start = Vector2(0.0, 0.0) - references->col(0);
+  const Vector2 to_goal = Vector2(10.0, 0.0) - references->col(0);
+  EXPECT_NEAR(to_start.dot(to_goal), 0.0, 1e-12);
+  EXPECT_NEAR(to_start.norm(), to_goal.norm(), 1e-12);
+}
+
+TEST(ReferencePoint, StandsOnTheSideWithFewerObstacles) {
+  const CircleField left({{{3.0, 0.8}, 0.3}, {{6.0, 0.9}, 0.3}, {{8.0, -0.9}, 0.2}});
+  const CircleField right({{{3.0, -0.8}, 0.3}, {{6.0, -0.9}, 0.3}, {{8.0, 0.9}, 0.2}});
+  EXPECT_LT(choose_references(straight(11), left, {})->col(4).y(), 0.0);
+  EXPECT_GT(choose_references(straight(11), right, {})->col(4).y(), 0.0);
+}
+
+TEST(ReferencePoint, DistanceIsAParameter) {
+  ReferenceRules rules;
+  rules.apex_height = 2.0;
+  EXPECT_NEAR(std::abs(choose_references(straight(11), kOpen, rules)->col(0).y()), 10.0, 1e-12);
+}
+
+TEST(ReferencePoint, WindingPathsAreSplitSoThatEveryRayKeepsItsAngle) {
+  const ReferenceRules rules;
+  int split = 0;
+  for (int seed = 1; seed <= 200; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise(0.0, 0.3);
+    const auto path = path_of(25, 0.5, [&](int) { return noise(random); });
+    const auto references = choose_references(path, kOpen, rules);
+    ASSERT_TRUE(references) << "seed " << seed;
+    EXPECT_GE(smallest_angle(path, *references), rules.min_angle_rad - 1e-9) << "seed " << seed;
+    split += (references->colwise() - references->col(0)).norm() > 1e-9;
+    EXPECT_NO_THROW(CamouflageMap<2>(path.middleCols(1, 23), *references, 1.0));
+  }
+  EXPECT_GT(split, 50);  // otherwise the test shows nothing
+}
+
+TEST(ReferencePoint, UTurnIsSplit) {
+  const auto path = path_of(31, 0.3, [](int i) { return i > 10 && i <= 20 ? 0.1 * M_PI : 0.0; });
+  const auto references = choose_references(path, kOpen, {});
+  ASSERT_TRUE(references);
+  EXPECT_GE(smallest_angle(path, *references), ReferenceRules().min_angle_rad - 1e-9);
+  EXPECT_GT((references->col(0) - references->col(28)).norm(), 0.5);
+}
+
+TEST(ReferencePoint, ClosedPathsAreSplitToo) {
+  const auto circle = path_of(41, 0.4, [](int) { return 2.0 * M_PI / 40.0; });
+  ASSERT_LT((circle.col(0) - circle.col(40)).norm(), 1e-9);
+  const auto references = choose_references(circle, kOpen, {});
+  ASSERT_TRUE(references);
+  EXPECT_TRUE(references->allFinite());
+  EXPECT_GE(smallest_angle(circle, *references), ReferenceRules().min_angle_rad - 1e-9);
+}
+
+TEST(ReferencePoint, NothingWhereNoRayHasLeverage) {
+  const auto none = [](const PlanarPoints& path) {
+    EXPECT_FALSE(choose_references(path, kOpen, {}));
+  };
+  none(PlanarPoints::Zero(2, 6));  // all points coincide: start = goal
+  PlanarPoints doubled = straight(8);
+  doubled.col(4) = doubled.col(3);
+  none(doubled);
+  PlanarPoints back = straight(5);  // there and straight back: a cusp
+  back.row(0) << 0.0, 1.0, 2.0, 1.0, 0.0;
+  none(back);
+  PlanarPoints broken = straight(8);
+  broken(0, 3) = NAN;
+  none(broken);
+}
+
+TEST(ReferencePoint, PathsWithoutInteriorKnotsNeedNone) {
+  for (const int points : {1, 2}) {
+    const auto references = choose_references(straight(points), kOpen, {});
+    ASSERT_TRUE(references);
+    EXPECT_EQ(references->cols(), 0);
+  }
+}
+
+}  // namespace
+}  // namespace mocha
