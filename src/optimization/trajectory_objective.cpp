@@ -1,0 +1,69 @@
+#include "optimization/trajectory_objective.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "camouflage/bounded_maps.h"
+
+namespace mocha {
+
+template <int D, int S>
+TrajectoryObjective<D, S>::TrajectoryObjective(Setup setup)
+    : setup_(std::move(setup)),
+      quadrature_(setup_.kappa),
+      knots_(D, pieces() - 1),
+      by_knot_(D, pieces() - 1),
+      durations_(pieces()),
+      by_duration_(pieces()),
+      by_piece_(pieces()),
+      shares_(setup_.penalties.size()) {
+  minco_.resize(pieces());
+}
+
+template <int D, int S>
+Eigen::VectorXd TrajectoryObjective<D, S>::initial(const Eigen::VectorXd& durations_s) const {
+  Eigen::VectorXd x(variables());
+  x.head(setup_.knot_map->variables()) = setup_.knot_map->initial();
+  for (int i = 0; i < pieces(); ++i) x[setup_.knot_map->variables() + i] = eta_of(durations_s[i]);
+  return x;
+}
+
+template <int D, int S>
+double TrajectoryObjective<D, S>::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {
+  const KnotMap<D>& map = *setup_.knot_map;
+  const double* eta = x.data() + map.variables();
+  map.place(x.data(), knots_);
+  for (int i = 0; i < pieces(); ++i) durations_[i] = duration_of(eta[i]);
+  minco_.solve(setup_.start, setup_.end, knots_, durations_);
+
+  for (Piece& piece : by_piece_) piece.setZero();
+  std::fill(shares_.begin(), shares_.end(), 0.0);
+  const double total_s = durations_.sum();
+  effort_ = setup_.effort_weight * minco_.effort();
+  duration_ = setup_.duration_cost.value(total_s);
+  by_duration_.setConstant(setup_.duration_cost.slope(total_s));
+  minco_.add_effort_gradient(setup_.effort_weight, by_piece_, by_duration_);
+  const double penalty =
+      quadrature_.add(minco_, setup_.penalties, by_piece_, by_duration_, shares_);
+  minco_.propagate(by_piece_, by_duration_, by_knot_);
+
+  map.pull_back(x.data(), by_knot_, gradient.data());
+  for (int i = 0; i < pieces(); ++i) {
+    gradient[map.variables() + i] = by_duration_[i] * duration_slope(eta[i]);
+  }
+  return effort_ + duration_ + penalty;
+}
+
+template <int D, int S>
+CostTerms TrajectoryObjective<D, S>::terms() const {
+  CostTerms terms = {{"control_effort", effort_}, {"duration", duration_}};
+  for (std::size_t p = 0; p < shares_.size(); ++p) {
+    terms.emplace_back(setup_.penalties[p]->name(), shares_[p]);
+  }
+  return terms;
+}
+
+template class TrajectoryObjective<2, 3>;
+template class TrajectoryObjective<3, 3>;
+
+}  // namespace mocha

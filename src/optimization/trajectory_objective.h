@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "camouflage/knot_map.h"
+#include "optimization/duration_cost.h"
+#include "optimization/time_quadrature.h"
+#include "trajectory/minco.h"
+
+namespace mocha {
+
+/// A cost by its parts, weighted as they enter the sum.
+using CostTerms = std::vector<std::pair<std::string, double>>;
+
+/// J_total (14) over unconstrained variables: those of the knot map first, then one eta a piece
+/// (12). After construction evaluating it allocates nothing.
+template <int D, int S>
+class TrajectoryObjective {
+ public:
+  using State = typename Minco<D, S>::State;
+  using Knots = typename Minco<D, S>::Knots;
+
+  struct Setup {
+    State start;  ///< columns: position, velocity, acceleration ...
+    State end;
+    std::shared_ptr<const KnotMap<D>> knot_map;
+    double effort_weight;  ///< w_e
+    DurationCost duration_cost;
+    std::vector<std::unique_ptr<Penalty<D>>> penalties;
+    int kappa;
+  };
+
+  explicit TrajectoryObjective(Setup setup);
+
+  int variables() const { return setup_.knot_map->variables() + pieces(); }
+  int pieces() const { return setup_.knot_map->knots() + 1; }
+
+  /// The knots on the prey path, and the given durations [s].
+  Eigen::VectorXd initial(const Eigen::VectorXd& durations_s) const;
+
+  /// The cost at x, and its gradient.
+  double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& gradient);
+
+  /// The trajectory and the cost's parts of the last evaluation.
+  typename Minco<D, S>::Curve curve() const { return minco_.curve(); }
+  CostTerms terms() const;
+
+ private:
+  using Piece = typename Minco<D, S>::Piece;
+
+  Setup setup_;
+  Minco<D, S> minco_;
+  TimeQuadrature<D, S> quadrature_;
+  Knots knots_;
+  Knots by_knot_;
+  Eigen::VectorXd durations_;
+  Eigen::VectorXd by_duration_;
+  std::vector<Piece> by_piece_;
+  std::vector<double> shares_;
+  double effort_ = 0.0;
+  double duration_ = 0.0;
+};
+
+extern template class TrajectoryObjective<2, 3>;
+extern template class TrajectoryObjective<3, 3>;
+
+}  // namespace mocha

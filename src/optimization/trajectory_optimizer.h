@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+
+#include "optimization/trajectory_objective.h"
+
+namespace mocha {
+
+/// Why the optimiser stopped.
+enum class StopReason {
+  kConverged,        ///< cost or gradient settled
+  kLineSearchEnded,  ///< no further descent in floating point
+  kBudget,           ///< evaluations used up
+  kStopped,          ///< the caller's should_stop said so
+  kNotFinite         ///< the cost was not finite at the start
+};
+
+struct OptimizerRules {
+  int max_evaluations = 400;
+  double relative_cost =
+      1e-4;  ///< stop when the cost falls by less than this share over `cost_window` iterations
+  int cost_window = 5;
+  double relative_gradient = 1e-5;
+  std::function<bool()> should_stop = [] { return false; };
+};
+
+template <int D, int S>
+struct OptimizedTrajectory {
+  StopReason stop;
+  int evaluations = 0;
+  double cost = 0.0;
+  CostTerms terms;
+  typename Minco<D, S>::Curve curve;  ///< the best one seen; empty if no cost was finite
+};
+
+/// Minimises the objective by L-BFGS from `x`. Returns the best trajectory seen, whatever ended the
+/// search.
+template <int D, int S>
+OptimizedTrajectory<D, S> optimize(TrajectoryObjective<D, S>& objective, Eigen::VectorXd x,
+                                   const OptimizerRules& rules);
+
+extern template OptimizedTrajectory<2, 3> optimize(TrajectoryObjective<2, 3>&, Eigen::VectorXd,
+                                                   const OptimizerRules&);
+extern template OptimizedTrajectory<3, 3> optimize(TrajectoryObjective<3, 3>&, Eigen::VectorXd,
+                                                   const OptimizerRules&);
+
+}  // namespace mocha

@@ -1,0 +1,235 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <random>
+
+#include "optimization/dynamics_penalty.h"
+#include "optimization/moving_penalty.h"
+#include "optimization/obstacle_penalty.h"
+#include "optimization/turning_penalty.h"
+#include "safety/circle_field.h"
+
+namespace mocha {
+namespace {
+
+using Sample = TrajectorySample<2>;
+const Vector2 kZero = Vector2::Zero();
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+Sample sample_at(const Vector2& position, const Vector2& velocity, const Vector2& acceleration,
+                 double time_s = 0.0) {
+  return {position, velocity, acceleration, time_s};
+}
+
+double value_of(const Penalty<2>& penalty, const Sample& sample) {
+  SampleGradient<2> ignored;
+  return penalty.add(sample, ignored);
+}
+
+/// Compares the gradient with differences in all entries.
+void expect_gradient(const Penalty<2>& penalty, const Sample& sample, double step,
+                     double tolerance) {
+  SampleGradient<2> gradient;
+  penalty.add(sample, gradient);
+  const auto slope = [&](const std::function<double&(Sample&)>& entry) {
+    Sample plus = sample;
+    Sample minus = sample;
+    entry(plus) += step;
+    entry(minus) -= step;
+    return (value_of(penalty, plus) - value_of(penalty, minus)) / (2.0 * step);
+  };
+  const auto expect = [&](double analytic, double numeric, const char* what) {
+    EXPECT_NEAR(analytic, numeric, tolerance * (1.0 + std::abs(analytic)))
+        << penalty.name() << ", by " << what;
+  };
+  for (int axis = 0; axis < 2; ++axis) {
+    expect(gradient.by_position[axis],
+           slope([axis](Sample& s) -> double& { return s.position[axis]; }), "position");
+    expect(gradient.by_velocity[axis],
+           slope([axis](Sample& s) -> double& { return s.velocity[axis]; }), "velocity");
+    expect(gradient.by_acceleration[axis],
+           slope([axis](Sample& s) -> double& { return s.acceleration[axis]; }), "acceleration");
+    expect(gradient.by_jerk[axis], slope([axis](Sample& s) -> double& { return s.jerk[axis]; }),
+           "jerk");
+  }
+  expect(gradient.by_time, slope([](Sample& s) -> double& { return s.time_s; }), "time");
+}
+
+class RandomSamples {
+ public:
+  Sample next(double speed) {
+    return sample_at({place_(random_), place_(random_)},
+                     speed * Vector2(unit_(random_), unit_(random_)),
+                     {unit_(random_), unit_(random_)}, 5.0 * std::abs(unit_(random_)));
+  }
+
+ private:
+  std::mt19937 random_{7};
+  std::uniform_real_distribution<double> place_{-2.0, 2.0};
+  std::normal_distribution<double> unit_{0.0, 1.0};
+};
+
+TEST(Cubic, IsZeroUpToZero) {  // (31)
+  EXPECT_EQ(cubic(-1.0).value, 0.0);
+  EXPECT_EQ(cubic(0.0).slope, 0.0);
+  EXPECT_DOUBLE_EQ(cubic(2.0).value, 8.0);
+  EXPECT_DOUBLE_EQ(cubic(2.0).slope, 12.0);
+}
+
+TEST(DynamicsPenalty, HasTheValuesOfHand) {  // (32)
+  const DynamicsPenalty<2> penalty(10.0, 2.0, 3.0);
+  EXPECT_EQ(value_of(penalty, sample_at({9.0, 9.0}, {1.2, 1.6}, {0.0, 3.0})),
+            0.0);  // just at both limits
+  EXPECT_NEAR(value_of(penalty, sample_at(kZero, {0.0, 4.0}, {0.0, 0.0})), 10.0 * 27.0,
+              1e-9);  // (16/4 - 1)^3
+  EXPECT_NEAR(value_of(penalty, sample_at(kZero, {0.0, 0.0}, {3.0, 3.0})), 10.0,
+              1e-9);  // (18/9 - 1)^3
+  EXPECT_NEAR(value_of(penalty, sample_at(kZero, {4.0, 0.0}, {3.0, 3.0})), 280.0, 1e-9);
+}
+
+TEST(DynamicsPenalty, GradientMatchesDifferences) {
+  const DynamicsPenalty<2> penalty(2.0, 0.8, 0.7);
+  RandomSamples samples;
+  for (int i = 0; i < 200; ++i) expect_gradient(penalty, samples.next(1.0), 1e-6, 1e-6);
+}
+
+TEST(TurningPenalty, HasTheValuesOfHand) {
+  const double soft = 0.1;
+  const TurningPenalty penalty(5.0, 0.5, soft);
+  const auto expected = [&](double speed, double yaw_rate) {
+    const double v2 = speed * speed;
+    const double excess =
+        v2 * v2 * (yaw_rate * yaw_rate / 0.25 - 1.0) / ((v2 + soft * soft) * (v2 + soft * soft));
+    return excess > 0.0 ? 5.0 * excess * excess * excess : 0.0;
+  };
+  for (const double speed : {0.05, 0.3, 2.0}) {
+    for (const double yaw_rate : {-1.5, -0.49, 0.0, 0.49, 0.51, 2.0}) {
+      // Along x; the part of the acceleration across is speed times yaw rate.
+      const Sample sample = sample_at(kZero, {speed, 0.0}, {0.7, speed * yaw_rate});
+      EXPECT_NEAR(value_of(penalty, sample), expected(speed, yaw_rate), 1e-9)
+          << speed << " " << yaw_rate;
+    }
+  }
+}
+
+TEST(TurningPenalty, AtRestCountsTheLimitOfTheYawRate) {
+  const TurningPenalty penalty(5.0, 0.5, 0.05);
+  // From rest, v = a t + j t^2 / 2 and so the yaw rate begins with (a x j) / (2 |a|^2).
+  Sample sample = sample_at(kZero, kZero, {2.0, 0.0});
+  for (const double yaw_rate : {-1.0, 0.0, 0.4, 0.49, 0.51, 1.5}) {
+    sample.jerk = Vector2(7.0, 2.0 * 2.0 * yaw_rate);
+    const double excess = std::max(0.0, yaw_rate * yaw_rate / 0.25 - 1.0);
+    EXPECT_NEAR(value_of(penalty, sample), 5.0 * excess * excess * excess, 1e-9) << yaw_rate;
+  }
+}
+
+TEST(TurningPenalty, GradientAtRestMatchesDifferences) {
+  const TurningPenalty penalty(5.0, 0.5, 0.05);
+  RandomSamples samples;
+  for (int i = 0; i < 200; ++i) {
+    Sample sample = samples.next(0.0);
+    sample.jerk = Vector2(std::sin(i), 3.0 * std::cos(i));
+    sample.acceleration += 0.5 * sample.acceleration.normalized();
+    expect_gradient(penalty, sample, 1e-7, 1e-4);
+  }
+}
+
+TEST(TurningPenalty, IsFiniteWithoutAnyMotion) {
+  const TurningPenalty penalty(5.0, 0.5, 0.05);
+  SampleGradient<2> gradient;
+  EXPECT_EQ(penalty.add(sample_at(kZero, kZero, kZero), gradient), 0.0);
+  EXPECT_TRUE(gradient.by_velocity.isZero());
+  EXPECT_TRUE(gradient.by_acceleration.isZero());
+}
+
+TEST(TurningPenalty, GradientMatchesDifferencesAlsoNearStandstill) {
+  const TurningPenalty penalty(2.0, 0.4, 0.1);
+  RandomSamples samples;
+  for (int i = 0; i < 200; ++i) {
+    expect_gradient(penalty, samples.next(1.0), 1e-7, 2e-5);
+    expect_gradient(penalty, samples.next(0.05), 1e-8, 1e-4);
+  }
+}
+
+TEST(ObstaclePenalty, HasTheValuesOfHand) {  // (30)
+  const CircleField field({{{0.0, 0.0}, 1.0}});
+  const ObstaclePenalty<2> disc(10.0, field, {{0.0, 0.5}}, 0.05);
+  EXPECT_EQ(value_of(disc, sample_at({1.5, 0.0}, kZero, kZero)), 0.0);
+  EXPECT_NEAR(value_of(disc, sample_at({1.25, 0.0}, kZero, kZero)), 10.0 * 0.421875,
+              1e-9);                                                             // (1 - 1/4)^3
+  EXPECT_NEAR(value_of(disc, sample_at({0.0, 1.0}, kZero, kZero)), 10.0, 1e-9);  // on the surface
+  EXPECT_NEAR(value_of(disc, sample_at({0.0, 0.5}, kZero, kZero)), 80.0,
+              1e-9);  // inside: (1 + 1)^3
+}
+
+TEST(ObstaclePenalty, PutsTheDiscsAlongTheHeading) {
+  const CircleField field({{{3.0, 0.0}, 1.0}});
+  const ObstaclePenalty<2> front(1.0, field, {{0.5, 0.6}}, 0.05);
+  // Fast: the disc is 0.5 m ahead, so 0.5 m from the circle when the base is a metre away.
+  const double near = value_of(front, sample_at({1.0, 0.0}, {100.0, 0.0}, kZero));
+  EXPECT_NEAR(near, std::pow(1.0 - 0.25 / 0.36, 3), 1e-4);
+  EXPECT_EQ(value_of(front, sample_at({1.0, 0.0}, {-100.0, 0.0}, kZero)), 0.0);
+  EXPECT_EQ(value_of(front, sample_at({1.0, 0.0}, {0.0, 0.0}, kZero)),
+            0.0);  // at rest: at the base
+}
+
+TEST(ObstaclePenalty, GradientMatchesDifferencesAlsoNearStandstill) {
+  const CircleField field({{{0.3, 0.2}, 0.4}, {{-1.2, 1.0}, 0.3}});
+  const ObstaclePenalty<2> penalty(3.0, field, {{0.3, 0.8}, {-0.3, 0.8}}, 0.05);
+  RandomSamples samples;
+  for (int i = 0; i < 200; ++i) {
+    expect_gradient(penalty, samples.next(1.0), 1e-7, 1e-5);
+    expect_gradient(penalty, samples.next(0.02), 1e-7, 1e-5);
+  }
+}
+
+MovingPenalty moving(double until_s) {
+  const auto walker = std::make_shared<PredictedDisc>("walker", 100.0, Vector2(1.0, 0.0),
+                                                      Vector2(0.0, 0.5), 0.3, 0.2);
+  return MovingPenalty(10.0, 100.0, 0.4, 0.3, {{walker, until_s}});
+}
+
+TEST(MovingPenalty, HasTheValuesOfHandWhileTheRadiusGrows) {  // (33)
+  const MovingPenalty penalty = moving(kForever);
+  const auto expected = [](double distance_m, double time_s) {
+    const double safety_m = 0.4 + 0.3 + 0.3 + 0.2 * time_s;
+    const double lack = std::max(0.0, 1.0 - distance_m * distance_m / (safety_m * safety_m));
+    return 10.0 * lack * lack * lack;
+  };
+  for (const double time_s : {0.0, 1.0, 4.0}) {
+    const Vector2 walker(1.0, 0.5 * time_s);
+    for (const double distance_m : {0.2, 0.9, 1.5, 2.5}) {
+      const Sample sample = sample_at(walker + Vector2(distance_m, 0.0), kZero, kZero, time_s);
+      EXPECT_NEAR(value_of(penalty, sample), expected(distance_m, time_s), 1e-9);
+    }
+  }
+}
+
+TEST(MovingPenalty, CountsOnlyUntilItsTime) {
+  const MovingPenalty penalty = moving(102.0);
+  EXPECT_GT(value_of(penalty, sample_at({1.0, 1.0}, kZero, kZero, 1.99)), 0.0);
+  EXPECT_EQ(value_of(penalty, sample_at({1.0, 1.0}, kZero, kZero, 2.01)), 0.0);
+}
+
+TEST(MovingPenalty, GradientMatchesDifferences) {
+  const MovingPenalty penalty = moving(kForever);
+  RandomSamples samples;
+  for (int i = 0; i < 200; ++i) expect_gradient(penalty, samples.next(1.0), 1e-6, 1e-6);
+}
+
+TEST(MovingPenalty, NobodyAroundCostsNothing) {
+  EXPECT_EQ(value_of(MovingPenalty(10.0, 0.0, 0.3, 0.2, {}), sample_at(kZero, kZero, kZero)), 0.0);
+}
+
+TEST(Penalties, ThreeDimensionsAreLikeTwo) {
+  const DynamicsPenalty<3> penalty(10.0, 2.0, 3.0);
+  TrajectorySample<3> sample{{0.0, 0.0, 0.0}, {0.0, 0.0, 4.0}, {0.0, 3.0, 3.0}, 0.0};
+  SampleGradient<3> gradient;
+  EXPECT_NEAR(penalty.add(sample, gradient), 280.0, 1e-9);
+  EXPECT_GT(gradient.by_velocity.z(), 0.0);
+}
+
+}  // namespace
+}  // namespace mocha

@@ -1,0 +1,175 @@
+#include "optimization/time_quadrature.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+namespace mocha {
+namespace {
+
+/// Smooth in everything, so that the trapezoid rule can be compared with a fine integral.
+class SmoothPenalty : public Penalty<2> {
+ public:
+  const char* name() const override { return "smooth"; }
+  double add(const TrajectorySample<2>& s, SampleGradient<2>& gradient) const override {
+    const double swing = std::sin(s.time_s);
+    gradient.by_position += 2.0 * swing * swing * s.position;
+    gradient.by_velocity += 2.0 * s.velocity;
+    gradient.by_acceleration += 0.2 * s.acceleration;
+    gradient.by_jerk += 0.02 * s.jerk;
+    gradient.by_time += 2.0 * swing * std::cos(s.time_s) * s.position.squaredNorm();
+    return swing * swing * s.position.squaredNorm() + s.velocity.squaredNorm() +
+           0.1 * s.acceleration.squaredNorm() + 0.01 * s.jerk.squaredNorm();
+  }
+};
+
+/// One per second of trajectory.
+class One : public Penalty<2> {
+ public:
+  const char* name() const override { return "one"; }
+  double add(const TrajectorySample<2>&, SampleGradient<2>&) const override { return 1.0; }
+};
+
+/// What the penalties see of a curve at time t of it.
+TrajectorySample<2> sample_of(const PlanarPath& path, double t, double time_s) {
+  return {path.position(t), path.derivative(t, 1), path.derivative(t, 2), time_s,
+          path.derivative(t, 3)};
+}
+
+using Penalties = std::vector<std::unique_ptr<Penalty<2>>>;
+
+PlanarMinco curve() {
+  PlanarMinco minco;
+  minco.resize(4);
+  PlanarMinco::State start = PlanarMinco::State::Zero();
+  PlanarMinco::State end = PlanarMinco::State::Zero();
+  start.col(1) = Vector2(0.5, -0.2);
+  end.col(0) = Vector2(4.0, 1.0);
+  PlanarMinco::Knots knots(2, 3);
+  knots << 1.0, 2.0, 3.2, 0.6, -0.4, 0.3;
+  minco.solve(start, end, knots, (Eigen::Vector4d() << 1.3, 0.7, 1.1, 2.0).finished());
+  return minco;
+}
+
+struct Integral {
+  double value;
+  std::vector<PlanarMinco::Piece> by_piece;
+  Eigen::VectorXd by_duration;
+  std::vector<double> shares;
+};
+
+Integral integrate(const PlanarMinco& minco, const Penalties& penalties, int kappa) {
+  Integral result;
+  result.by_piece.assign(minco.pieces(), PlanarMinco::Piece::Zero());
+  result.by_duration.setZero(minco.pieces());
+  result.shares.assign(penalties.size(), 0.0);
+  result.value = TimeQuadrature<2, 3>(kappa).add(minco, penalties, result.by_piece,
+                                                 result.by_duration, result.shares);
+  return result;
+}
+
+double fine_integral(const PlanarMinco& minco, const Penalty<2>& penalty) {
+  const auto path = minco.curve();
+  constexpr int kSteps = 200000;
+  const double step = path.duration() / kSteps;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double t = (i + 0.5) * step;
+    SampleGradient<2> ignored;
+    sum += step * penalty.add(sample_of(path, t, t), ignored);
+  }
+  return sum;
+}
+
+TEST(TimeQuadrature, ApproachesTheIntegralWithTheSquareOfTheStep) {  // (21)
+  const PlanarMinco minco = curve();
+  Penalties penalties;
+  penalties.push_back(std::make_unique<SmoothPenalty>());
+  const double exact = fine_integral(minco, *penalties[0]);
+  const double coarse = std::abs(integrate(minco, penalties, 16).value - exact);
+  const double fine = std::abs(integrate(minco, penalties, 64).value - exact);
+  EXPECT_LT(fine, 1e-3 * exact);
+  EXPECT_NEAR(coarse / fine, 16.0, 2.0);
+}
+
+TEST(TimeQuadrature, AConstantGivesTheDuration) {
+  const PlanarMinco minco = curve();
+  Penalties penalties;
+  penalties.push_back(std::make_unique<One>());
+  for (const int kappa : {1, 2, 5, 12}) {
+    const Integral result = integrate(minco, penalties, kappa);
+    EXPECT_NEAR(result.value, 5.1, 1e-12);
+    EXPECT_LT((result.by_duration.array() - 1.0).abs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(TimeQuadrature, SharesAddUp) {
+  const PlanarMinco minco = curve();
+  Penalties penalties;
+  penalties.push_back(std::make_unique<SmoothPenalty>());
+  penalties.push_back(std::make_unique<One>());
+  const Integral result = integrate(minco, penalties, 12);
+  EXPECT_NEAR(result.shares[1], 5.1, 1e-12);
+  EXPECT_NEAR(result.shares[0] + result.shares[1], result.value, 1e-12);
+}
+
+TEST(TimeQuadrature, AddsToWhatIsThere) {
+  const PlanarMinco minco = curve();
+  Penalties penalties;
+  penalties.push_back(std::make_unique<SmoothPenalty>());
+  const Integral once = integrate(minco, penalties, 12);
+  Integral twice = once;
+  TimeQuadrature<2, 3>(12).add(minco, penalties, twice.by_piece, twice.by_duration, twice.shares);
+  EXPECT_LT((twice.by_duration - 2.0 * once.by_duration).norm(), 1e-9);
+  EXPECT_LT((twice.by_piece[2] - 2.0 * once.by_piece[2]).norm(), 1e-9);
+}
+
+/// A curve whose coefficients and durations can be changed one by one.
+double value_with(const PlanarMinco& minco, int piece, int row, int column, double change,
+                  int longer_piece) {
+  // The quadrature reads pieces and durations only; a changed curve is rebuilt from its parts.
+  const auto path = minco.curve();
+  double start_s = 0.0;
+  double total = 0.0;
+  constexpr int kKappa = 12;
+  for (int i = 0; i < path.pieces(); ++i) {
+    PlanarMinco::Piece c = path.piece(i);
+    if (i == piece) c(row, column) += change;
+    const double tau = path.piece_duration(i) + (i == longer_piece ? change : 0.0);
+    const PlanarPath single({c}, {tau});
+    for (int j = 0; j <= kKappa; ++j) {
+      const double t = tau * j / kKappa;
+      SampleGradient<2> ignored;
+      total += (j == 0 || j == kKappa ? 0.5 : 1.0) * tau / kKappa *
+               SmoothPenalty().add(sample_of(single, t, start_s + t), ignored);
+    }
+    start_s += tau;
+  }
+  return total;
+}
+
+TEST(TimeQuadrature, GradientMatchesDifferences) {  // (23)-(26)
+  const PlanarMinco minco = curve();
+  Penalties penalties;
+  penalties.push_back(std::make_unique<SmoothPenalty>());
+  const Integral result = integrate(minco, penalties, 12);
+  EXPECT_NEAR(value_with(minco, -1, 0, 0, 0.0, -1), result.value, 1e-9);
+  constexpr double kStep = 1e-6;
+  const auto slope = [&](int piece, int row, int column, int longer) {
+    return (value_with(minco, piece, row, column, kStep, longer) -
+            value_with(minco, piece, row, column, -kStep, longer)) /
+           (2.0 * kStep);
+  };
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_NEAR(result.by_duration[i], slope(-1, 0, 0, i), 1e-5) << "duration " << i;
+    for (int row = 0; row < 2; ++row) {
+      for (int column = 0; column < 6; ++column) {
+        EXPECT_NEAR(result.by_piece[i](row, column), slope(i, row, column, -1), 1e-5);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mocha

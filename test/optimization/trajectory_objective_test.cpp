@@ -1,0 +1,233 @@
+#include "optimization/trajectory_objective.h"
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "camouflage/camouflage_map.h"
+#include "optimization/dynamics_penalty.h"
+#include "optimization/moving_penalty.h"
+#include "optimization/obstacle_penalty.h"
+#include "optimization/trajectory_optimizer.h"
+#include "optimization/turning_penalty.h"
+
+namespace mocha {
+namespace {
+
+/// Analytic balls: distances are smooth away from the medial axis.
+template <int D>
+class Balls : public ObstacleField<D> {
+ public:
+  using typename ObstacleField<D>::Vector;
+  using typename ObstacleField<D>::Sample;
+  using typename ObstacleField<D>::Box;
+  struct Ball {
+    Vector centre;
+    double radius;
+  };
+  explicit Balls(std::vector<Ball> balls) : balls_(std::move(balls)) {}
+  Sample sample(const Vector& p) const override {
+    Sample nearest{1e9, Vector::Zero()};
+    for (const Ball& ball : balls_) {
+      const double distance = (p - ball.centre).norm() - ball.radius;
+      if (distance < nearest.distance_m) nearest = {distance, (p - ball.centre).normalized()};
+    }
+    return nearest;
+  }
+  double distance_bound(const Vector& p) const override { return std::max(0.0, sample(p).distance_m); }
+  bool clear(const Box& box, double r) const override {
+    return distance_bound(box.center()) > r + 0.5 * box.diagonal().norm();
+  }
+
+ private:
+  std::vector<Ball> balls_;
+};
+
+template <int D>
+Eigen::Matrix<double, D, Eigen::Dynamic> prey_knots(int count, std::mt19937& random) {
+  std::normal_distribution<double> noise(0.0, 0.2);
+  Eigen::Matrix<double, D, Eigen::Dynamic> prey(D, count);
+  for (int k = 0; k < count; ++k) {
+    for (int axis = 0; axis < D; ++axis) prey(axis, k) = (axis == 0 ? k + 1.0 : 0.0) + noise(random);
+  }
+  return prey;
+}
+
+template <int D>
+typename TrajectoryObjective<D, 3>::Setup basic_setup(std::shared_ptr<const KnotMap<D>> map,
+                                                      const ObstacleField<D>& field) {
+  typename TrajectoryObjective<D, 3>::Setup setup;
+  setup.start.setZero();
+  setup.end.setZero();
+  setup.end(0, 0) = map->knots() + 1.0;
+  setup.start(0, 1) = 0.7;
+  setup.start(1, 2) = 0.1;
+  setup.knot_map = map;
+  setup.effort_weight = 0.1;
+  setup.duration_cost = {2.0};
+  setup.kappa = 12;
+  setup.penalties.push_back(std::make_unique<DynamicsPenalty<D>>(7.0, 0.9, 0.6));
+  setup.penalties.push_back(std::make_unique<ObstaclePenalty<D>>(
+      11.0, field,
+      std::vector<typename ObstaclePenalty<D>::Cover>{{0.15, 0.6}, {-0.15, 0.7}}, 0.05));
+  return setup;
+}
+
+template <int D>
+void expect_gradient(TrajectoryObjective<D, 3>& objective, const Eigen::VectorXd& x) {
+  Eigen::VectorXd gradient(objective.variables());
+  Eigen::VectorXd ignored(objective.variables());
+  objective.evaluate(x, gradient);
+  const double scale = gradient.template lpNorm<Eigen::Infinity>();
+  for (int i = 0; i < x.size(); ++i) {
+    constexpr double kStep = 1e-6;
+    Eigen::VectorXd plus = x;
+    Eigen::VectorXd minus = x;
+    plus[i] += kStep;
+    minus[i] -= kStep;
+    const double slope =
+        (objective.evaluate(plus, ignored) - objective.evaluate(minus, ignored)) / (2.0 * kStep);
+    EXPECT_NEAR(gradient[i], slope, 1e-6 * scale) << "variable " << i;
+  }
+}
+
+template <int D>
+Balls<D> random_balls(std::mt19937& random) {
+  std::vector<typename Balls<D>::Ball> balls;
+  std::uniform_real_distribution<double> along(0.0, 7.0);
+  std::uniform_real_distribution<double> beside(-0.6, 0.6);
+  for (int i = 0; i < 5; ++i) {
+    typename Balls<D>::Ball ball;
+    ball.centre.setZero();
+    ball.centre[0] = along(random);
+    for (int axis = 1; axis < D; ++axis) ball.centre[axis] = beside(random);
+    ball.radius = 0.3;
+    balls.push_back(ball);
+  }
+  return Balls<D>(balls);
+}
+
+Eigen::VectorXd random_start(int variables, double size, std::mt19937& random) {
+  std::normal_distribution<double> noise(0.0, size);
+  Eigen::VectorXd x(variables);
+  for (int i = 0; i < variables; ++i) x[i] = noise(random);
+  return x;
+}
+
+template <int D>
+void check_dimension(int seed) {
+  std::mt19937 random(seed);
+  const auto prey = prey_knots<D>(5, random);
+  Eigen::Matrix<double, D, Eigen::Dynamic> references = prey;
+  references.row(1).array() -= 3.0;
+  const Balls<D> balls = random_balls<D>(random);
+  const auto camouflage = std::make_shared<CamouflageMap<D>>(prey, references, 1.5);
+  TrajectoryObjective<D, 3> reduced(basic_setup<D>(camouflage, balls));
+  expect_gradient<D>(reduced, random_start(reduced.variables(), 0.4, random));
+  const auto waypoints = std::make_shared<WaypointMap<D>>(prey);
+  TrajectoryObjective<D, 3> full(basic_setup<D>(waypoints, balls));
+  expect_gradient<D>(full, full.initial(Eigen::VectorXd::Constant(6, 1.2)));
+}
+
+TEST(TrajectoryObjective, GradientMatchesDifferencesInThePlane) {
+  for (int seed = 1; seed <= 8; ++seed) check_dimension<2>(seed);
+}
+
+TEST(TrajectoryObjective, GradientMatchesDifferencesInSpace) {
+  for (int seed = 1; seed <= 8; ++seed) check_dimension<3>(seed);
+}
+
+TEST(TrajectoryObjective, GradientMatchesDifferencesWithTurningAndMovingTerms) {
+  for (int seed = 1; seed <= 8; ++seed) {
+    std::mt19937 random(seed);
+    const auto prey = prey_knots<2>(5, random);
+    auto map = std::make_shared<WaypointMap<2>>(prey);
+    const Balls<2> balls = random_balls<2>(random);
+    auto setup = basic_setup<2>(map, balls);
+    setup.penalties.push_back(std::make_unique<TurningPenalty>(3.0, 0.4, 0.1));
+    const auto walker = std::make_shared<PredictedDisc>("walker", 10.0, Vector2(4.0, -1.0),
+                                                        Vector2(-0.2, 0.4), 0.3, 0.1);
+    setup.penalties.push_back(std::make_unique<MovingPenalty>(
+        5.0, 10.0, 0.3, 0.4, std::vector<MovingPenalty::Other>{{walker, 1e9}}));
+    TrajectoryObjective<2, 3> objective(std::move(setup));
+    expect_gradient<2>(objective, objective.initial(Eigen::VectorXd::Constant(6, 0.9)));
+  }
+}
+
+TEST(TrajectoryObjective, GradientMatchesDifferencesWhereADriveStartsAtRest) {
+  for (int seed = 1; seed <= 8; ++seed) {
+    std::mt19937 random(seed);
+    const auto prey = prey_knots<2>(5, random);
+    auto map = std::make_shared<WaypointMap<2>>(prey);
+    const Balls<2> balls = random_balls<2>(random);
+    auto setup = basic_setup<2>(map, balls);
+    setup.start.col(1).setZero();
+    setup.start.col(2) = Vector2(0.3, -0.4);
+    setup.penalties.push_back(std::make_unique<TurningPenalty>(3.0, 0.05, 0.1));
+    TrajectoryObjective<2, 3> objective(std::move(setup));
+    Eigen::VectorXd gradient(objective.variables());
+    const Eigen::VectorXd x = objective.initial(Eigen::VectorXd::Constant(6, 0.9));
+    objective.evaluate(x, gradient);
+    EXPECT_GT(objective.terms().back().second, 0.0);
+    expect_gradient<2>(objective, x);
+  }
+}
+
+TEST(TrajectoryObjective, TermsAddUpToTheCost) {
+  std::mt19937 random(3);
+  const Balls<2> balls = random_balls<2>(random);
+  auto map = std::make_shared<WaypointMap<2>>(prey_knots<2>(5, random));
+  TrajectoryObjective<2, 3> objective(basic_setup<2>(map, balls));
+  Eigen::VectorXd gradient(objective.variables());
+  const double cost =
+      objective.evaluate(objective.initial(Eigen::VectorXd::Constant(6, 1.0)), gradient);
+  double sum = 0.0;
+  for (const auto& term : objective.terms()) sum += term.second;
+  EXPECT_NEAR(sum, cost, 1e-9 * cost);
+}
+
+TEST(TrajectoryOptimizer, AvoidsAnObstacleOnThePreyPath) {
+  Eigen::Matrix2Xd prey(2, 5);
+  prey << 1, 2, 3, 4, 5, 0, 0.01, 0.01, 0.01, 0;
+  Eigen::Matrix2Xd references = prey;
+  references.row(1).setConstant(-3.0);
+  const Balls<2> balls({{{3.0, -0.2}, 0.3}});
+  auto setup = basic_setup<2>(std::make_shared<CamouflageMap<2>>(prey, references, 1.5), balls);
+  setup.start.rightCols<2>().setZero();
+  setup.penalties.clear();
+  setup.penalties.push_back(std::make_unique<DynamicsPenalty<2>>(1e3, 1.0, 1.0));
+  setup.penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
+      1e3, balls, std::vector<ObstaclePenalty<2>::Cover>{{0.0, 0.5}}, 0.05));
+  TrajectoryObjective<2, 3> objective(std::move(setup));
+  const auto result =
+      optimize<2, 3>(objective, objective.initial(Eigen::VectorXd::Constant(6, 1.3)), {});
+  EXPECT_EQ(result.stop, StopReason::kConverged);
+  double clearance = 1e9;
+  for (double t = 0.0; t < result.curve.duration(); t += 0.01) {
+    clearance = std::min(clearance, balls.sample(result.curve.position(t)).distance_m);
+  }
+  EXPECT_GT(clearance, 0.45);
+  EXPECT_GT(result.curve.duration(), 6.0);   // no faster than the speed limit allows
+  EXPECT_LT(result.curve.duration(), 8.5);   // and not much slower: 6 s + 1 s for starting and stopping
+}
+
+TEST(TrajectoryOptimizer, ReportsWhyItStopped) {
+  std::mt19937 random(3);
+  const Balls<2> balls = random_balls<2>(random);
+  auto map = std::make_shared<WaypointMap<2>>(prey_knots<2>(5, random));
+  TrajectoryObjective<2, 3> objective(basic_setup<2>(map, balls));
+  const Eigen::VectorXd x = objective.initial(Eigen::VectorXd::Constant(6, 1.0));
+  OptimizerRules rules;
+  rules.max_evaluations = 5;
+  const auto exhausted = optimize<2, 3>(objective, x, rules);
+  EXPECT_EQ(exhausted.stop, StopReason::kBudget);
+  EXPECT_EQ(exhausted.evaluations, 5);
+  EXPECT_EQ(exhausted.curve.pieces(), 6);
+  rules.should_stop = [] { return true; };
+  EXPECT_EQ((optimize<2, 3>(objective, x, rules).stop), StopReason::kStopped);
+}
+
+}  // namespace
+}  // namespace mocha

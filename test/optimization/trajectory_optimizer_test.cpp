@@ -1,0 +1,169 @@
+#include "optimization/trajectory_optimizer.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+
+#include "camouflage/camouflage_map.h"
+#include "optimization/dynamics_penalty.h"
+#include "optimization/obstacle_penalty.h"
+#include "safety/circle_field.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kMaxSpeed = 2.0;
+constexpr double kMaxAcceleration = 1.5;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Straight ahead from rest to rest over pieces of `spacing_m`.
+TrajectoryObjective<2, 3> straight_line(int pieces, double duration_weight,
+                                        double spacing_m = 1.0) {
+  Eigen::Matrix2Xd prey = Eigen::Matrix2Xd::Zero(2, pieces - 1);
+  for (int k = 0; k + 1 < pieces; ++k) prey(0, k) = spacing_m * (k + 1);
+  TrajectoryObjective<2, 3>::Setup setup;
+  setup.start.setZero();
+  setup.end.setZero();
+  setup.end(0, 0) = spacing_m * pieces;
+  setup.knot_map = std::make_shared<WaypointMap<2>>(prey);
+  setup.effort_weight = 1e-3;
+  setup.duration_cost = {duration_weight};
+  setup.kappa = 16;
+  setup.penalties.push_back(std::make_unique<DynamicsPenalty<2>>(1e4, kMaxSpeed, kMaxAcceleration));
+  return TrajectoryObjective<2, 3>(std::move(setup));
+}
+
+Eigen::VectorXd slow_start(const TrajectoryObjective<2, 3>& objective) {
+  return objective.initial(Eigen::VectorXd::Constant(objective.pieces(), 1.0));
+}
+
+TEST(TrajectoryOptimizer, StraightLineIsNearlyTimeOptimal) {
+  auto objective = straight_line(8, 1.0, 2.5);
+  OptimizerRules rules;
+  rules.max_evaluations = 4000;
+  rules.relative_cost = 1e-6;
+  const auto result = optimize<2, 3>(objective, slow_start(objective), rules);
+  EXPECT_EQ(result.stop, StopReason::kConverged) << result.evaluations << " evaluations";
+  const double kinematic_s = 20.0 / kMaxSpeed + kMaxSpeed / kMaxAcceleration;
+  // Penalties let the limits be passed a little; smooth starts and stops cost a little more.
+  EXPECT_GT(result.curve.duration(), 0.97 * kinematic_s);
+  EXPECT_LT(result.curve.duration(), 1.10 * kinematic_s);
+  for (double t = 0.0; t < result.curve.duration(); t += 0.01) {
+    EXPECT_LT(result.curve.derivative(t, 1).norm(), 1.03 * kMaxSpeed);
+    EXPECT_LT(result.curve.derivative(t, 2).norm(), 1.10 * kMaxAcceleration);
+    EXPECT_NEAR(result.curve.position(t).y(), 0.0, 1e-6);
+  }
+}
+
+TEST(TrajectoryOptimizer, ADearerSecondMakesItFaster) {
+  auto patient = straight_line(8, 0.1);
+  auto hasty = straight_line(8, 10.0);
+  const double slow_s = optimize<2, 3>(patient, slow_start(patient), {}).curve.duration();
+  EXPECT_LT((optimize<2, 3>(hasty, slow_start(hasty), {}).curve.duration()), slow_s);
+}
+
+TEST(TrajectoryOptimizer, ReturnsTheBestSeenWithItsOwnCostAndTerms) {
+  auto objective = straight_line(8, 1.0);
+  const Eigen::VectorXd x = slow_start(objective);
+  Eigen::VectorXd gradient(objective.variables());
+  double last = objective.evaluate(x, gradient);
+  for (const int budget : {1, 3, 10, 40, 400}) {
+    OptimizerRules rules;
+    rules.max_evaluations = budget;
+    const auto result = optimize<2, 3>(objective, x, rules);
+    EXPECT_LE(result.evaluations, budget);
+    EXPECT_LE(result.cost, last + 1e-9) << "more evaluations made it worse";
+    last = result.cost;
+    double sum = 0.0;
+    for (const auto& term : result.terms) sum += term.second;
+    EXPECT_NEAR(sum, result.cost, 1e-9 * result.cost);
+    for (const auto& term : result.terms) {
+      if (term.first != "duration") continue;
+      EXPECT_NEAR(term.second, result.curve.duration(), 1e-9);
+    }
+  }
+}
+
+TEST(TrajectoryOptimizer, StopsWhenTheCallerSaysSo) {
+  auto objective = straight_line(8, 1.0);
+  OptimizerRules rules;
+  int calls = 0;
+  rules.should_stop = [&calls] { return ++calls > 7; };
+  const auto result = optimize<2, 3>(objective, slow_start(objective), rules);
+  EXPECT_EQ(result.stop, StopReason::kStopped);
+  EXPECT_EQ(result.evaluations, 7);
+  EXPECT_EQ(result.curve.pieces(), 8);
+}
+
+TEST(TrajectoryOptimizer, WithoutABudgetThereIsNoCurve) {
+  auto objective = straight_line(8, 1.0);
+  OptimizerRules rules;
+  rules.max_evaluations = 0;
+  const auto result = optimize<2, 3>(objective, slow_start(objective), rules);
+  EXPECT_EQ(result.stop, StopReason::kBudget);
+  EXPECT_EQ(result.curve.pieces(), 0);
+}
+
+TEST(TrajectoryOptimizer, SaysThatTheStartIsNotFinite) {
+  auto objective = straight_line(8, 1.0);
+  Eigen::VectorXd x = slow_start(objective);
+  for (const double bad : {kNan, std::numeric_limits<double>::infinity(), 1e200}) {
+    x[0] = bad;
+    const auto result = optimize<2, 3>(objective, x, {});
+    EXPECT_EQ(result.stop, StopReason::kNotFinite) << bad;
+    EXPECT_EQ(result.curve.pieces(), 0);
+  }
+}
+
+TEST(TrajectoryOptimizer, SurvivesDurationsThatAreFarOff) {
+  for (const double duration_s : {1e-3, 1e3}) {
+    auto objective = straight_line(8, 1.0);
+    const Eigen::VectorXd x = objective.initial(Eigen::VectorXd::Constant(8, duration_s));
+    OptimizerRules rules;
+    rules.max_evaluations = 4000;
+    const auto result = optimize<2, 3>(objective, x, rules);
+    ASSERT_EQ(result.curve.pieces(), 8);
+    EXPECT_TRUE(std::isfinite(result.cost));
+    EXPECT_LT(result.curve.duration(), 1e3);
+  }
+}
+
+/// A field that answers with NaN beside the path: the line search has to come back from it.
+class Cliff : public ObstacleField<2> {
+ public:
+  Sample sample(const Vector& p) const override {
+    return std::abs(p.y()) > 0.5 ? Sample{kNan, Vector(kNan, kNan)} : Sample{0.2, Vector(0.0, 1.0)};
+  }
+  double distance_bound(const Vector&) const override { return 0.0; }
+  bool clear(const Box&, double) const override { return false; }
+};
+
+TEST(TrajectoryOptimizer, StaysWhereTheCostIsFinite) {
+  const Cliff cliff;
+  Eigen::Matrix2Xd prey = Eigen::Matrix2Xd::Zero(2, 3);
+  prey.row(0) << 1.0, 2.0, 3.0;
+  Eigen::Matrix2Xd references = prey;
+  references.row(1).setConstant(-3.0);
+  TrajectoryObjective<2, 3>::Setup setup;
+  setup.start.setZero();
+  setup.end.setZero();
+  setup.end(0, 0) = 4.0;
+  setup.knot_map = std::make_shared<CamouflageMap<2>>(prey, references, 2.0);
+  setup.effort_weight = 1e-3;
+  setup.duration_cost = {1.0};
+  setup.kappa = 8;
+  setup.penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
+      1e5, cliff, std::vector<ObstaclePenalty<2>::Cover>{{0.0, 1.0}}, 0.05));
+  TrajectoryObjective<2, 3> objective(std::move(setup));
+  const auto result =
+      optimize<2, 3>(objective, objective.initial(Eigen::VectorXd::Constant(4, 1.0)), {});
+  ASSERT_EQ(result.curve.pieces(), 4);
+  EXPECT_TRUE(std::isfinite(result.cost));
+  for (double t = 0.0; t < result.curve.duration(); t += 0.01) {
+    EXPECT_TRUE(result.curve.position(t).allFinite());
+  }
+}
+
+}  // namespace
+}  // namespace mocha
