@@ -1,0 +1,168 @@
+#include "fleet/peer_table.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace mocha {
+namespace {
+
+template <typename Drop>
+void drop_if(std::vector<Promise>& promises, Drop drop) {
+  promises.erase(std::remove_if(promises.begin(), promises.end(), drop), promises.end());
+}
+
+}  // namespace
+
+const Promise* Peer::unanswered() const {
+  if (open.empty()) return nullptr;
+  const Promise& proposal = open.back();
+  const bool current = proposal.id.epoch == epoch && proposal.id == newest;
+  return current && endorsed < proposal.id ? &proposal : nullptr;
+}
+
+Claim Peer::claim_of_open(const Promise& proposal) const {
+  Claim claim = claim_of(proposal);
+  for (const Claim& bound : binding.claims()) {
+    if (proposal.id < bound.promise.id) {
+      claim.until_s = std::min(claim.until_s, bound.promise.motion->start_time());
+    }
+  }
+  return claim;
+}
+
+PeerTable::PeerTable(std::string own_name, std::uint32_t own_epoch, double reach_timeout_s)
+    : own_name_(std::move(own_name)), own_epoch_(own_epoch), reach_timeout_s_(reach_timeout_s) {
+  if (!(reach_timeout_s_ > 0.0)) {
+    throw std::invalid_argument("reach_timeout = " + std::to_string(reach_timeout_s_) +
+                                " s, allowed is above 0");
+  }
+}
+
+Peer* PeerTable::find(const std::string& name, std::uint32_t epoch, double now) {
+  Peer& peer = peers_[name];
+  if (epoch < peer.epoch) return nullptr;
+  if (epoch > peer.epoch) {
+    peer.epoch = epoch;
+    peer.of_us.reset();  // it has forgotten
+    drop_if(peer.open, [&](const Promise& open) { return peer.endorsed < open.id; });
+  }
+  peer.last_heard_s = std::max(peer.last_heard_s, now);
+  return &peer;
+}
+
+PeerTable::Verdict PeerTable::receive(const Promise& promise, double now) {
+  Peer* peer = find(promise.agent, promise.id.epoch, now);
+  const Verdict verdict = peer == nullptr ? Verdict::kOld : take(*peer, promise);
+  if (verdict == Verdict::kDuplicate) ++duplicates_;
+  if (verdict == Verdict::kOld) ++old_;
+  return verdict;
+}
+
+PeerTable::Verdict PeerTable::take(Peer& peer, const Promise& promise) {
+  const PromiseId former = peer.newest;
+  if (is_binding(promise.state)) {
+    if (!peer.binding.empty() && !(peer.binding.newest().id < promise.id)) {
+      return peer.binding.newest().id == promise.id ? Verdict::kDuplicate : Verdict::kOld;
+    }
+    bind(peer, promise);
+    return Verdict::kNews;
+  }
+  peer.newest = std::max(peer.newest, promise.id);
+  if (promise.state == PromiseState::kWithdrawn) {
+    const std::size_t before = peer.open.size();
+    drop_if(peer.open, [&](const Promise& open) { return open.id == promise.id; });
+    if (peer.open.size() < before || former < promise.id) return Verdict::kNews;
+    return former == promise.id ? Verdict::kDuplicate : Verdict::kOld;
+  }
+  if (!(former < promise.id)) return former == promise.id ? Verdict::kDuplicate : Verdict::kOld;
+  peer.open.push_back(promise);
+  return Verdict::kNews;
+}
+
+void PeerTable::bind(Peer& peer, const Promise& promise) {
+  peer.newest = std::max(peer.newest, promise.id);
+  if (!(promise.id < peer.endorsed)) {
+    peer.endorsed = promise.id;
+    peer.endorsed_state = promise.state;
+  }
+  peer.binding.bind(promise);
+  drop_if(peer.open, [&](const Promise& open) { return open.id == promise.id; });
+}
+
+PeerTable::Verdict PeerTable::receive(const Beat& beat, double now) {
+  Peer* peer = find(beat.agent, beat.epoch, now);
+  if (peer == nullptr) {
+    ++old_;
+    return Verdict::kOld;
+  }
+  peer->last_beat_s = std::max(peer->last_beat_s, now);
+  for (const Seen& line : beat.seen) {
+    if (line.agent != own_name_ || line.id.epoch != own_epoch_) continue;
+    if (!peer->of_us || !(line.id < peer->of_us->id)) peer->of_us = line;
+  }
+  resolve(*peer, beat);
+  return Verdict::kNews;
+}
+
+void PeerTable::resolve(Peer& peer, const Beat& beat) {
+  PromiseId bound{beat.epoch, 0};
+  PromiseState bound_state = PromiseState::kCommitted;
+  PromiseId latest = bound;
+  PromiseState latest_state = PromiseState::kProposed;
+  for (const Seen& line : beat.seen) {
+    if (line.agent != beat.agent || line.id.epoch != beat.epoch) continue;
+    if (is_binding(line.state)) {
+      bound = line.id;
+      bound_state = line.state;
+    } else {
+      latest = line.id;
+      latest_state = line.state;
+    }
+  }
+  const bool newer = peer.binding.empty() || peer.binding.newest().id < bound;
+  const auto is_bound = [&](const Promise& open) { return newer && open.id == bound; };
+  const auto found = std::find_if(peer.open.begin(), peer.open.end(), is_bound);
+  if (found != peer.open.end()) {  // the message that made it binding is lost or late
+    Promise promise = *found;
+    promise.state = bound_state;
+    bind(peer, promise);
+  }
+  // What was replaced before the beat was sent, and is not in force, never will be.
+  drop_if(peer.open, [&](const Promise& open) {
+    const bool past =
+        open.id < latest || (open.id == latest && latest_state == PromiseState::kWithdrawn);
+    return open.id.epoch == beat.epoch && bound < open.id && past;
+  });
+}
+
+void PeerTable::endorse(const std::string& name, const Promise& proposal) {
+  Peer& peer = peers_.at(name);
+  peer.endorsed = proposal.id;
+  peer.endorsed_state = proposal.state;
+}
+
+bool PeerTable::in_reach(const Peer& peer, double now) const {
+  return now - peer.last_beat_s <= reach_timeout_s_;
+}
+
+void PeerTable::prune(double now) {
+  for (auto& [name, peer] : peers_) {
+    peer.binding.prune(now);
+    const bool silent = now - peer.last_heard_s > reach_timeout_s_;
+    drop_if(peer.open, [&, &peer = peer](const Promise& open) {
+      return peer.claim_of_open(open).until_s <= now || (silent && peer.endorsed < open.id);
+    });
+  }
+}
+
+std::vector<Seen> PeerTable::seen(double now) const {
+  std::vector<Seen> seen;
+  for (const auto& [name, peer] : peers_) {
+    const bool any = peer.endorsed.sequence > 0 && peer.endorsed.epoch == peer.epoch;
+    if (any && in_reach(peer, now)) seen.push_back({name, peer.endorsed, peer.endorsed_state});
+  }
+  return seen;
+}
+
+}  // namespace mocha

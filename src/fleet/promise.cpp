@@ -1,0 +1,36 @@
+#include "fleet/promise.h"
+
+#include <stdexcept>
+
+#include "trajectory/separation.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kMaxRadius_m = 10.0;
+constexpr double kMaxDuration_s = 3600.0;
+constexpr double kMaxSpeed = 50.0;          // [m/s]
+constexpr double kMaxAcceleration = 500.0;  // [m/s^2]
+
+void require(bool condition, const std::string& what) {
+  if (!condition) throw std::invalid_argument("promise: " + what);
+}
+
+}  // namespace
+
+void validate(const Promise& promise) {
+  require(!promise.agent.empty(), "has no name of a robot");
+  require(promise.id.sequence > 0, "sequence is 0");
+  if (promise.state == PromiseState::kWithdrawn) return;
+  const double radius = promise.footprint_radius_m;
+  require(radius > 0.0 && radius <= kMaxRadius_m,
+          "footprint_radius = " + std::to_string(radius) + " m, allowed is above 0 up to 10 m");
+  require(promise.motion != nullptr && !promise.motion->empty(), "has no motion");
+  require(promise.motion->end_time() - promise.motion->start_time() <= kMaxDuration_s,
+          "takes more than an hour");
+  const MotionBounds bound = bounds(*promise.motion);
+  require(bound.speed <= kMaxSpeed, "may be faster than 50 m/s");
+  require(bound.acceleration <= kMaxAcceleration, "may accelerate by more than 500 m/s^2");
+}
+
+}  // namespace mocha

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "trajectory/motion.h"
+
+namespace mocha {
+
+/// The numbers are those of mocha_ugv/Trajectory.
+enum class PromiseState : std::uint8_t {
+  kProposed = 1,   ///< offered; not binding yet
+  kCommitted = 2,  ///< binding: the robot drives this and nothing else
+  kEmergency = 3,  ///< binding at once, without settling: a braking motion
+  kWithdrawn = 4,  ///< the proposal of this number is void
+};
+
+inline bool is_binding(PromiseState state) {
+  return state == PromiseState::kCommitted || state == PromiseState::kEmergency;
+}
+
+/// Which promise of one robot: the epoch counts its starts, the sequence its motions since the
+/// start, from 1.
+struct PromiseId {
+  std::uint32_t epoch = 0;
+  std::uint32_t sequence = 0;
+
+  bool operator<(const PromiseId& other) const {
+    return std::tie(epoch, sequence) < std::tie(other.epoch, other.sequence);
+  }
+  bool operator==(const PromiseId& other) const {
+    return epoch == other.epoch && sequence == other.sequence;
+  }
+};
+
+/// What a robot says about one motion.
+struct Promise {
+  std::string agent;
+  PromiseId id;
+  PromiseState state = PromiseState::kProposed;
+  int priority = 0;
+  double footprint_radius_m = 0.0;       ///< circumscribed, about the position of the motion
+  std::shared_ptr<const Motion> motion;  ///< none where withdrawn
+};
+
+/// Who wins where two proposals meet: the higher priority, then the smaller name. A total order
+/// over the fleet.
+inline bool outranks(const Promise& a, const Promise& b) {
+  return a.priority != b.priority ? a.priority > b.priority : a.agent < b.agent;
+}
+
+/// Throws std::invalid_argument, saying what is wrong, for a promise that no robot can have meant:
+/// no name, a sequence of 0, a radius outside (0, 10] m, and unless withdrawn no motion, one longer
+/// than an hour, or one that may exceed 50 m/s or 500 m/s^2.
+void validate(const Promise& promise);
+
+/// One line of a heartbeat: the newest promise of `agent` that the sender has seen and does not
+/// object to.
+struct Seen {
+  std::string agent;
+  PromiseId id;
+  PromiseState state = PromiseState::kProposed;
+};
+
+/// "I live, and this is what I have seen of you." About the sender itself it lists its newest
+/// binding promise and, if it came later, its newest proposal (or the withdrawal of it).
+struct Beat {
+  std::string agent;
+  std::uint32_t epoch = 0;
+  double stamp_s = 0.0;
+  std::vector<Seen> seen;
+};
+
+}  // namespace mocha

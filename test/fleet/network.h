@@ -1,0 +1,129 @@
+#pragma once
+
+#include <map>
+#include <random>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "fleet/commitment.h"
+#include "fleet/motions.h"
+
+namespace mocha::test {
+
+/// Robots that run the protocol over a network which delays, reorders and loses; it knows the truth
+/// about all of them.
+class Network {
+ public:
+  struct Link {
+    double min_delay_s = 0.0;
+    double max_delay_s = 0.01;
+    double loss = 0.0;
+    bool heartbeats = true;
+  };
+  static constexpr double kRadius_m = 0.3;
+
+  Network(int seed, Link link) : link_(link), random_(seed) {}
+
+  void add(const CommitmentSettings& settings) { robots_.emplace_back(settings); }
+  Commitment& robot(int i) { return robots_[i]; }
+  int size() const { return static_cast<int>(robots_.size()); }
+  double now() const { return now_; }
+  Link& link() { return link_; }
+  std::mt19937& random() { return random_; }
+
+  void propose(int i, Motion motion) {
+    apply(i, robots_[i].propose({++tag_, kRadius_m, shared(std::move(motion))}, now_));
+  }
+  void brake(int i, Motion motion) {
+    apply(i, robots_[i].brake({++tag_, kRadius_m, shared(std::move(motion))}, now_));
+  }
+  /// A robot that is cut off neither sends nor receives.
+  void cut_off(int i, bool off) { off_[i] = off; }
+  void restart(int i, const CommitmentSettings& settings) { robots_[i] = Commitment(settings); }
+
+  void run(double seconds, double step_s = 0.01) {
+    for (const double until = now_ + seconds; now_ < until;) {
+      now_ += step_s;
+      while (!queue_.empty() && queue_.begin()->first <= now_) {
+        const Delivery delivery = queue_.begin()->second;
+        queue_.erase(queue_.begin());
+        Commitment& receiver = robots_[delivery.to];
+        apply(delivery.to,
+              std::visit([&](const auto& each) { return receiver.receive(each, now_); },
+                         delivery.message));
+      }
+      for (int i = 0; i < size(); ++i) apply(i, robots_[i].tick(now_));
+    }
+  }
+
+  /// Events of robot i of one kind so far.
+  std::vector<CommitmentEvent> events(int i, CommitmentEvent::Kind kind) const {
+    std::vector<CommitmentEvent> found;
+    for (const auto& [robot, event] : events_) {
+      if (robot == i && event.kind == kind) found.push_back(event);
+    }
+    return found;
+  }
+  int settled(int i) const {
+    return static_cast<int>(events(i, CommitmentEvent::Kind::kSettled).size());
+  }
+  /// How often a motion was settled that meets one already binding at another robot.
+  int broken() const { return broken_; }
+
+ private:
+  struct Delivery {
+    int to;
+    std::variant<Promise, Beat> message;
+  };
+
+  void apply(int i, const CommitmentActions& actions) {
+    for (const Promise& promise : actions.promises) send(i, promise);
+    if (actions.beat && link_.heartbeats) send(i, *actions.beat);
+    for (const CommitmentEvent& event : actions.events) {
+      events_.emplace_back(i, event);
+      const bool settled = event.kind == CommitmentEvent::Kind::kSettled;
+      if (settled && event.promise.state == PromiseState::kCommitted) check(i, event.promise);
+    }
+  }
+
+  template <typename Message>
+  void send(int from, const Message& message) {
+    for (int to = 0; to < size(); ++to) {
+      const bool lost = std::uniform_real_distribution<double>(0.0, 1.0)(random_) < link_.loss;
+      if (to == from || lost || off_[from] || off_[to]) continue;
+      std::uniform_real_distribution<double> delay(link_.min_delay_s, link_.max_delay_s);
+      queue_.emplace(now_ + delay(random_), Delivery{to, message});
+    }
+  }
+
+  void check(int i, const Promise& promise) {
+    for (int j = 0; j < size(); ++j) {
+      if (j == i) continue;
+      for (const Claim& theirs : robots_[j].binding().claims()) {
+        const double required = 2.0 * kRadius_m + robots_[i].settings().peer_clearance_m - 2e-3;
+        if (first_conflict(claim_of(promise), theirs, required, now_)) ++broken_;
+      }
+    }
+  }
+
+  Link link_;
+  std::mt19937 random_;
+  double now_ = 100.0;
+  std::uint32_t tag_ = 0;
+  std::vector<Commitment> robots_;
+  std::map<int, bool> off_;
+  std::multimap<double, Delivery> queue_;
+  std::vector<std::pair<int, CommitmentEvent>> events_;
+  int broken_ = 0;
+};
+
+inline CommitmentSettings settings(const std::string& agent, std::uint32_t epoch = 1) {
+  CommitmentSettings settings;
+  settings.agent = agent;
+  settings.epoch = epoch;
+  return settings;
+}
+
+}  // namespace mocha::test

@@ -1,0 +1,149 @@
+#include "fleet/peer_table.h"
+
+#include <gtest/gtest.h>
+
+#include "fleet/motions.h"
+
+namespace mocha {
+namespace {
+
+using Verdict = PeerTable::Verdict;
+
+Promise promise(PromiseId id, PromiseState state, double start_s = 10.0) {
+  Promise promise;
+  promise.agent = "a";
+  promise.id = id;
+  promise.state = state;
+  promise.footprint_radius_m = 0.3;
+  if (state != PromiseState::kWithdrawn) {
+    promise.motion = test::shared(test::drive(start_s, {{0.0, 0.0}, {4.0, 0.0}}, 1.0));
+  }
+  return promise;
+}
+
+Beat beat(std::uint32_t epoch, std::vector<Seen> seen = {}) {
+  return {"a", epoch, 0.0, std::move(seen)};
+}
+
+class PeerTableTest : public ::testing::Test {
+ protected:
+  const Peer& peer() const { return table_.peers().at("a"); }
+  PeerTable table_{"me", 3, 1.0};
+};
+
+TEST_F(PeerTableTest, KeepsTheNewestAndCountsTheRest) {
+  using State = PromiseState;
+  EXPECT_EQ(table_.receive(promise({1, 2}, State::kProposed), 0.0), Verdict::kNews);
+  EXPECT_EQ(table_.receive(promise({1, 2}, State::kProposed), 0.1), Verdict::kDuplicate);
+  EXPECT_EQ(table_.receive(promise({1, 1}, State::kProposed), 0.2), Verdict::kOld);
+  EXPECT_EQ(table_.receive(promise({1, 2}, State::kCommitted), 0.3), Verdict::kNews);
+  EXPECT_EQ(table_.receive(promise({1, 2}, State::kCommitted), 0.4), Verdict::kDuplicate);
+  EXPECT_EQ(table_.receive(promise({1, 2}, State::kProposed), 0.5), Verdict::kDuplicate);
+  EXPECT_EQ(table_.receive(promise({1, 1}, State::kCommitted), 0.6), Verdict::kOld);
+  EXPECT_EQ(peer().binding.newest().id, (PromiseId{1, 2}));
+  EXPECT_TRUE(peer().open.empty());
+  EXPECT_EQ(table_.duplicates(), 3);
+  EXPECT_EQ(table_.old_messages(), 2);
+  EXPECT_DOUBLE_EQ(peer().last_heard_s, 0.6);
+}
+
+TEST_F(PeerTableTest, AWithdrawalMayOvertakeItsProposal) {
+  EXPECT_EQ(table_.receive(promise({1, 1}, PromiseState::kWithdrawn), 0.0), Verdict::kNews);
+  EXPECT_EQ(table_.receive(promise({1, 1}, PromiseState::kProposed), 0.0), Verdict::kDuplicate);
+  EXPECT_EQ(table_.receive(promise({1, 1}, PromiseState::kWithdrawn), 0.0), Verdict::kDuplicate);
+  EXPECT_EQ(peer().unanswered(), nullptr);
+}
+
+TEST_F(PeerTableTest, AnOlderProposalStaysUntilItsFateIsKnown) {
+  table_.receive(promise({1, 1}, PromiseState::kProposed), 0.0);
+  table_.receive(promise({1, 2}, PromiseState::kProposed), 0.0);
+  EXPECT_EQ(peer().open.size(), 2u);
+  ASSERT_NE(peer().unanswered(), nullptr);
+  EXPECT_EQ(peer().unanswered()->id.sequence, 2u);
+
+  PeerTable replaced = table_;  // the first was replaced before it was binding
+  replaced.receive(beat(1, {{"a", {1, 2}, PromiseState::kProposed}}), 0.1);
+  ASSERT_EQ(replaced.peers().at("a").open.size(), 1u);
+  EXPECT_EQ(replaced.peers().at("a").open[0].id.sequence, 2u);
+  EXPECT_TRUE(replaced.peers().at("a").binding.empty());
+
+  table_.receive(beat(1, {{"a", {1, 1}, PromiseState::kCommitted},  // it became binding, unheard
+                          {"a", {1, 2}, PromiseState::kWithdrawn}}),
+                 0.1);
+  EXPECT_TRUE(peer().open.empty());
+  ASSERT_FALSE(peer().binding.empty());
+  EXPECT_EQ(peer().binding.newest().id.sequence, 1u);
+  EXPECT_EQ(peer().binding.newest().state, PromiseState::kCommitted);
+}
+
+TEST_F(PeerTableTest, ALateBeatChangesNothing) {
+  table_.receive(promise({1, 1}, PromiseState::kProposed), 0.0);
+  table_.receive(promise({1, 2}, PromiseState::kCommitted, 20.0), 0.0);
+  table_.receive(promise({1, 3}, PromiseState::kProposed, 30.0), 0.0);
+  table_.receive(beat(1, {{"a", {1, 1}, PromiseState::kCommitted}}), 0.1);
+  EXPECT_EQ(peer().binding.newest().id.sequence, 2u);
+  ASSERT_EQ(peer().open.size(), 2u);  // 1 may be in force until 2 starts
+  EXPECT_DOUBLE_EQ(peer().claim_of_open(peer().open[0]).until_s, 20.0);
+  table_.prune(20.0);
+  ASSERT_EQ(peer().open.size(), 0u);  // and 3 went with the silence
+}
+
+TEST_F(PeerTableTest, ReachIsByHeartbeat) {
+  table_.receive(promise({1, 1}, PromiseState::kCommitted), 5.0);
+  EXPECT_FALSE(table_.in_reach(peer(), 5.0));
+  table_.receive(beat(1), 5.0);
+  EXPECT_TRUE(table_.in_reach(peer(), 6.0));
+  EXPECT_FALSE(table_.in_reach(peer(), 6.01));
+  ASSERT_EQ(table_.seen(6.0).size(), 1u);
+  EXPECT_EQ(table_.seen(6.0)[0].id, (PromiseId{1, 1}));
+  EXPECT_TRUE(table_.seen(6.01).empty());
+  table_.prune(1000.0);
+  EXPECT_NEAR(peer().binding.position(1000.0).x(), 4.0, 1e-6);  // an obstacle at its last place
+}
+
+TEST_F(PeerTableTest, OfASilentPeerOnlyEndorsedProposalsStay) {
+  table_.receive(promise({1, 1}, PromiseState::kProposed), 0.0);
+  table_.endorse("a", peer().open[0]);
+  table_.receive(promise({1, 2}, PromiseState::kProposed), 0.0);
+  table_.prune(0.9);
+  EXPECT_EQ(peer().open.size(), 2u);
+  table_.prune(1.1);
+  ASSERT_EQ(peer().open.size(), 1u);
+  EXPECT_EQ(peer().open[0].id.sequence, 1u);
+}
+
+TEST_F(PeerTableTest, AHigherEpochMakesEverythingFormerOld) {
+  table_.receive(promise({1, 8}, PromiseState::kCommitted), 0.0);
+  table_.receive(promise({1, 9}, PromiseState::kProposed), 0.0);
+  table_.receive(beat(1, {{"me", {3, 4}, PromiseState::kProposed}}), 0.0);
+  ASSERT_TRUE(peer().of_us);
+  table_.receive(beat(2), 0.5);
+  EXPECT_FALSE(peer().of_us);
+  EXPECT_TRUE(peer().open.empty());
+  EXPECT_EQ(peer().binding.newest().id, (PromiseId{1, 8}));  // it has not vanished
+  EXPECT_EQ(table_.receive(promise({1, 10}, PromiseState::kCommitted), 0.6), Verdict::kOld);
+  EXPECT_EQ(table_.receive(beat(1), 0.6), Verdict::kOld);
+  EXPECT_TRUE(table_.seen(0.6).empty());
+  EXPECT_EQ(table_.receive(promise({2, 1}, PromiseState::kProposed, 11.0), 0.7), Verdict::kNews);
+  EXPECT_NE(peer().unanswered(), nullptr);
+  EXPECT_EQ(table_.receive(promise({2, 1}, PromiseState::kCommitted, 11.0), 0.8), Verdict::kNews);
+  EXPECT_EQ(peer().binding.newest().id, (PromiseId{2, 1}));
+}
+
+TEST_F(PeerTableTest, ReadsOnlyWhatConcernsThisEpochOfUs) {
+  table_.receive(
+      beat(1, {{"me", {2, 9}, PromiseState::kProposed}, {"you", {3, 9}, PromiseState::kProposed}}),
+      0.0);
+  EXPECT_FALSE(peer().of_us);
+  table_.receive(beat(1, {{"me", {3, 5}, PromiseState::kProposed}}), 0.0);
+  table_.receive(beat(1, {{"me", {3, 4}, PromiseState::kCommitted}}), 0.1);  // overtaken
+  ASSERT_TRUE(peer().of_us);
+  EXPECT_EQ(peer().of_us->id.sequence, 5u);
+}
+
+TEST(PeerTable, RefusesABadTimeout) {
+  EXPECT_THROW(PeerTable("me", 1, 0.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mocha
