@@ -1,0 +1,32 @@
+#pragma once
+
+namespace mocha {
+
+/// What the tracker does with the wheels.
+enum class TrackerMode {
+  kIdle,          ///< nothing was ever committed: zero
+  kTracking,      ///< follows the committed motion
+  kBraking,       ///< the lease expired: stops along the path
+  kErrorBraking,  ///< too far off, or blind without a lease: stops along the actual heading and
+                  ///< stays
+  kStale,         ///< the pose is too old: stops without feedback
+  kHolding,       ///< stands at the end of the motion
+};
+
+enum class TrackerEvent {
+  kAdopted,       ///< a new committed motion that fits the actual pose was taken up
+  kLeaseExpired,  ///< while the motion drives
+  kLeaseExpiredInTurn,
+  kStrayed,  ///< the tracking error is beyond its bound
+  kPoseLost,
+  kPoseBack,
+  kArrived,  ///< the motion has ended
+};
+
+/// The transition table. An event without an entry changes nothing.
+TrackerMode next_mode(TrackerMode mode, TrackerEvent event);
+
+/// For people: "tracking", "braking along the path" ...
+const char* to_text(TrackerMode mode);
+
+}  // namespace mocha

@@ -1,0 +1,217 @@
+#include "control/trajectory_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "trajectory/stopping.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kFirstStep_s = 0.02;
+constexpr double kLongestStep_s =
+    0.1;  // after a pause the wheels do not get more of a jump than this allows
+constexpr double kRestSpeed = 0.01;  // [m/s]
+
+template <typename... Values>
+std::string format(const char* pattern, Values... values) {
+  char text[200];
+  std::snprintf(text, sizeof(text), pattern, values...);
+  return text;
+}
+
+void require_positive(double value, const char* name) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  throw std::invalid_argument(
+      format("TrajectoryTracker: %s = %g, expected a positive number", name, value));
+}
+
+/// `current` until `next` begins, then `next`. Throws std::invalid_argument where the one does not
+/// lead to the other.
+Motion join(const Motion& current, const Motion& next, double t) {
+  double from = std::max(t, current.start_time());
+  for (std::size_t i = 0; i < current.phases().size(); ++i) {
+    const double begin = current.phase_start_time(static_cast<int>(i));
+    const double end = begin + duration_s(current.phases()[i]);
+    if (begin <= from && from < end) from = begin;  // turns in place cannot be cut
+  }
+  std::vector<Phase> phases = current.phases_between(from, next.start_time());
+  const double rest = next.start_time() - std::max(from, current.end_time());
+  if (rest > 0.0) phases.push_back(StandPhase{current.end_pose(), rest});
+  phases.insert(phases.end(), next.phases().begin(), next.phases().end());
+  return Motion(from, std::move(phases));
+}
+
+}  // namespace
+
+TrajectoryTracker::TrajectoryTracker(const TrackerParameters& parameters, const RobotModel& robot)
+    : parameters_(parameters),
+      max_position_error_m_(robot.margins.tracking_m),
+      lag_s_(robot.actuator_lag_s),
+      lead_s_(robot.actuator_lag_s + parameters.command_delay_s),
+      deceleration_(robot.limits.max_acceleration),
+      catch_up_acceleration_(robot.max_wheel_acceleration),
+      limiter_(robot) {
+  require_positive(max_position_error_m_, "margin_tracking");
+  require_positive(parameters.max_heading_error_rad, "max_heading_error");
+  require_positive(parameters.max_pose_age_s, "max_pose_age");
+  require_positive(parameters.gains.along, "along_gain");
+  require_positive(parameters.gains.across, "across_gain");
+  require_positive(parameters.gains.heading, "heading_gain");
+  require_positive(parameters.gains.max_bandwidth, "max_bandwidth");
+}
+
+void TrajectoryTracker::offer(const MotionId& id, Motion motion, double lease_end_s) {
+  const auto outdated = [&id](const Commitment& known) {
+    return !known.motion.empty() && known.id.epoch == id.epoch && known.id.sequence >= id.sequence;
+  };
+  if (outdated(active_) || (offer_ && outdated(*offer_))) return;
+  if (early_lease_ && early_lease_->id == id) lease_end_s = early_lease_->lease_end_s;
+  offer_ = Commitment{id, std::move(motion), lease_end_s};
+}
+
+void TrajectoryTracker::renew(const MotionId& id, double lease_end_s) {
+  if (offer_ && offer_->id == id) {
+    offer_->lease_end_s = lease_end_s;
+  } else if (!active_.motion.empty() && active_.id == id) {
+    active_.lease_end_s = lease_end_s;
+  } else {
+    early_lease_ = Commitment{id, Motion(), lease_end_s};
+  }
+}
+
+UnicycleState TrajectoryTracker::step(double t, const std::optional<RobotState>& state) {
+  const double dt =
+      last_step_s_ ? std::clamp(t - *last_step_s_, 0.0, kLongestStep_s) : kFirstStep_s;
+  last_step_s_ = t;
+  std::optional<Pose> pose;
+  if (state && std::abs(t - state->stamp_s) <= parameters_.max_pose_age_s)
+    pose = predict(*state, t);
+
+  if (offer_ && pose && offer_->lease_end_s > t) take_up_offer(t, *pose, state->twist.speed);
+  update_mode(t, pose);
+  switch (mode_) {
+    case TrackerMode::kIdle:
+      return limiter_.limit({0.0, 0.0}, dt);
+    case TrackerMode::kErrorBraking:
+      return limiter_.ramp_down_straight(dt);
+    case TrackerMode::kStale:
+      return limiter_.ramp_down(dt);
+    default:
+      return limiter_.limit(wanted(t, *pose), dt);
+  }
+}
+
+void TrajectoryTracker::take_up_offer(double t, const Pose& pose, double speed) {
+  Commitment next = *std::exchange(offer_, std::nullopt);
+  std::string why;
+  if (next.motion.start_time() > t) {
+    const double start_speed = next.motion.at(next.motion.start_time()).velocity.norm();
+    if (start_speed > kRestSpeed) {
+      why = format("it starts %.2f s from now, already at %.2f m/s", next.motion.start_time() - t,
+                   start_speed);
+    }
+    if (!active_.motion.empty()) {
+      try {
+        next.motion = join(active_.motion, next.motion, t);
+        why.clear();
+      } catch (const std::invalid_argument&) {
+        // Not a continuation: then it has to start from rest, where the robot stands.
+      }
+    }
+  }
+  const MotionState reference = next.motion.at(t);
+  const TrackingError error = tracking_error(pose, reference.pose);
+  if (why.empty()) why = misfit(error);
+  if (why.empty()) why = too_fast(error, speed, reference.speed);
+  if (!why.empty()) {
+    ++refused_;
+    refusal_ = format("motion %u/%u does not fit the robot: %s", next.id.epoch, next.id.sequence,
+                      why.c_str());
+    return;
+  }
+  active_ = std::move(next);
+  handle(TrackerEvent::kAdopted, t, "");
+}
+
+std::string TrajectoryTracker::misfit(const TrackingError& error) const {
+  if (error.position_m() > max_position_error_m_) {
+    return format("%.2f m off the path's pose (%.2f along, %.2f across), allowed %.2f m",
+                  error.position_m(), error.along_m, error.across_m, max_position_error_m_);
+  }
+  if (std::abs(error.heading_rad) > parameters_.max_heading_error_rad) {
+    return format("heading off by %.2f rad, allowed %.2f rad", error.heading_rad,
+                  parameters_.max_heading_error_rad);
+  }
+  return "";
+}
+
+/// A robot that first has to catch up in speed falls behind; this says so if it would fall out of
+/// the error bound.
+std::string TrajectoryTracker::too_fast(const TrackingError& error, double speed,
+                                        double wanted_speed) const {
+  const double gap = std::abs(wanted_speed - speed);
+  const double lost = gap * (lag_s_ + 0.5 * gap / catch_up_acceleration_);
+  if (error.position_m() + lost <= max_position_error_m_) return "";
+  return format("it moves at %.2f m/s, the robot at %.2f m/s", wanted_speed, speed);
+}
+
+/// At rest now and when a command of now takes effect.
+bool TrajectoryTracker::stands(double t) const {
+  return active_.motion.at(t).at_rest && active_.motion.at(t + lead_s_).at_rest;
+}
+
+void TrajectoryTracker::update_mode(double t, const std::optional<Pose>& pose) {
+  error_.reset();
+  if (active_.motion.empty()) return;
+  // Before the pose may come back: a robot that stopped blind does not set off under an expired
+  // lease.
+  if (t > active_.lease_end_s && !stands(t)) {
+    const bool turning = active_.motion.switch_time(t) != t;
+    handle(turning ? TrackerEvent::kLeaseExpiredInTurn : TrackerEvent::kLeaseExpired, t,
+           format("the lease ended %.2f s ago", t - active_.lease_end_s));
+  }
+  if (!pose) {
+    handle(TrackerEvent::kPoseLost, t, format("no pose for %.2f s", parameters_.max_pose_age_s));
+    return;
+  }
+  handle(TrackerEvent::kPoseBack, t, "");
+  error_ = tracking_error(*pose, active_.motion.at(t).pose);
+  const std::string strayed = misfit(*error_);
+  if (!strayed.empty()) handle(TrackerEvent::kStrayed, t, strayed);
+  if (t >= active_.motion.end_time()) handle(TrackerEvent::kArrived, t, stop_reason_);
+}
+
+void TrajectoryTracker::handle(TrackerEvent event, double t, const std::string& reason) {
+  const TrackerMode next = next_mode(mode_, event);
+  if (next == mode_) return;
+  if (next == TrackerMode::kBraking) {
+    active_.motion = Motion(t, brake_along(active_.motion, t, deceleration_));
+  }
+  mode_ = next;
+  stop_reason_ = reason;
+}
+
+UnicycleState TrajectoryTracker::wanted(double t, const Pose& pose) {
+  const MotionState reference = active_.motion.at(t);
+  if (stands(t)) {
+    return {0.0, settling_yaw_rate(wrap_angle(reference.pose.yaw_rad - pose.yaw_rad))};
+  }
+  settling_ = false;
+  const MotionState ahead = active_.motion.at(t + lead_s_);
+  return feedback(pose, reference.pose, {ahead.speed, ahead.yaw_rate}, parameters_.gains);
+}
+
+/// With a dead band, so that noise does not make a standing robot wiggle.
+double TrajectoryTracker::settling_yaw_rate(double heading_error_rad) {
+  const double size = std::abs(heading_error_rad);
+  settling_ =
+      size > (settling_ ? parameters_.gains.settle_stop_rad : parameters_.gains.settle_start_rad);
+  return settling_ ? parameters_.gains.heading * heading_error_rad : 0.0;
+}
+
+}  // namespace mocha

@@ -1,0 +1,56 @@
+#include "control/tracker_mode.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <utility>
+
+namespace mocha {
+namespace {
+
+using M = TrackerMode;
+using E = TrackerEvent;
+
+constexpr M kModes[] = {M::kIdle,         M::kTracking, M::kBraking,
+                        M::kErrorBraking, M::kStale,    M::kHolding};
+constexpr E kEvents[] = {E::kAdopted, E::kLeaseExpired, E::kLeaseExpiredInTurn,
+                         E::kStrayed, E::kPoseLost,     E::kPoseBack,
+                         E::kArrived};
+
+/// One row a mode, one column an event in the order of kEvents.
+const std::map<M, std::vector<M>> kTable = {
+    {M::kIdle, {M::kTracking, M::kIdle, M::kIdle, M::kIdle, M::kIdle, M::kIdle, M::kIdle}},
+    {M::kTracking,
+     {M::kTracking, M::kBraking, M::kErrorBraking, M::kErrorBraking, M::kStale, M::kTracking,
+      M::kHolding}},
+    {M::kBraking,
+     {M::kTracking, M::kBraking, M::kBraking, M::kErrorBraking, M::kStale, M::kBraking,
+      M::kHolding}},
+    {M::kErrorBraking,
+     {M::kTracking, M::kErrorBraking, M::kErrorBraking, M::kErrorBraking, M::kErrorBraking,
+      M::kErrorBraking, M::kErrorBraking}},
+    {M::kStale,
+     {M::kStale, M::kErrorBraking, M::kErrorBraking, M::kStale, M::kStale, M::kTracking,
+      M::kStale}},
+    {M::kHolding,
+     {M::kTracking, M::kHolding, M::kHolding, M::kErrorBraking, M::kStale, M::kHolding,
+      M::kHolding}},
+};
+
+TEST(TrackerMode, FollowsTheTable) {
+  for (const M mode : kModes) {
+    for (std::size_t i = 0; i < std::size(kEvents); ++i) {
+      EXPECT_EQ(next_mode(mode, kEvents[i]), kTable.at(mode)[i])
+          << to_text(mode) << ", event " << i;
+    }
+  }
+}
+
+TEST(TrackerMode, OnlyANewMotionEndsAStopOffThePath) {
+  for (const E event : kEvents) {
+    EXPECT_EQ(next_mode(M::kErrorBraking, event) != M::kErrorBraking, event == E::kAdopted);
+  }
+}
+
+}  // namespace
+}  // namespace mocha
