@@ -1,0 +1,120 @@
+#include "planning/drive_optimizer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "camouflage/camouflage_map.h"
+#include "camouflage/reference_point.h"
+#include "optimization/dynamics_penalty.h"
+#include "optimization/obstacle_penalty.h"
+#include "optimization/turning_penalty.h"
+#include "planning/speed_profile.h"
+#include "safety/margin_budget.h"
+
+namespace mocha {
+namespace {
+
+// Penalties let limits be exceeded a little; optimising for slightly less keeps the result inside
+// the true ones.
+constexpr double kShareOfSpeed = 0.97;
+constexpr double kShareOfAcceleration = 0.95;
+constexpr double kShareOfYawRate = 0.92;
+constexpr double kSoftSpeed =
+    0.05;  // [m/s] below which heading and turning fade out of the penalties
+
+/// Direction of the last stretch of about `length_m` of a path.
+Vector2 final_direction(const std::vector<Vector2>& path, double length_m) {
+  const Vector2 end = path.back();
+  for (auto point = path.rbegin() + 1; point != path.rend(); ++point) {
+    if ((end - *point).norm() >= length_m) return (end - *point).normalized();
+  }
+  return (end - path.front()).normalized();
+}
+
+double peer_distance_m(const RobotModel& robot) {
+  return robot.peer_clearance_m + MarginBudget::of(robot).peer_margin_m();
+}
+
+}  // namespace
+
+DriveOptimizer::DriveOptimizer(const RobotModel& robot, const PlannerRules& rules,
+                               double static_margin_m)
+    : robot_(robot), rules_(rules), static_margin_m_(static_margin_m) {}
+
+Effort raised(const Effort& effort, const Violation& violation) {
+  Effort more = effort;
+  const bool clearance = violation.term == ViolatedTerm::kClearance;
+  (clearance ? more.obstacle_weight : more.limit_weight) *= 20.0;
+  more.camouflage = effort.camouflage && effort.spacing == 1.0;
+  more.spacing = std::max(0.4, 0.7 * effort.spacing);
+  if (!more.camouflage) more.speed *= 0.8;
+  return more;
+}
+
+double DriveOptimizer::rest_acceleration() const { return 0.5 * robot_.limits.max_acceleration; }
+
+std::shared_ptr<const KnotMap<2>> DriveOptimizer::knot_map(const Eigen::Matrix2Xd& path,
+                                                           const ObstacleField<2>& field,
+                                                           bool camouflage) const {
+  const Eigen::Matrix2Xd prey = path.middleCols(1, path.cols() - 2);
+  if (camouflage) {
+    ReferenceRules reference_rules;
+    reference_rules.side_depth_m = rules_.knot_travel_m;
+    const auto references = choose_references(path, field, reference_rules);
+    if (references)
+      return std::make_shared<CamouflageMap<2>>(prey, *references, rules_.knot_travel_m);
+  }
+  return std::make_shared<WaypointMap<2>>(prey);
+}
+
+std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQuery& query,
+                                                                   const ObstacleField<2>& field,
+                                                                   const Effort& effort) const {
+  const MotionLimits& limits = robot_.limits;
+  std::vector<ObstaclePenalty<2>::Cover> cover;
+  for (const Footprint::CoverDisc& disc : robot_.footprint.cover()) {
+    cover.push_back({disc.offset_m, disc.radius_m + static_margin_m_ + rules_.soft_margin_m});
+  }
+  std::vector<std::unique_ptr<Penalty<2>>> penalties;
+  penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
+      rules_.weight_obstacle * effort.obstacle_weight, field, std::move(cover), kSoftSpeed));
+  penalties.push_back(std::make_unique<DynamicsPenalty<2>>(
+      rules_.weight_dynamics * effort.limit_weight, kShareOfSpeed * effort.speed * limits.max_speed,
+      kShareOfAcceleration * limits.max_acceleration));
+  penalties.push_back(std::make_unique<TurningPenalty>(rules_.weight_turning * effort.limit_weight,
+                                                       kShareOfYawRate * limits.max_yaw_rate,
+                                                       kSoftSpeed));
+  if (!query.peers.empty()) {
+    penalties.push_back(std::make_unique<MovingPenalty>(
+        rules_.weight_moving, query.start_time_s, robot_.footprint.circumscribed_radius_m(),
+        peer_distance_m(robot_) + rules_.peer_soft_margin_m, query.peers));
+  }
+  return penalties;
+}
+
+OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
+    const DriveQuery& query, const ObstacleField<2>& field, const Effort& effort,
+    const std::function<bool()>& should_stop) const {
+  MotionLimits limits = robot_.limits;
+  limits.max_speed *= effort.speed;
+  const InitialKnots knots = spread_knots(query.path, query.start.col(1).norm(), limits,
+                                          rules_.knot_spacing_m * effort.spacing);
+  const double a_max = robot_.limits.max_acceleration;
+  TrajectoryObjective<2, 3>::Setup setup;
+  setup.start = query.start;
+  setup.end.col(0) = query.path.back();
+  setup.end.col(1).setZero();
+  setup.end.col(2) = -rest_acceleration() * final_direction(query.path, 0.3);
+  setup.knot_map = knot_map(knots.path, field, effort.camouflage);
+  setup.effort_weight = rules_.weight_effort / (a_max * a_max);
+  setup.duration_cost = {rules_.weight_duration};
+  setup.penalties = penalties(query, field, effort);
+  setup.kappa = rules_.samples_per_piece;
+  TrajectoryObjective<2, 3> objective(std::move(setup));
+  OptimizerRules optimizer_rules;
+  optimizer_rules.max_evaluations = rules_.max_evaluations;
+  optimizer_rules.should_stop = should_stop;
+  return optimize<2, 3>(objective, objective.initial(knots.durations_s), optimizer_rules);
+}
+
+}  // namespace mocha

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "optimization/moving_penalty.h"
+#include "optimization/trajectory_optimizer.h"
+#include "planning/planner_rules.h"
+#include "safety/certificate.h"
+#include "world/obstacle_field.h"
+#include "world/robot_model.h"
+
+namespace mocha {
+
+/// A drive to be found: from a state of the base along a front-end path to rest at its end.
+struct DriveQuery {
+  std::vector<Vector2> path;  ///< at least two points; the first is the start's position
+  PlanarMinco::State start;   ///< position, velocity, acceleration
+  double start_time_s;        ///< absolute
+  std::vector<MovingPenalty::Other> peers;
+};
+
+/// How hard the optimiser tries to satisfy the constraints; raised step by step where a result is
+/// not certified.
+struct Effort {
+  bool camouflage = true;        ///< one variable a knot, else waypoints
+  double spacing = 1.0;          ///< of the knots, relative
+  double obstacle_weight = 1.0;  ///< relative
+  double limit_weight = 1.0;     ///< of speed, acceleration and yaw rate, relative
+  double speed = 1.0;            ///< relative to the robot's limit
+};
+
+/// More effort, where it is missing: against obstacles or against the limits of the robot.
+Effort raised(const Effort& effort, const Violation& violation);
+
+/// Turns front-end paths into smooth drives: MINCO through knots that camouflage moves (14).
+class DriveOptimizer {
+ public:
+  DriveOptimizer(const RobotModel& robot, const PlannerRules& rules, double static_margin_m);
+
+  /// `field` are the static obstacles. The result's curve is empty only if nothing finite was
+  /// found.
+  OptimizedTrajectory<2, 3> optimize_drive(const DriveQuery& query, const ObstacleField<2>& field,
+                                           const Effort& effort,
+                                           const std::function<bool()>& should_stop) const;
+
+  /// Acceleration [m/s^2] at which drives from rest begin and end, so that their heading there is
+  /// well defined.
+  double rest_acceleration() const;
+
+ private:
+  std::shared_ptr<const KnotMap<2>> knot_map(const Eigen::Matrix2Xd& path,
+                                             const ObstacleField<2>& field, bool camouflage) const;
+  std::vector<std::unique_ptr<Penalty<2>>> penalties(const DriveQuery& query,
+                                                     const ObstacleField<2>& field,
+                                                     const Effort& effort) const;
+
+  const RobotModel robot_;
+  const PlannerRules rules_;
+  const double static_margin_m_;
+};
+
+}  // namespace mocha

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "control/robot_state.h"
+
+namespace mocha {
+
+/// A place to be reached, with a heading where one is asked for. Map frame.
+struct Goal {
+  Vector2 position;
+  std::optional<double> yaw_rad;
+};
+
+struct GoalRules {
+  double tolerance_m;
+  double yaw_tolerance_rad;
+  double timeout_s;  ///< without progress
+};
+
+/// Goals to be visited in order: which one counts now, whether it is reached, whether anything
+/// still moves on.
+class GoalQueue {
+ public:
+  enum class Event { kNone, kReached, kAllReached, kTimedOut };
+
+  explicit GoalQueue(const GoalRules& rules) : rules_(rules) {}
+
+  /// Replaces all goals.
+  void set(std::deque<Goal> goals, double now_s);
+  void clear() { goals_.clear(); }
+  bool empty() const { return goals_.empty(); }
+  /// The goal that counts now; the queue must not be empty.
+  const Goal& current() const { return goals_.front(); }
+  /// The current goal turned out to be occupied; this place near by counts instead.
+  void move_current(const Vector2& position) { goals_.front().position = position; }
+  std::size_t remaining() const { return goals_.size(); }
+
+  /// Arrival is standing within the tolerances; then the next goal counts. Progress is coming
+  /// nearer to the goal than ever, or being half a metre away from where the last progress was.
+  /// After kAllReached and kTimedOut the queue is empty.
+  Event update(double now_s, const RobotState& state);
+
+ private:
+  void note_progress(double now_s, const Vector2& position);
+  void begin(double now_s);
+
+  GoalRules rules_;
+  std::deque<Goal> goals_;
+  double nearest_m_ = 0.0;
+  std::optional<Vector2> progress_at_;
+  double progress_s_ = 0.0;
+};
+
+}  // namespace mocha

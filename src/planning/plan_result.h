@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "optimization/trajectory_objective.h"
+#include "safety/certificate.h"
+#include "trajectory/motion.h"
+
+namespace mocha {
+
+/// Why planning ended as it did; the same list as in PlannerStatus.msg.
+enum class PlanReason {
+  kSolved = 0,
+  kNoGoal = 1,
+  kNoMap = 2,
+  kNoPose = 3,
+  kInvalidInput = 4,
+  kStartOccupied = 5,
+  kGoalOccupied = 6,
+  kNoPath = 7,
+  kNotCertified = 8,
+  kBudgetExhausted = 9,
+  kPeerConflict = 10,
+  kBraking = 11,
+  kBackingOut = 12
+};
+
+/// One way to the goal that was optimised, certified or not.
+struct PlanCandidate {
+  std::vector<int> signature;
+  PlanReason reason = PlanReason::kNotCertified;
+  Violation violation;  ///< where `reason` is kNotCertified
+  double cost = 0.0;
+  CostTerms terms;
+  int evaluations = 0;
+  Motion motion;
+  bool selected = false;
+};
+
+struct PlanResult {
+  PlanReason reason = PlanReason::kNoPath;
+  std::string message;  ///< the same for a human
+  Violation violation;
+  Motion motion;  ///< certified; empty unless solved or backing out
+  Vector2 goal =
+      Vector2::Zero();  ///< where it leads: the goal, or the nearest free place; valid where solved
+  std::vector<PlanCandidate> candidates;
+};
+
+}  // namespace mocha

@@ -1,0 +1,91 @@
+#include "planning/speed_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace mocha {
+namespace {
+
+constexpr double kStep_m = 0.05;              // of the sampled path
+constexpr double kShareOfAcceleration = 0.6;  // leaves room for the curve's own shape
+constexpr double kSlowest = 0.05;             // [m/s] of the profile, so that times stay finite
+
+std::vector<Vector2> resample(const std::vector<Vector2>& points) {
+  std::vector<Vector2> samples = {points.front()};
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Vector2 step = points[i] - points[i - 1];
+    const int parts = std::max(1, static_cast<int>(std::ceil(step.norm() / kStep_m)));
+    for (int k = 1; k <= parts; ++k) {
+      samples.push_back(points[i - 1] + step * (static_cast<double>(k) / parts));
+    }
+  }
+  return samples;
+}
+
+/// Speed allowed by the turn of the path over a window of about `window_m` around each sample.
+std::vector<double> corner_speeds(const std::vector<Vector2>& samples, const MotionLimits& limits,
+                                  double window_m) {
+  const int reach = std::max(1, static_cast<int>(0.5 * window_m / kStep_m));
+  const int last = static_cast<int>(samples.size()) - 1;
+  std::vector<double> speeds(samples.size(), limits.max_speed);
+  for (int i = 1; i < last; ++i) {
+    const Vector2 in = samples[i] - samples[std::max(0, i - reach)];
+    const Vector2 out = samples[std::min(last, i + reach)] - samples[i];
+    const double turn = std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
+    const double curvature = turn / (0.5 * (in.norm() + out.norm()) + 1e-9);
+    if (curvature < 1e-6) continue;
+    speeds[i] = std::min({speeds[i], limits.max_yaw_rate / curvature,
+                          std::sqrt(kShareOfAcceleration * limits.max_acceleration / curvature)});
+  }
+  return speeds;
+}
+
+/// Times at which the samples are reached, after limiting acceleration forward and deceleration
+/// backward.
+std::vector<double> arrival_times(const std::vector<Vector2>& samples, std::vector<double> speeds,
+                                  double start_speed, const MotionLimits& limits) {
+  const double gain = 2.0 * kShareOfAcceleration * limits.max_acceleration;
+  speeds.front() = std::min(speeds.front(), start_speed);
+  speeds.back() = 0.0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double step = (samples[i] - samples[i - 1]).norm();
+    speeds[i] = std::min(speeds[i], std::sqrt(speeds[i - 1] * speeds[i - 1] + gain * step));
+  }
+  for (std::size_t i = samples.size() - 1; i > 0; --i) {
+    const double step = (samples[i] - samples[i - 1]).norm();
+    speeds[i - 1] = std::min(speeds[i - 1], std::sqrt(speeds[i] * speeds[i] + gain * step));
+  }
+  std::vector<double> times = {0.0};
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double mean = std::max(kSlowest, 0.5 * (speeds[i] + speeds[i - 1]));
+    times.push_back(times.back() + (samples[i] - samples[i - 1]).norm() / mean);
+  }
+  return times;
+}
+
+}  // namespace
+
+InitialKnots spread_knots(const std::vector<Vector2>& points, double start_speed,
+                          const MotionLimits& limits, double spacing_m) {
+  if (points.size() < 2) throw std::invalid_argument("spread_knots: needs at least two points");
+  const std::vector<Vector2> samples = resample(points);
+  const std::vector<double> times =
+      arrival_times(samples, corner_speeds(samples, limits, spacing_m), start_speed, limits);
+  const double interval_s = spacing_m / limits.max_speed;
+  const int pieces = std::max(2, static_cast<int>(std::ceil(times.back() / interval_s)));
+  InitialKnots knots;
+  knots.path.resize(2, pieces + 1);
+  knots.durations_s.setConstant(pieces, std::max(1e-2, times.back() / pieces));
+  std::size_t i = 1;
+  for (int k = 0; k <= pieces; ++k) {
+    const double t = times.back() * k / pieces;
+    while (i + 1 < times.size() && times[i] < t) ++i;
+    const double span = times[i] - times[i - 1];
+    const double share = span > 0.0 ? std::clamp((t - times[i - 1]) / span, 0.0, 1.0) : 1.0;
+    knots.path.col(k) = samples[i - 1] + share * (samples[i] - samples[i - 1]);
+  }
+  return knots;
+}
+
+}  // namespace mocha

@@ -1,0 +1,214 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "fleet/promise_chain.h"
+#include "planning/global_planner.h"
+#include "planning/local_replanner.h"
+#include "planning/worlds.h"
+
+namespace mocha {
+
+inline LocalReplannerRules default_replanner_rules(const RobotModel& robot) {
+  LocalReplannerRules rules;
+  rules.settle_s = 0.3;
+  rules.emergency_s = 0.1;
+  rules.horizon_s = 4.0;
+  rules.extend_every_s = 1.0;
+  rules.answer_timeout_s = 0.6;
+  rules.max_error_m = 1.5 * robot.margins.tracking_m;
+  rules.max_error_rad = 0.5;
+  return rules;
+}
+
+/// The planners of one robot in simulated time, with a perfect tracker and a broadcaster that
+/// answers after 0.1 s and turns down a share of the proposals.
+class ClosedLoop {
+ public:
+  static constexpr double kStep_s = 0.1;
+  static constexpr double kLease_s = 0.5;
+  static constexpr double kPlanningTime_s = 0.5;
+
+  ClosedLoop(const RobotModel& robot, const OccupancyGrid& world, const Vector2& start,
+             const Vector2& goal)
+      : world(world),
+        goal(goal),
+        robot_(robot),
+        planner_(robot, default_rules()),
+        replanner_(robot, default_replanner_rules(robot)) {
+    pose_.position = start;
+  }
+
+  void step() {
+    now_s += kStep_s;
+    answer();
+    move();
+    const PromiseScene scene = this->scene();
+    plan(scene);
+    deliver_plan();
+    output = replanner_.step(now_s, state_, scene);
+    ++reasons[output.reason];
+    requested_ = requested_ || output.request_plan;
+    if (output.renew_lease) leased_until_s_ = now_s + kLease_s;
+    if (!output.proposal) return;
+    ++proposals;
+    emergencies += output.proposal->emergency;
+    waiting_.push_back(*output.proposal);
+  }
+
+  /// Until the robot stands at its goal; false if that takes too long.
+  bool run_to_goal(double longest_s) {
+    const double end_s = now_s + longest_s;
+    while (now_s < end_s) {
+      step();
+      if ((state_.pose.position - goal).norm() < 0.15 && state_.twist.speed < 0.01) return true;
+    }
+    return false;
+  }
+
+  void run(double time_s) {
+    for (const double end_s = now_s + time_s; now_s < end_s;) step();
+  }
+
+  const RobotState& state() const { return state_; }
+  const Motion& committed() const { return replanner_.committed(); }
+  bool standing() const {
+    return std::abs(state_.twist.speed) < 0.01 && std::abs(state_.twist.yaw_rate) < 0.01;
+  }
+
+  /// What the robot sees of the world, from where it is; all of it unless replaced.
+  std::function<OccupancyGrid(const Vector2&)> see = [this](const Vector2&) { return world; };
+
+  OccupancyGrid world;
+  Vector2 goal;
+  double refused_share = 0.0;
+  double planning_takes_s = 0.0;
+  bool answers = true;
+  Vector2 kidnapped = Vector2::Zero();  ///< [m] added to where the motion says that the robot is
+  std::vector<std::shared_ptr<const MovingObstacle>> others;
+
+  double now_s = 1.7e9;
+  LocalReplanner::Output output;
+  int proposals = 0;
+  int emergencies = 0;
+  int plans = 0;
+  int steps_without_lease = 0;  ///< while moving
+  double least_clearance_m = std::numeric_limits<double>::infinity();
+  double largest_jump_m =
+      0.0;  ///< between where the robot is and where its speed should have brought it
+  std::map<PlanReason, int> reasons;
+
+ private:
+  PromiseScene scene() {
+    const OccupancyGrid seen = see(state_.pose.position);
+    if (!scene_.obstacles || seen.cells != seen_.cells) {
+      seen_ = seen;
+      scene_ = {occupied_field(seen), unseen_field(seen), {}};
+    }
+    scene_.others = others;
+    return scene_;
+  }
+
+  /// Of the true footprint to the true world.
+  double clearance_m() {
+    if (!true_field_ || world.cells != true_cells_) {
+      true_cells_ = world.cells;
+      true_field_ = occupied_field(world);
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& disc : robot_.footprint.cover()) {
+      least =
+          std::min(least, true_field_->distance_bound(cover_centre(pose_, disc)) - disc.radius_m);
+    }
+    return least;
+  }
+
+  void answer() {
+    if (!answers) return;
+    std::vector<ProposedMotion> waiting;
+    waiting.swap(waiting_);
+    for (const ProposedMotion& proposal : waiting) {
+      if (!proposal.emergency &&
+          std::uniform_real_distribution<double>(0.0, 1.0)(random_) < refused_share) {
+        replanner_.on_refusal(proposal.sequence);
+        continue;
+      }
+      Promise promise;
+      promise.agent = "ugv1";
+      promise.motion = std::make_shared<const Motion>(proposal.motion);
+      chain_.bind(promise);
+      chain_.prune(now_s);
+      replanner_.set_committed(proposal.sequence, *chain_.composed(now_s));
+      leased_until_s_ = std::max(leased_until_s_, now_s + kLease_s);
+    }
+  }
+
+  void move() {
+    const Vector2 expected = predict(state_, now_s).position;
+    const bool moving = !standing();
+    if (!committed().empty()) {
+      const MotionState promised = committed().at(now_s);
+      pose_ = promised.pose;
+      state_.twist = {promised.speed, promised.yaw_rate};
+    }
+    state_.pose = pose_;
+    state_.pose.position += kidnapped;
+    state_.stamp_s = now_s;
+    if (plans > 0) largest_jump_m = std::max(largest_jump_m, (pose_.position - expected).norm());
+    steps_without_lease += moving && now_s > leased_until_s_;
+    least_clearance_m = std::min(least_clearance_m, clearance_m());
+  }
+
+  void plan(const PromiseScene& scene) {
+    if (committed().empty() || !plan_.empty()) return;
+    const bool has_plan = now_s < plan_end_s_ + 0.5;
+    const double wait_s = requested_ ? 0.2 : has_plan ? kForever_s : 0.5;
+    if (now_s < planned_s_ + wait_s - 1e-6) return;
+    PlanQuery query;
+    query.committed = committed();
+    query.start_time_s = committed().switch_time(now_s + kPlanningTime_s);
+    query.goal = goal;
+    const PlanResult result =
+        planner_.plan(query, {scene.obstacles, scene.others}, [] { return false; });
+    planned_s_ = now_s + planning_takes_s;
+    requested_ = false;
+    ++plans;
+    if (result.motion.empty()) return;
+    plan_end_s_ = result.motion.end_time();
+    plan_ = result.motion;
+    plan_ready_s_ = now_s + planning_takes_s;
+  }
+
+  void deliver_plan() {
+    if (plan_.empty() || now_s < plan_ready_s_) return;
+    replanner_.set_plan(plan_);
+    plan_ = Motion();
+  }
+
+  const RobotModel robot_;
+  GlobalPlanner planner_;
+  LocalReplanner replanner_;
+  PromiseChain chain_;
+  OccupancyGrid seen_;
+  PromiseScene scene_;
+  std::vector<int8_t> true_cells_;
+  std::shared_ptr<const DistanceField> true_field_;
+  RobotState state_;
+  Pose pose_;
+  std::vector<ProposedMotion> waiting_;
+  double leased_until_s_ = 0.0;
+  double planned_s_ = 0.0;
+  Motion plan_;  // made, but not ready yet
+  double plan_ready_s_ = 0.0;
+  double plan_end_s_ = 0.0;
+  bool requested_ = false;
+  std::mt19937 random_{11};
+};
+
+}  // namespace mocha

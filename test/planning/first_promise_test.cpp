@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include "planning/local_replanner.h"
+#include "planning/promise_builder.h"
+#include "planning/worlds.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kNow_s = 1.7e9;
+
+/// The first motion in force, a stand, begins only later than the next proposal is made. What is
+/// proposed still follows the plan at the plan's own times.
+TEST(FirstPromise, KeepsTheTimesOfThePlan) {
+  const RobotModel robot = rover();
+  const OccupancyGrid open = free_grid({-2.0, -3.0}, {12.0, 3.0});
+  const PromiseScene scene{occupied_field(open), unseen_field(open), {}};
+  const Motion plan = straight_drive(kNow_s + 0.5, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5);
+  LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.5});
+  replanner.set_committed(1, standing(kNow_s + 0.3, {0.0, 0.0}, 0.0));
+  replanner.set_plan(plan);
+
+  const RobotState here{kNow_s + 0.1, {{0.0, 0.0}, 0.0}, {0.0, 0.0}};
+  const auto output = replanner.step(kNow_s + 0.1, here, scene);
+  ASSERT_TRUE(output.proposal) << output.message;
+  const Motion& proposed = output.proposal->motion;
+  EXPECT_NEAR(proposed.start_time(), plan.start_time(), 1e-6);
+  EXPECT_LT(proposed.at(proposed.start_time()).velocity.norm(), 1e-6);
+  for (double t = kNow_s + 0.5; t < kNow_s + 4.0; t += 0.1) {
+    EXPECT_LT((proposed.at(t).pose.position - plan.at(t).pose.position).norm(), 1e-5) << t - kNow_s;
+  }
+}
+
+/// A broadcaster that was started again knows only what was settled since: a motion that begins
+/// ahead of the moving robot. Until then the robot is not off it.
+TEST(FirstPromise, IsNotHeldAgainstARobotThatIsOnItsWayThere) {
+  const RobotModel robot = rover();
+  const OccupancyGrid open = free_grid({-2.0, -3.0}, {12.0, 3.0});
+  const PromiseScene scene{occupied_field(open), unseen_field(open), {}};
+  const Motion plan = straight_drive(kNow_s, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5);
+  LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.5});
+  replanner.set_plan(plan);
+  replanner.set_committed(7, remainder(plan, kNow_s + 4.0));
+
+  const MotionState now = plan.at(kNow_s + 3.75);
+  const RobotState here{kNow_s + 3.75, now.pose, {now.speed, now.yaw_rate}};
+  ASSERT_GT(now.speed, 0.5);
+  const auto output = replanner.step(kNow_s + 3.75, here, scene);
+  EXPECT_FALSE(output.proposal && output.proposal->emergency) << output.message;
+  EXPECT_TRUE(output.renew_lease);
+}
+
+}  // namespace
+}  // namespace mocha

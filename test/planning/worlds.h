@@ -1,0 +1,55 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "config/parameter_table.h"
+#include "planning/planner_rules.h"
+#include "topology/grid_world.h"
+#include "trajectory/minco.h"
+#include "world/moving_obstacle.h"
+#include "world/robot_model.h"
+
+namespace mocha {
+
+constexpr double kForever_s = std::numeric_limits<double>::infinity();
+
+inline RobotModel rover() { return load_robot_model("config", "rover"); }
+inline RobotModel jackal() { return load_robot_model("config", "jackal"); }
+
+inline PlannerRules default_rules() {
+  return PlannerRules::from(ParameterTable::from_schema("config/global_planner.yaml"));
+}
+
+inline Motion standing(double start_s, const Vector2& position, double yaw_rad) {
+  return Motion(start_s, {StandPhase{{position, yaw_rad}, 0.1}});
+}
+
+/// Straight ahead from rest to rest at a trapezoidal profile, smoothed by MINCO.
+inline Motion straight_drive(double start_s, const Vector2& from, double yaw_rad, double length_m,
+                             double speed, double acceleration) {
+  const Vector2 ahead(std::cos(yaw_rad), std::sin(yaw_rad));
+  const double ramp_s = speed / acceleration;
+  const double cruise_s = std::max(0.2, length_m / speed - ramp_s);
+  Eigen::VectorXd durations(6);
+  durations << 0.5 * ramp_s, 0.5 * ramp_s, 0.5 * cruise_s, 0.5 * cruise_s, 0.5 * ramp_s,
+      0.5 * ramp_s;
+  const double ramp_m = 0.5 * speed * ramp_s;
+  const double whole_m = 2.0 * ramp_m + speed * cruise_s;
+  const double places[] = {0.25 * ramp_m, ramp_m, 0.5 * whole_m, whole_m - ramp_m,
+                           whole_m - 0.25 * ramp_m};
+  PlanarMinco::Knots knots(2, 5);
+  for (int k = 0; k < 5; ++k) knots.col(k) = from + ahead * places[k] * (length_m / whole_m);
+  PlanarMinco::State start;
+  PlanarMinco::State end;
+  start << from, Vector2::Zero(), 0.7 * acceleration * ahead;
+  end << from + length_m * ahead, Vector2::Zero(), -0.7 * acceleration * ahead;
+  PlanarMinco minco;
+  minco.resize(6);
+  minco.solve(start, end, knots, durations);
+  return Motion(start_s, {DrivePhase{1, minco.curve()}});
+}
+
+}  // namespace mocha
