@@ -1,0 +1,250 @@
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/Twist.h>
+#include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <cmath>
+#include <exception>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ros/lockstep.h"
+#include "ros/parameters.h"
+#include "ros/simulation_messages.h"
+#include "ros/world_markers.h"
+#include "simulation/world_simulator.h"
+
+namespace mocha {
+namespace {
+
+const ros::Time kStart(1.0);  // never 0, which ROS takes for "no time yet"
+constexpr double kTruthPeriod_s = 0.02;
+constexpr double kMarkerPeriod_s = 0.1;
+constexpr double kDiagnosticsPeriod_s = 1.0;  // wall time
+
+AckRoster lockstep_roster(const World& world, const std::string& nodes) {
+  AckRoster roster;
+  for (const WorldRobot& robot : world.robots) {
+    std::istringstream list(nodes);
+    for (std::string node; std::getline(list, node, ',');) {
+      node.erase(0, node.find_first_not_of(' '));
+      node.erase(node.find_last_not_of(' ') + 1);
+      if (node.empty()) continue;
+      std::string fault;
+      if (!ros::names::validate(node, fault)) {
+        throw ParameterError("parameter `lockstep_nodes`: `" + node +
+                             "` is no node's name: " + fault);
+      }
+      roster.expect(robot.name, node);
+    }
+  }
+  return roster;
+}
+
+World load_fleet(const ParameterTable& values) {
+  const std::string& path = values.text("world");
+  if (path.empty()) throw ParameterError("parameter `world` is not set: no world file");
+  World world = load_world(path, config_path(""));
+  if (world.robots.empty()) throw WorldError(path + ": robots: there are none");
+  return world;
+}
+
+/// True once every period of simulated time.
+class Due {
+ public:
+  explicit Due(double period_s) : period_(period_s) {}
+  bool at(ros::Time now) {
+    if (now < next_) return false;
+    while (next_ <= now) next_ = next_.isZero() ? now + period_ : next_ + period_;
+    return true;
+  }
+
+ private:
+  ros::Duration period_;
+  ros::Time next_;
+};
+
+/// Simulated seconds per wall second: bounded above, and measured.
+class Pace {
+ public:
+  /// `rate` 0: no bound.
+  explicit Pace(double rate) : rate_(rate) {}
+
+  /// Serves callbacks until the next step may begin. A step that came late does not make the
+  /// following ones hurry.
+  void wait(double step_s) {
+    if (rate_ == 0.0) return;
+    next_ = std::max(next_ + ros::WallDuration(step_s / rate_), ros::WallTime::now());
+    serve_until(next_, [] { return false; });
+  }
+
+  /// Since the last call.
+  double measured(ros::Time now) {
+    const ros::WallTime wall = ros::WallTime::now();
+    const double factor = (now - last_).toSec() / (wall - last_wall_).toSec();
+    last_ = now;
+    last_wall_ = wall;
+    return factor;
+  }
+
+ private:
+  double rate_;
+  ros::WallTime next_ = ros::WallTime::now();
+  ros::Time last_ = kStart;
+  ros::WallTime last_wall_ = ros::WallTime::now();
+};
+
+/// The fleet's world: velocity commands in, clock, sensors and the truth out.
+class FleetSimulatorNode {
+ public:
+  FleetSimulatorNode(ros::NodeHandle& node, const ParameterTable& values)
+      : step_(values.number("step")),
+        publish_map_to_odom_(values.flag("publish_map_to_odom")),
+        simulator_(load_fleet(values), kStart.toSec(), values.integer("seed")),
+        pace_(values.number("rate")),
+        lockstep_(node, lockstep_roster(simulator_.world(), values.text("lockstep_nodes")),
+                  ros::WallDuration(values.number("start_timeout")),
+                  ros::WallDuration(values.number("ack_timeout"))),
+        truth_(node.advertise<mocha_ugv::GroundTruth>("/fleet_simulator/ground_truth", 100)),
+        contacts_(node.advertise<mocha_ugv::Contact>("/fleet_simulator/contacts", 100)),
+        markers_(
+            node.advertise<visualization_msgs::MarkerArray>("/fleet_simulator/world", 1, true)),
+        moving_markers_(
+            node.advertise<visualization_msgs::MarkerArray>("/fleet_simulator/moving_markers", 10)),
+        diagnostics_timer_(node.createWallTimer(ros::WallDuration(kDiagnosticsPeriod_s),
+                                                &FleetSimulatorNode::on_diagnostics, this)) {
+    std::vector<geometry_msgs::TransformStamped> mounts;
+    for (std::size_t i = 0; i < simulator_.robots().size(); ++i) {
+      connect(node, i);
+      mounts.push_back(base_to_laser(simulator_.robots()[i]));
+    }
+    static_transforms_.sendTransform(mounts);
+    markers_.publish(world_markers(simulator_.world()));
+    diagnostics_.setHardwareID("simulation");
+    diagnostics_.add("simulation", this, &FleetSimulatorNode::diagnose);
+  }
+
+  void run() {
+    lockstep_.await_nodes(now_);
+    while (ros::ok()) {
+      pace_.wait(step_.toSec());
+      now_ += step_;
+      ++steps_;
+      publish(simulator_.step_to(now_.toSec()));
+      lockstep_.announce(now_);
+    }
+  }
+
+ private:
+  struct Channel {
+    ros::Publisher odometry;
+    ros::Publisher scan;
+    ros::Subscriber commands;
+  };
+
+  void connect(ros::NodeHandle& node, std::size_t robot) {
+    const std::string root = "/" + simulator_.robots()[robot].setup.name;
+    const boost::function<void(const geometry_msgs::TwistConstPtr&)> on_command =
+        [this, robot](const geometry_msgs::TwistConstPtr& twist) { command(robot, *twist); };
+    channels_.push_back(
+        {node.advertise<nav_msgs::Odometry>(root + "/odom", 50),
+         node.advertise<sensor_msgs::LaserScan>(root + "/scan", 20),
+         node.subscribe<geometry_msgs::Twist>(root + "/cmd_vel", 1, on_command, ros::VoidPtr(),
+                                              ros::TransportHints().tcpNoDelay())});
+  }
+
+  void command(std::size_t robot, const geometry_msgs::Twist& twist) {
+    if (std::isfinite(twist.linear.x) && std::isfinite(twist.angular.z)) {
+      simulator_.command(static_cast<int>(robot), {twist.linear.x, twist.angular.z});
+      return;
+    }
+    ++refused_commands_;
+    ROS_WARN_THROTTLE(1.0, "Refused a command for %s that is not finite",
+                      simulator_.robots()[robot].setup.name.c_str());
+  }
+
+  void publish(const WorldSimulator::StepResult& result) {
+    std::vector<geometry_msgs::TransformStamped> transforms;
+    for (std::size_t i = 0; i < channels_.size(); ++i) {
+      const SimulatedRobot& robot = simulator_.robots()[i];
+      transforms.push_back(odom_to_base(robot, now_));
+      if (publish_map_to_odom_) transforms.push_back(map_to_odom(robot, now_));
+      channels_[i].odometry.publish(odometry_message(robot, now_));
+    }
+    transforms_.sendTransform(transforms);
+    for (const auto& [robot, scan] : result.scans) {
+      channels_[robot].scan.publish(scan_message(simulator_.robots()[robot], scan));
+    }
+    for (const ContactEvent& contact : result.contacts) report(contact);
+    if (truth_due_.at(now_)) truth_.publish(ground_truth_message(simulator_, now_));
+    if (markers_due_.at(now_)) moving_markers_.publish(moving_markers(simulator_));
+  }
+
+  void report(const ContactEvent& contact) {
+    ROS_WARN("Contact at %.2f s: %s with %s at (%.2f, %.2f), %.3f m deep", now_.toSec(),
+             contact.robot.c_str(), contact.other.c_str(), contact.place.x(), contact.place.y(),
+             contact.depth_m);
+    contacts_.publish(contact_message(contact, now_));
+  }
+
+  void on_diagnostics(const ros::WallTimerEvent&) { diagnostics_.force_update(); }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    status.summary(DiagnosticStatus::OK, steps_ == 0 ? "waiting for nodes" : "running");
+    std::string missing;
+    for (const std::string& name : lockstep_.missing())
+      missing += (missing.empty() ? "" : ", ") + name;
+    if (refused_commands_ > 0) {
+      status.mergeSummary(DiagnosticStatus::WARN, "commands were refused: not finite");
+    }
+    if (!missing.empty()) status.mergeSummary(DiagnosticStatus::WARN, "missing: " + missing);
+    status.add("time [s]", now_.toSec());
+    status.add("steps", steps_);
+    status.add("real-time factor", pace_.measured(now_));
+    status.add("missing nodes", missing);
+    status.add("refused commands", refused_commands_);
+  }
+
+  ros::Duration step_;
+  bool publish_map_to_odom_;
+  WorldSimulator simulator_;
+  Pace pace_;
+  Lockstep lockstep_;
+  ros::Publisher truth_;
+  ros::Publisher contacts_;
+  ros::Publisher markers_;
+  ros::Publisher moving_markers_;
+  ros::WallTimer diagnostics_timer_;
+  std::vector<Channel> channels_;
+  tf2_ros::TransformBroadcaster transforms_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+  diagnostic_updater::Updater diagnostics_;
+  Due truth_due_{kTruthPeriod_s};
+  Due markers_due_{kMarkerPeriod_s};
+  ros::Time now_ = kStart;
+  long steps_ = 0;
+  long refused_commands_ = 0;
+};
+
+}  // namespace
+}  // namespace mocha
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "fleet_simulator");
+  ros::NodeHandle node;
+  try {
+    const auto values = mocha::read_parameters(ros::NodeHandle("~"), "fleet_simulator");
+    if (!ros::Time::isSimTime()) {
+      ROS_WARN("/use_sim_time is not true: other nodes will not follow the simulator's clock");
+    }
+    mocha::FleetSimulatorNode(node, values).run();
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,347 @@
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <mocha_ugv/Candidates.h>
+#include <mocha_ugv/PlanTrajectory.h>
+#include <mocha_ugv/PlannerStatus.h>
+#include <mocha_ugv/Trajectory.h>
+#include <nav_msgs/Path.h>
+#include <ros/ros.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "planning/driven_trail.h"
+#include "planning/global_planner.h"
+#include "planning/goal_queue.h"
+#include "ros/conversions.h"
+#include "ros/goal_inputs.h"
+#include "ros/map_source.h"
+#include "ros/markers.h"
+#include "ros/parameters.h"
+#include "ros/peer_source.h"
+#include "ros/pose_source.h"
+#include "ros/robot_identity.h"
+#include "ros/run_node.h"
+#include "ros/status_conversions.h"
+#include "ros/step_loop.h"
+#include "trajectory/stopping.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kMapBorder_m = 3.0;
+constexpr double kSoonest_s = 0.2;   // between two plans, whoever asks
+constexpr double kPathStep_s = 0.1;  // of what is drawn
+constexpr double kAfterEnd_s = 0.5;  // a plan that ended this long ago without arrival has failed
+
+/// Finds the way: goals and maps in, plans out.
+class GlobalPlannerNode {
+ public:
+  GlobalPlannerNode(ros::NodeHandle& node, const ParameterTable& values)
+      : identity_(robot_identity()),
+        model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        values_(values),
+        planner_(model_, PlannerRules::from(values)),
+        goals_({values.number("goal_tolerance"), values.number("goal_yaw_tolerance"),
+                values.number("goal_timeout")}),
+        pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
+        map_(node, identity_.map_frame),
+        peers_(node, identity_.name, identity_.map_frame),
+        plans_(node.advertise<mocha_ugv::Trajectory>("global_trajectory", 2, true)),
+        candidates_(node.advertise<mocha_ugv::Candidates>("candidates", 2, true)),
+        statuses_(node.advertise<mocha_ugv::PlannerStatus>("planner_status", 10, true)),
+        paths_(node.advertise<nav_msgs::Path>("global_path", 2, true)),
+        drawings_(node.advertise<visualization_msgs::MarkerArray>("planner_markers", 2, true)),
+        commitments_(
+            node.subscribe("committed_trajectory", 10, &GlobalPlannerNode::on_committed, this)),
+        requests_(node.subscribe("replan_request", 10, &GlobalPlannerNode::on_request, this)),
+        service_(node.advertiseService("plan", &GlobalPlannerNode::on_plan_service, this)),
+        inputs_(node, identity_, pose_.transforms(),
+                {[this](std::deque<Goal> goals) { take(std::move(goals)); },
+                 [this](const std::string& why) { stop(why); }}),
+        loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }) {
+    diagnostics_.setHardwareID(identity_.name);
+    diagnostics_.add("planning", this, &GlobalPlannerNode::diagnose);
+  }
+
+ private:
+  // --- what comes in ---
+
+  void on_committed(const mocha_ugv::Trajectory& message) {
+    try {
+      committed_ = from_message(message);
+    } catch (const std::exception& error) {
+      ++refused_messages_;
+      ROS_WARN_THROTTLE(1.0, "%s: refused a message on committed_trajectory: %s",
+                        identity_.name.c_str(), error.what());
+    }
+  }
+
+  void on_request(const mocha_ugv::PlannerStatus& status) {
+    requested_ = true;
+    request_ = status.message;
+  }
+
+  void take(std::deque<Goal> goals) {
+    goals_.set(std::move(goals), now_.toSec());
+    begin_goal();
+  }
+
+  void begin_goal() {
+    plan_ = Motion();
+    goal_is_new_ = true;
+    occupied_since_.reset();
+  }
+
+  // --- what happens when ---
+
+  void step(ros::Time now) {
+    now_ = now;
+    diagnostics_.update();
+    const PoseReading reading = pose_.read(now);
+    if (!reading.state) {
+      if (!goals_.empty()) report(PlanReason::kNoPose, {}, reading.missing);
+      return;
+    }
+    trail_.add(*reading.state);
+    if (goals_.empty()) return;
+    inputs_.feedback(*reading.state, now);
+    switch (goals_.update(now.toSec(), *reading.state)) {
+      case GoalQueue::Event::kAllReached:
+        ROS_INFO("%s: reached its goal", identity_.name.c_str());
+        inputs_.finish(true, "reached");
+        return;
+      case GoalQueue::Event::kReached:
+        begin_goal();
+        break;
+      case GoalQueue::Event::kTimedOut:
+        inputs_.finish(false, "no progress; last: " + text_);
+        stop("no progress towards the goal");
+        return;
+      case GoalQueue::Event::kNone:
+        break;
+    }
+    if (due()) plan();
+  }
+
+  bool due() const {
+    const double since_s = (now_ - planned_at_).toSec();
+    if (goal_is_new_) return true;
+    if (requested_) return since_s >= kSoonest_s;
+    const bool has_plan = !plan_.empty() && now_.toSec() < plan_.end_time() + kAfterEnd_s;
+    return since_s >= values_.number(has_plan ? "replan_period" : "retry_period");
+  }
+
+  void plan() {
+    if (!map_.available()) {
+      report(PlanReason::kNoMap, {}, "no map on " + ros::names::resolve("map") + " yet");
+      return;
+    }
+    if (committed_.empty()) {
+      report(PlanReason::kNoPose, {}, "nothing is committed yet that a plan could start from");
+      return;
+    }
+    const PlanQuery query = query_to(goals_.current());
+    const PlanResult result = planner_.plan(query, scene(query), [] { return false; });
+    const bool improvement = !goal_is_new_ && !requested_ && !plan_.empty() &&
+                             now_.toSec() < plan_.end_time() + kAfterEnd_s;
+    planned_at_ = now_;
+    requested_ = false;
+    ++plans_made_;
+    publish_candidates(result);
+    if (result.motion.empty()) {
+      report(result.reason, result.violation, result.message);
+      give_up_where_occupied(result);
+      return;
+    }
+    if (improvement && !much_better(result.motion)) return;
+    goal_is_new_ = false;
+    occupied_since_.reset();
+    report(result.reason, result.violation, result.message);
+    if (result.reason == PlanReason::kSolved) goals_.move_current(result.goal);
+    adopt(result.motion);
+  }
+
+  PlanningScene scene(const PlanQuery& query) {
+    PlanningScene scene;
+    const Vector2 start = query.committed.at(query.start_time_s).pose.position;
+    scene.obstacles =
+        map_.field(DistanceField::Solid::kOccupied, {start, query.goal}, kMapBorder_m);
+    scene.peers = peers_.obstacles();
+    return scene;
+  }
+
+  bool much_better(const Motion& motion) const {
+    const double remaining_s = plan_.end_time() - now_.toSec();
+    return motion.end_time() < plan_.end_time() - values_.number("better_by") * remaining_s;
+  }
+
+  void give_up_where_occupied(const PlanResult& result) {
+    goal_is_new_ = false;
+    if (result.reason != PlanReason::kGoalOccupied) {
+      occupied_since_.reset();
+      return;
+    }
+    if (!occupied_since_) occupied_since_ = now_;
+    if ((now_ - *occupied_since_).toSec() < values_.number("occupied_goal_timeout")) return;
+    inputs_.finish(false, result.message);
+    stop(result.message);
+  }
+
+  void stop(const std::string& why) {
+    ROS_INFO("%s: stops: %s", identity_.name.c_str(), why.c_str());
+    goals_.clear();
+    if (committed_.empty()) return;
+    const double from_s = committed_.switch_time(now_.toSec() + values_.number("planning_time"));
+    adopt(Motion(from_s, brake_along(committed_, from_s, 0.6 * model_.limits.max_acceleration)));
+  }
+
+  bool on_plan_service(mocha_ugv::PlanTrajectory::Request& request,
+                       mocha_ugv::PlanTrajectory::Response& response) {
+    const PlanResult result = plan_for(request);
+    response.success = result.reason == PlanReason::kSolved;
+    response.status =
+        to_message(result.reason, result.violation, result.message, identity_.map_frame, now_);
+    if (!result.motion.empty()) response.trajectory = planned(result.motion);
+    for (const auto& candidate : result.candidates) {
+      response.candidates.push_back(to_message(candidate, identity_.map_frame, now_));
+    }
+    return true;
+  }
+
+  PlanResult plan_for(const mocha_ugv::PlanTrajectory::Request& request) {
+    PlanResult refusal;
+    refusal.reason = PlanReason::kInvalidInput;
+    const bool from_here = request.start.header.frame_id.empty();
+    const auto goal = inputs_.to_goal(request.goal);
+    const auto start = from_here ? std::nullopt : inputs_.to_goal(request.start);
+    if (!goal || (!from_here && !start)) {
+      refusal.message = "start or goal is not usable: " + inputs_.refusal();
+      return refusal;
+    }
+    if (!map_.available() || (from_here && committed_.empty())) {
+      refusal.reason = map_.available() ? PlanReason::kNoPose : PlanReason::kNoMap;
+      refusal.message = map_.available() ? "the robot's state is not known yet" : "no map yet";
+      return refusal;
+    }
+    PlanQuery query = query_to(*goal);
+    if (start) {
+      query.start_time_s = now_.toSec();
+      query.committed =
+          Motion(now_.toSec(), {StandPhase{{start->position, start->yaw_rad.value_or(0.0)}, 0.1}});
+      query.trail.clear();
+    }
+    return planner_.plan(query, scene(query), [] { return false; });
+  }
+
+  PlanQuery query_to(const Goal& goal) const {
+    PlanQuery query;
+    query.committed = committed_;
+    query.start_time_s = committed_.switch_time(now_.toSec() + values_.number("planning_time"));
+    query.goal = goal.position;
+    query.goal_yaw_rad = goal.yaw_rad;
+    query.trail = trail_.points();
+    return query;
+  }
+
+  // --- what goes out ---
+
+  mocha_ugv::Trajectory planned(const Motion& motion) const {
+    mocha_ugv::Trajectory message;
+    message.header.stamp = now_;
+    message.header.frame_id = identity_.map_frame;
+    message.state = mocha_ugv::Trajectory::PLANNED;
+    message.agent = identity_.name;
+    message.sequence = adopted_;
+    message.footprint_radius = model_.footprint.circumscribed_radius_m();
+    to_message(motion, message);
+    return message;
+  }
+
+  void adopt(const Motion& motion) {
+    plan_ = motion;
+    ++adopted_;
+    plans_.publish(planned(motion));
+    paths_.publish(to_path(motion, identity_.map_frame, kPathStep_s));
+  }
+
+  void publish_candidates(const PlanResult& result) {
+    mocha_ugv::Candidates message;
+    message.header.stamp = now_;
+    message.header.frame_id = identity_.map_frame;
+    Drawing drawing(identity_.map_frame, now_);
+    for (const PlanCandidate& candidate : result.candidates) {
+      message.candidates.push_back(to_message(candidate, identity_.map_frame, now_));
+      drawing.add_candidate("candidates", candidate.motion, model_.limits.max_speed, candidate.cost,
+                            candidate.selected);
+    }
+    drawing.add_goal(identity_.name, goals_.current().position, goals_.current().yaw_rad);
+    candidates_.publish(message);
+    drawings_.publish(drawing.markers());
+  }
+
+  void report(PlanReason reason, const Violation& violation, const std::string& text) {
+    const bool news = reason != reason_ || text != text_;
+    reason_ = reason;
+    text_ = text;
+    statuses_.publish(to_message(reason, violation, text, identity_.map_frame, now_));
+    if (news && reason != PlanReason::kSolved) {
+      ROS_WARN_THROTTLE(2.0, "%s: %s: %s", identity_.name.c_str(), to_text(reason), text.c_str());
+    }
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    const bool fine = goals_.empty() || reason_ == PlanReason::kSolved;
+    status.summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                   goals_.empty() ? "no goal" : std::string(to_text(reason_)) + ": " + text_);
+    status.add("plans made", plans_made_);
+    status.add("plans adopted", adopted_);
+    status.add("last request", request_);
+    status.add("messages refused", refused_messages_ + inputs_.refused() + map_.refused() +
+                                       peers_.refused() + pose_.refused());
+  }
+
+  const RobotIdentity identity_;
+  const RobotModel model_;
+  const ParameterTable values_;
+  const GlobalPlanner planner_;
+  GoalQueue goals_;
+  DrivenTrail trail_;
+  PoseSource pose_;
+  MapSource map_;
+  PeerSource peers_;
+  Motion committed_;
+  Motion plan_;
+  ros::Time now_;
+  ros::Time planned_at_;
+  bool goal_is_new_ = false;
+  bool requested_ = false;
+  std::optional<ros::Time> occupied_since_;
+  std::string request_;
+  std::uint32_t adopted_ = 0;
+  int plans_made_ = 0;
+  int refused_messages_ = 0;
+  PlanReason reason_ = PlanReason::kNoGoal;
+  std::string text_;
+  ros::Publisher plans_;
+  ros::Publisher candidates_;
+  ros::Publisher statuses_;
+  ros::Publisher paths_;
+  ros::Publisher drawings_;
+  ros::Subscriber commitments_;
+  ros::Subscriber requests_;
+  ros::ServiceServer service_;
+  diagnostic_updater::Updater diagnostics_;
+  GoalInputs inputs_;
+  StepLoop loop_;
+};
+
+}  // namespace
+}  // namespace mocha
+
+int main(int argc, char** argv) {
+  return mocha::run_node<mocha::GlobalPlannerNode>(argc, argv, "global_planner");
+}

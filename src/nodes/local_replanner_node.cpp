@@ -1,0 +1,228 @@
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <mocha_ugv/Lease.h>
+#include <mocha_ugv/PlannerStatus.h>
+#include <mocha_ugv/Trajectory.h>
+#include <ros/ros.h>
+
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "planning/local_replanner.h"
+#include "ros/conversions.h"
+#include "ros/map_source.h"
+#include "ros/parameters.h"
+#include "ros/peer_source.h"
+#include "ros/pose_source.h"
+#include "ros/robot_identity.h"
+#include "ros/run_node.h"
+#include "ros/status_conversions.h"
+#include "ros/step_loop.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kMapBorder_m = 2.0;
+
+std::string seconds(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2f s", value);
+  return text;
+}
+
+LocalReplannerRules replanner_rules(const ParameterTable& values, const RobotModel& robot) {
+  LocalReplannerRules rules;
+  rules.settle_s = values.number("settle_time");
+  rules.emergency_s = values.number("emergency_time");
+  rules.horizon_s = values.number("horizon");
+  rules.extend_every_s = values.number("extend_every");
+  rules.answer_timeout_s = values.number("answer_timeout");
+  // The tracker brakes at e_track; a little later the promise itself is given up.
+  rules.max_error_m = 1.5 * robot.margins.tracking_m;
+  rules.max_error_rad = values.number("max_heading_error");
+  return rules;
+}
+
+/// Promises what the global planner planned: plans in, proposals and leases out.
+class LocalReplannerNode {
+ public:
+  LocalReplannerNode(ros::NodeHandle& node, const ParameterTable& values)
+      : identity_(robot_identity()),
+        model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        lease_(values.number("lease")),
+        max_map_age_s_(values.number("max_map_age")),
+        max_fleet_age_s_(values.number("max_fleet_age")),
+        replanner_(model_, replanner_rules(values, model_)),
+        pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
+        map_(node, identity_.map_frame),
+        peers_(node, identity_.name, identity_.map_frame),
+        proposals_(node.advertise<mocha_ugv::Trajectory>("proposed_trajectory", 10)),
+        leases_(node.advertise<mocha_ugv::Lease>("lease", 10)),
+        requests_(node.advertise<mocha_ugv::PlannerStatus>("replan_request", 10)),
+        statuses_(node.advertise<mocha_ugv::PlannerStatus>("replanner_status", 10, true)),
+        plans_(node.subscribe("global_trajectory", 2, &LocalReplannerNode::on_plan, this)),
+        commitments_(
+            node.subscribe("committed_trajectory", 10, &LocalReplannerNode::on_committed, this)),
+        settlements_(node.subscribe("settlement", 10, &LocalReplannerNode::on_settlement, this)),
+        loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }) {
+    diagnostics_.setHardwareID(identity_.name);
+    diagnostics_.add("promises", this, &LocalReplannerNode::diagnose);
+  }
+
+ private:
+  void on_plan(const mocha_ugv::Trajectory& message) {
+    try {
+      replanner_.set_plan(message.phases.empty() ? Motion() : from_message(message));
+    } catch (const std::exception& error) {
+      refuse("global_trajectory", error.what());
+    }
+  }
+
+  void on_committed(const mocha_ugv::Trajectory& message) {
+    try {
+      replanner_.set_committed(message.sequence, from_message(message));
+      epoch_ = message.epoch;
+      committed_sequence_ = message.sequence;
+    } catch (const std::exception& error) {
+      refuse("committed_trajectory", error.what());
+    }
+  }
+
+  void on_settlement(const mocha_ugv::PlannerStatus& status) {
+    if (status.reason == mocha_ugv::PlannerStatus::SOLVED) return;
+    replanner_.on_refusal(proposed_sequence_);
+    last_refusal_ = status.message;
+    ++refused_proposals_;
+  }
+
+  void refuse(const std::string& topic, const std::string& why) {
+    ++refused_messages_;
+    ROS_WARN_THROTTLE(1.0, "Refused a message on %s: %s", topic.c_str(), why.c_str());
+  }
+
+  void step(ros::Time now) {
+    diagnostics_.update();
+    const PoseReading reading = pose_.read(now);
+    const auto [reason, missing] = what_is_missing(now, reading);
+    if (reason != PlanReason::kSolved) {
+      report(now, reason, {}, missing);
+      return;
+    }
+    const Vector2 here = reading.state->pose.position;
+    PromiseScene scene;
+    scene.obstacles = map_.field(DistanceField::Solid::kOccupied, {here}, kMapBorder_m);
+    scene.unseen = map_.field(DistanceField::Solid::kOccupiedOrUnknown, {here}, kMapBorder_m);
+    scene.others = peers_.obstacles();
+    const auto output = replanner_.step(now.toSec(), *reading.state, scene);
+    if (output.proposal) propose(now, *output.proposal);
+    if (output.renew_lease) renew(now);
+    report(now, output.reason, output.violation, output.message);
+    if (output.request_plan) {
+      requests_.publish(
+          to_message(output.reason, output.violation, output.message, identity_.map_frame, now));
+    }
+  }
+
+  /// What nothing can be proved without, as reason and text; kSolved where all is there.
+  std::pair<PlanReason, std::string> what_is_missing(ros::Time now,
+                                                     const PoseReading& reading) const {
+    if (!reading.state) return {PlanReason::kNoPose, reading.missing};
+    if (!map_.available()) {
+      return {PlanReason::kNoMap, "map: none on " + ros::names::resolve("map") + " yet"};
+    }
+    if (map_.age_s(now) > max_map_age_s_) {
+      return {PlanReason::kNoMap, "map: the newest on " + ros::names::resolve("map") + " is " +
+                                      seconds(map_.age_s(now)) + " old"};
+    }
+    if (peers_.age_s(now) > max_fleet_age_s_) {
+      return {PlanReason::kBraking, "fleet: no word from trajectory_broadcaster on " +
+                                        ros::names::resolve("fleet/trajectories") +
+                                        " for more than " + seconds(max_fleet_age_s_)};
+    }
+    return {PlanReason::kSolved, ""};
+  }
+
+  void propose(ros::Time now, const ProposedMotion& proposal) {
+    mocha_ugv::Trajectory message;
+    message.header.stamp = now;
+    message.header.frame_id = identity_.map_frame;
+    message.state =
+        proposal.emergency ? mocha_ugv::Trajectory::EMERGENCY : mocha_ugv::Trajectory::PROPOSED;
+    message.agent = identity_.name;
+    message.sequence = proposal.sequence;
+    message.footprint_radius = model_.footprint.circumscribed_radius_m();
+    to_message(proposal.motion, message);
+    proposed_sequence_ = proposal.sequence;
+    proposals_.publish(message);
+  }
+
+  void renew(ros::Time now) {
+    mocha_ugv::Lease lease;
+    lease.header.stamp = now;
+    lease.epoch = epoch_;
+    lease.sequence = committed_sequence_;
+    lease.valid_until = now + lease_;
+    leases_.publish(lease);
+  }
+
+  void report(ros::Time now, PlanReason reason, const Violation& violation,
+              const std::string& text) {
+    const bool news = reason != reason_ || text != text_;
+    reason_ = reason;
+    text_ = text;
+    if (!news) return;
+    statuses_.publish(to_message(reason, violation, text, identity_.map_frame, now));
+    if (!text.empty())
+      ROS_INFO_THROTTLE(1.0, "%s: %s: %s", identity_.name.c_str(), to_text(reason), text.c_str());
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    const bool failed = reason_ == PlanReason::kNoMap || reason_ == PlanReason::kNoPose;
+    const auto level = failed                           ? DiagnosticStatus::ERROR
+                       : reason_ == PlanReason::kSolved ? DiagnosticStatus::OK
+                                                        : DiagnosticStatus::WARN;
+    status.summary(level, text_.empty() ? to_text(reason_) : text_);
+    status.add("committed sequence", committed_sequence_);
+    status.add("proposals refused", refused_proposals_);
+    status.add("last refusal", last_refusal_);
+    status.add("messages refused",
+               refused_messages_ + map_.refused() + peers_.refused() + pose_.refused());
+    for (const auto& [name, value] : MarginBudget::of(model_).listed()) status.add(name, value);
+  }
+
+  const RobotIdentity identity_;
+  const RobotModel model_;
+  const ros::Duration lease_;
+  const double max_map_age_s_;
+  const double max_fleet_age_s_;
+  LocalReplanner replanner_;
+  PoseSource pose_;
+  MapSource map_;
+  PeerSource peers_;
+  ros::Publisher proposals_;
+  ros::Publisher leases_;
+  ros::Publisher requests_;
+  ros::Publisher statuses_;
+  ros::Subscriber plans_;
+  ros::Subscriber commitments_;
+  ros::Subscriber settlements_;
+  diagnostic_updater::Updater diagnostics_;
+  std::uint32_t epoch_ = 0;
+  std::uint32_t committed_sequence_ = 0;
+  std::uint32_t proposed_sequence_ = 0;
+  int refused_proposals_ = 0;
+  int refused_messages_ = 0;
+  std::string last_refusal_;
+  PlanReason reason_ = PlanReason::kNoPose;
+  std::string text_ = "starting";
+  StepLoop loop_;
+};
+
+}  // namespace
+}  // namespace mocha
+
+int main(int argc, char** argv) {
+  return mocha::run_node<mocha::LocalReplannerNode>(argc, argv, "local_replanner");
+}

@@ -1,0 +1,286 @@
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <mocha_ugv/FleetTrajectories.h>
+#include <mocha_ugv/LoadMap.h>
+#include <mocha_ugv/SaveMap.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/ros.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "perception/occupancy_map.h"
+#include "perception/peer_tracks.h"
+#include "perception/planar_scan.h"
+#include "perception/point_cloud.h"
+#include "ros/conversions.h"
+#include "ros/map_conversions.h"
+#include "ros/parameters.h"
+#include "ros/robot_identity.h"
+#include "ros/run_node.h"
+#include "ros/scan_queue.h"
+#include "ros/sensor_conversions.h"
+#include "ros/step_loop.h"
+#include "world/robot_model.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kPeriod_s = 0.02;
+constexpr double kFreshStamp_s =
+    0.5;  // a map that is older than this and a bit: perception is dead
+
+OccupancyMapOptions map_options(const ParameterTable& values) {
+  OccupancyMapOptions options;
+  options.resolution_m =
+      load_robot_model(config_path(""), values.text("robot_model")).map_resolution_m;
+  options.scan_height_m = values.number("scan_height");
+  options.min_height_m = values.number("min_height");
+  options.max_height_m = values.number("max_height");
+  options.hit_probability = values.number("hit_probability");
+  options.miss_probability = values.number("miss_probability");
+  options.lowest_probability = values.number("lowest_probability");
+  options.highest_probability = values.number("highest_probability");
+  return options;
+}
+
+/// Scans and clouds in, occupancy out.
+class PerceptionNode {
+ public:
+  PerceptionNode(ros::NodeHandle& node, const ParameterTable& values)
+      : values_(values),
+        robot_(robot_identity()),
+        map_(map_options(values)),
+        peers_(values.number("peer_margin"), values.number("peer_timeout")),
+        timeout_s_(values.number("scan_timeout")),
+        queue_(robot_.map_frame, values.number("integration_rate"), timeout_s_),
+        listener_(transforms_),
+        maps_(node.advertise<nav_msgs::OccupancyGrid>("map", 1, true)),
+        cells_(node.advertise<sensor_msgs::PointCloud2>("occupied_cells", 1)),
+        scans_(node.subscribe("scan", 20, &PerceptionNode::on_scan, this)),
+        points_(node.subscribe("points", 5, &PerceptionNode::on_points, this)),
+        fleet_(node.subscribe("fleet/trajectories", 10, &PerceptionNode::on_fleet, this)),
+        services_{node.advertiseService("save_map", &PerceptionNode::on_save, this),
+                  node.advertiseService("load_map", &PerceptionNode::on_load, this),
+                  node.advertiseService("clear_map", &PerceptionNode::on_clear, this)},
+        loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
+    if (!values.text("map_file").empty()) map_.load(values.text("map_file"));
+    diagnostics_.setHardwareID(robot_.name);
+    diagnostics_.add("sensors", this, &PerceptionNode::diagnose_sensors);
+    diagnostics_.add("map", this, &PerceptionNode::diagnose_map);
+  }
+
+ private:
+  void on_scan(const sensor_msgs::LaserScan& scan) {
+    queue_.add(scan, ros::Time::now(), refusals_);
+  }
+
+  void on_points(const sensor_msgs::PointCloud2& cloud) {
+    queue_.add(cloud, ros::Time::now(), refusals_);
+  }
+
+  void on_fleet(const mocha_ugv::FleetTrajectories& message) {
+    std::vector<PeerMotion> peers;
+    for (const auto& trajectory : message.trajectories) {
+      try {
+        if (!(trajectory.footprint_radius > 0.0 && trajectory.footprint_radius < 100.0)) {
+          throw std::invalid_argument("footprint_radius must be above 0 and below 100 m");
+        }
+        peers.push_back({trajectory.agent,
+                         {trajectory.epoch, trajectory.sequence},
+                         std::make_shared<Motion>(from_message(trajectory)),
+                         trajectory.footprint_radius});
+      } catch (const std::exception& error) {
+        refusals_.add("fleet/trajectories", error.what());
+      }
+    }
+    peers_.update(message.header.stamp.toSec(), peers);
+  }
+
+  void step(ros::Time now) {
+    if (now < now_) forget_time();
+    now_ = now;
+    if (started_.isZero()) started_ = now;
+    for (const Measurement& measurement : queue_.take_ready(transforms_, now, refusals_)) {
+      integrate(measurement);
+    }
+    publish_map();
+    publish_cells();
+    if (refusals_.total() > refusals_said_) {
+      ROS_WARN_THROTTLE(10.0, "Refused: %s", refusals_.newest().c_str());
+      refusals_said_ = refusals_.total();
+    }
+    diagnostics_.update();
+  }
+
+  /// The clock was set back: a recording began again.
+  void forget_time() {
+    transforms_.clear();
+    queue_.clear();
+    started_ = integrated_ = stamp_ = published_ = cells_published_ = ros::Time();
+  }
+
+  void integrate(const Measurement& measurement) {
+    try {
+      clear_peers(measurement.last);
+      if (const auto* scan = std::get_if<PlanarScan>(&measurement.data)) {
+        auto beams = to_beams(*scan, measurement.poses,
+                              {values_.number("max_range"), values_.number("max_clearing_range")});
+        peers_.ignore_peers(beams);
+        map_.insert_scan(beams);
+      } else {
+        auto beams = to_beams(std::get<1>(measurement.data), measurement.poses.first,
+                              measurement.first.toSec(), values_.number("max_points_range"),
+                              map_.options().resolution_m);
+        peers_.ignore_peers(beams);
+        map_.insert_points(beams);
+      }
+      mark_standing(measurement.last);
+      integrated_ = now_;
+      stamp_ = std::max(stamp_, measurement.last);
+    } catch (const std::exception& error) {  // of tf or of the map; neither may stop the node
+      refusals_.add(error.what());
+    }
+  }
+
+  void clear_peers(ros::Time time) {
+    for (const auto& disc : peers_.at(time.toSec())) {
+      map_.clear_disc(disc.centre, disc.radius_m + map_.options().resolution_m);
+    }
+  }
+
+  void mark_standing(ros::Time time) {
+    standing_known_ = transforms_.canTransform(robot_.map_frame, robot_.base_frame, time);
+    if (!standing_known_) return;
+    const auto pose = transforms_.lookupTransform(robot_.map_frame, robot_.base_frame, time);
+    map_.mark_standing(from_message(pose.transform).translation().head<2>(),
+                       values_.number("own_radius"));
+  }
+
+  void publish_map() {
+    const double since_s = (now_ - published_).toSec();
+    const bool changed = map_.version() != published_version_;
+    const bool fresh = stamp_ > map_stamp_ && since_s >= kFreshStamp_s;
+    if (!(changed || fresh) || since_s < 1.0 / values_.number("map_rate")) return;
+    nav_msgs::OccupancyGrid message;
+    map_stamp_ = stamp_.isZero() ? now_ : stamp_;
+    message.header.stamp = message.info.map_load_time = map_stamp_;
+    message.header.frame_id = robot_.map_frame;
+    to_message(map_.slice(values_.number("map_border")), message);
+    maps_.publish(message);
+    published_ = now_;
+    published_version_ = map_.version();
+  }
+
+  void publish_cells() {
+    if (cells_.getNumSubscribers() == 0 ||
+        (now_ - cells_published_).toSec() < 1.0 / values_.number("cells_rate"))
+      return;
+    sensor_msgs::PointCloud2 message;
+    message.header.stamp = now_;
+    message.header.frame_id = robot_.map_frame;
+    to_message(map_.occupied_voxels(), message);
+    cells_.publish(message);
+    cells_published_ = now_;
+  }
+
+  bool on_save(mocha_ugv::SaveMap::Request& request, mocha_ugv::SaveMap::Response& response) {
+    return answer(response, "saved " + request.path, [&] { map_.save(request.path); });
+  }
+
+  bool on_load(mocha_ugv::LoadMap::Request& request, mocha_ugv::LoadMap::Response& response) {
+    return answer(response, "loaded " + request.path, [&] { map_.load(request.path); });
+  }
+
+  bool on_clear(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    return answer(response, "cleared", [&] { map_.clear(); });
+  }
+
+  template <class Response, class Work>
+  bool answer(Response& response, const std::string& done, Work work) {
+    try {
+      work();
+      response.success = true;
+      response.message = done;
+    } catch (const std::exception& error) {
+      response.success = false;
+      response.message = error.what();
+      ROS_ERROR("%s", error.what());
+    }
+    return true;
+  }
+
+  void diagnose_sensors(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    const double silent_s = (now_ - std::max(queue_.received(), started_)).toSec();
+    const double blind_s = (now_ - std::max(integrated_, started_)).toSec();
+    if (silent_s > timeout_s_) {
+      status.summaryf(DiagnosticStatus::ERROR, "no scan on %s for %.1f s",
+                      scans_.getTopic().c_str(), silent_s);
+    } else if (blind_s > timeout_s_) {
+      status.summaryf(DiagnosticStatus::ERROR, "no scan could enter the map for %.1f s: %s",
+                      blind_s, refusals_.newest().c_str());
+    } else {
+      status.summary(DiagnosticStatus::OK, "scans enter the map");
+    }
+    status.add("scans waiting for their transforms", queue_.waiting());
+    for (const auto& [reason, times] : refusals_.counts()) status.add("refused: " + reason, times);
+  }
+
+  void diagnose_map(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    if (standing_known_) {
+      status.summary(DiagnosticStatus::OK, "the ground under the robot is marked free");
+    } else {
+      status.summary(DiagnosticStatus::WARN, "no transform " + robot_.map_frame + " <- " +
+                                                 robot_.base_frame +
+                                                 ": the ground under the robot is not marked free");
+    }
+    if (!stamp_.isZero())
+      status.add("age of the newest scan in the map [s]", (now_ - stamp_).toSec());
+    status.add("team-mates known", peers_.at(now_.toSec()).size());
+  }
+
+  const ParameterTable values_;
+  const RobotIdentity robot_;
+  OccupancyMap map_;
+  PeerTracks peers_;
+  const double timeout_s_;
+
+  ScanQueue queue_;
+  Refusals refusals_;
+  int refusals_said_ = 0;
+  bool standing_known_ = true;
+  ros::Time now_;
+  ros::Time started_;
+  ros::Time integrated_;
+  ros::Time stamp_;      // of the newest measurement in the map
+  ros::Time map_stamp_;  // of the newest map published
+  ros::Time published_;
+  ros::Time cells_published_;
+  std::uint64_t published_version_ = 0;
+
+  tf2_ros::Buffer transforms_;
+  tf2_ros::TransformListener listener_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::Publisher maps_;
+  ros::Publisher cells_;
+  ros::Subscriber scans_;
+  ros::Subscriber points_;
+  ros::Subscriber fleet_;
+  std::vector<ros::ServiceServer> services_;
+  StepLoop loop_;
+};
+
+}  // namespace
+}  // namespace mocha
+
+int main(int argc, char** argv) {
+  return mocha::run_node<mocha::PerceptionNode>(argc, argv, "perception");
+}

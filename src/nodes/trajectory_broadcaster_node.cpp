@@ -1,0 +1,325 @@
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <mocha_ugv/FleetTrajectories.h>
+#include <mocha_ugv/Lease.h>
+#include <ros/ros.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fleet/commitment.h"
+#include "fleet/epoch_store.h"
+#include "ros/conversions.h"
+#include "ros/markers.h"
+#include "ros/parameters.h"
+#include "ros/promise_conversions.h"
+#include "ros/robot_identity.h"
+#include "ros/run_node.h"
+#include "ros/step_loop.h"
+#include "safety/margin_budget.h"
+#include "world/robot_model.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kPeriod_s = 0.02;
+constexpr double kFleetPeriod_s = 0.5;
+
+std::string epoch_file(const std::string& parameter, const std::string& robot) {
+  if (!parameter.empty()) return parameter;
+  const char* ros_home = std::getenv("ROS_HOME");
+  const char* home = std::getenv("HOME");
+  if (ros_home == nullptr && home == nullptr) {
+    throw std::runtime_error("epoch_file is empty, and there is neither ROS_HOME nor HOME");
+  }
+  const std::string folder = ros_home != nullptr ? ros_home : std::string(home) + "/.ros";
+  return folder + "/mocha_ugv/" + robot + ".epoch";
+}
+
+CommitmentSettings commitment_settings(const ParameterTable& values, const std::string& robot,
+                                       const RobotModel& model) {
+  CommitmentSettings settings;
+  settings.agent = robot;
+  settings.priority = values.integer("priority");
+  settings.delta_dc_s = values.number("delta_dc");
+  settings.reach_timeout_s = values.number("reach_timeout");
+  settings.peer_clearance_m = model.peer_clearance_m + MarginBudget::of(model).peer_margin_m();
+  settings.heartbeat_period_s = 1.0 / values.number("heartbeat_rate");
+  settings.resend_period_s = 1.0 / values.number("resend_rate");
+  settings.epoch = next_epoch(epoch_file(values.text("epoch_file"), robot));
+  return settings;
+}
+
+const char* text_of(Commitment::State state) {
+  switch (state) {
+    case Commitment::State::kListening:
+      return "listening for who is there";
+    case Commitment::State::kIdle:
+      return "nothing promised";
+    case Commitment::State::kProposing:
+      return "settling the first motion";
+    case Commitment::State::kBound:
+      return "promised";
+    case Commitment::State::kRevising:
+      return "promised, settling the next motion";
+  }
+  return "unknown";
+}
+
+/// Settles the proposals of this robot with its peers, and publishes the one motion that it
+/// executes.
+///
+/// Numbers: between robots a motion is known by epoch (counts the starts of this node, from a file)
+/// and a sequence that this node counts from 1. `committed_trajectory` and `settlement` carry the
+/// sequence of the local replanner's proposal instead, together with this node's epoch; it need not
+/// begin at any particular number, and is best continued from the latched `committed_trajectory`
+/// when the replanner starts anew, so that the tracker sees it grow. After a restart of this node
+/// nothing is binding until the next proposal; the peers keep the former promise until then, and so
+/// does the tracker under its lease.
+class TrajectoryBroadcasterNode {
+ public:
+  TrajectoryBroadcasterNode(ros::NodeHandle& node, const ParameterTable& values)
+      : robot_(robot_identity()),
+        model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        commitment_(commitment_settings(values, robot_.name, model_)),
+        promises_out_(node.advertise<mocha_ugv::Trajectory>("/fleet/promises", 100)),
+        heartbeats_out_(node.advertise<mocha_ugv::Heartbeat>("/fleet/heartbeats", 100)),
+        committed_(node.advertise<mocha_ugv::Trajectory>("committed_trajectory", 10, true)),
+        fleet_(node.advertise<mocha_ugv::FleetTrajectories>("fleet/trajectories", 10, true)),
+        drawings_(node.advertise<visualization_msgs::MarkerArray>("motion_markers", 2, true)),
+        settlements_(node.advertise<mocha_ugv::PlannerStatus>("settlement", 20)),
+        proposals_(subscribe(node, "proposed_trajectory", &TrajectoryBroadcasterNode::on_proposal)),
+        leases_(subscribe(node, "lease", &TrajectoryBroadcasterNode::on_lease)),
+        promises_in_(subscribe(node, "/fleet/promises", &TrajectoryBroadcasterNode::on_promise)),
+        heartbeats_in_(
+            subscribe(node, "/fleet/heartbeats", &TrajectoryBroadcasterNode::on_heartbeat)),
+        loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
+    diagnostics_.setHardwareID(robot_.name);
+    diagnostics_.add("promises", this, &TrajectoryBroadcasterNode::diagnose);
+    draw(Motion());
+    ROS_INFO("%s: epoch %u", robot_.name.c_str(), commitment_.settings().epoch);
+  }
+
+ private:
+  template <typename Message>
+  using Event = ros::MessageEvent<const Message>;
+
+  template <typename Message>
+  ros::Subscriber subscribe(ros::NodeHandle& node, const std::string& topic,
+                            void (TrajectoryBroadcasterNode::*handle)(const Event<Message>&)) {
+    return node.subscribe(topic, 100, handle, this, ros::TransportHints().tcpNoDelay());
+  }
+
+  void on_proposal(const Event<mocha_ugv::Trajectory>& event) {
+    const mocha_ugv::Trajectory& message = *event.getMessage();
+    if (!advance_clock(ros::Time::now())) return;
+    try {
+      if (message.agent != robot_.name) {
+        throw std::invalid_argument("is of '" + message.agent + "'");
+      }
+      const Promise wish = promise_from_message(message, robot_.map_frame);
+      const Proposal proposal{message.sequence, wish.footprint_radius_m, wish.motion};
+      if (wish.state == PromiseState::kProposed) {
+        apply(commitment_.propose(proposal, now_.toSec()));
+      } else if (wish.state == PromiseState::kEmergency) {
+        apply(commitment_.brake(proposal, now_.toSec()));
+      } else {
+        throw std::invalid_argument("is neither PROPOSED nor EMERGENCY");
+      }
+    } catch (const std::invalid_argument& error) {
+      refuse("proposed_trajectory", error.what());
+      mocha_ugv::PlannerStatus status;
+      status.header.stamp = now_;
+      status.header.frame_id = robot_.map_frame;
+      status.reason = mocha_ugv::PlannerStatus::INVALID_INPUT;
+      status.message = "proposal " + std::to_string(message.sequence) + ": " + error.what();
+      settlements_.publish(status);
+    }
+  }
+
+  void on_lease(const Event<mocha_ugv::Lease>& event) { lease_ = *event.getMessage(); }
+
+  void on_promise(const Event<mocha_ugv::Trajectory>& event) {
+    hear(event, "/fleet/promises", [this](const mocha_ugv::Trajectory& message) {
+      apply(commitment_.receive(promise_from_message(message, robot_.map_frame), now_.toSec()));
+    });
+  }
+
+  void on_heartbeat(const Event<mocha_ugv::Heartbeat>& event) {
+    hear(event, "/fleet/heartbeats", [this](const mocha_ugv::Heartbeat& message) {
+      apply(commitment_.receive(beat_from_message(message), now_.toSec()));
+    });
+  }
+
+  /// A message of another robot. The same name from another node is another robot that calls itself
+  /// like this one.
+  template <typename Message, typename Handle>
+  void hear(const Event<Message>& event, const std::string& topic, Handle handle) {
+    if (event.getPublisherName() == ros::this_node::getName()) return;
+    if (!advance_clock(ros::Time::now())) return;
+    try {
+      if (event.getMessage()->agent == robot_.name) {
+        throw std::invalid_argument("carries this robot's own name but comes from " +
+                                    event.getPublisherName());
+      }
+      handle(*event.getMessage());
+    } catch (const std::invalid_argument& error) {
+      refuse(topic, error.what());
+    }
+  }
+
+  void refuse(const std::string& topic, const std::string& why) {
+    ++refused_;
+    refusal_ = topic + ": " + why;
+    ROS_WARN_THROTTLE(1.0, "Refused a message on %s", refusal_.c_str());
+  }
+
+  /// False while there is no time yet. Within a step, time does not run backward.
+  bool advance_clock(ros::Time now) {
+    if (now + ros::Duration(1.0) < now_) {
+      throw std::runtime_error("the clock was set back; promises in the old time are void");
+    }
+    now_ = std::max(now_, now);
+    return !now_.isZero();
+  }
+
+  void step(ros::Time now) {
+    if (!advance_clock(now)) return;
+    apply(commitment_.tick(now_.toSec()));
+    publish_fleet();
+    diagnostics_.update();
+  }
+
+  void apply(const CommitmentActions& actions) {
+    for (const Promise& promise : actions.promises) {
+      promises_out_.publish(to_message(promise, robot_.map_frame, now_));
+    }
+    if (actions.beat) {
+      heartbeats_out_.publish(to_message(*actions.beat, robot_.map_frame, now_));
+    }
+    for (const CommitmentEvent& event : actions.events) report(event);
+  }
+
+  void report(const CommitmentEvent& event) {
+    using Kind = CommitmentEvent::Kind;
+    if (event.kind == Kind::kBreached) {
+      ++breaches_;
+      ROS_WARN("%s: %s", robot_.name.c_str(), describe(event).c_str());
+      return;
+    }
+    if (event.refusal != Refusal::kNone) ++refusals_[name_of(event.refusal)];
+    if (event.kind == Kind::kWithdrawn) return;  // the replanner did that itself
+    const auto status = settlement_of(event, robot_.map_frame, now_);
+    if (event.kind == Kind::kSettled) {
+      // What is executed begins now: until the new motion starts, the one before it is in force.
+      Promise in_force = event.promise;
+      in_force.motion = commitment_.binding().composed(now_.toSec());
+      mocha_ugv::Trajectory committed = to_message(in_force, robot_.map_frame, now_);
+      committed.sequence = event.proposal.tag;
+      committed_.publish(committed);
+      draw(*in_force.motion);
+    } else {
+      ROS_INFO_THROTTLE(1.0, "%s: %s", robot_.name.c_str(), status.message.c_str());
+    }
+    settlements_.publish(status);
+  }
+
+  /// The robot, and what it drives.
+  void draw(const Motion& motion) {
+    Drawing drawing(robot_.map_frame, now_);
+    drawing.add_motion("committed", motion, model_.limits.max_speed);
+    drawing.add_robot(robot_.name, robot_.base_frame, model_.footprint);
+    drawings_.publish(drawing.markers());
+  }
+
+  void publish_fleet() {
+    std::vector<PromiseId> news;
+    for (const auto& [name, peer] : commitment_.peers().peers()) {
+      if (!peer.binding.empty()) news.push_back(peer.binding.newest().id);
+    }
+    if (news == published_ && now_ < next_fleet_) return;
+    published_ = std::move(news);
+    next_fleet_ = now_ + ros::Duration(kFleetPeriod_s);
+    mocha_ugv::FleetTrajectories fleet;
+    for (const auto& [name, peer] : commitment_.peers().peers()) {
+      if (peer.binding.empty()) continue;
+      Promise in_force = peer.binding.newest();
+      in_force.motion = peer.binding.composed(now_.toSec());
+      fleet.trajectories.push_back(to_message(in_force, robot_.map_frame, now_));
+    }
+    fleet.header.stamp = now_;
+    fleet.header.frame_id = robot_.map_frame;
+    fleet_.publish(fleet);
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    status.summary(DiagnosticStatus::OK, text_of(commitment_.state()));
+    if (breaches_ > 0) {
+      status.mergeSummary(DiagnosticStatus::WARN, "peers broke promises that met ours");
+    }
+    status.add("epoch", commitment_.settings().epoch);
+    if (!commitment_.binding().empty()) {
+      status.add("binding sequence", commitment_.binding().newest().id.sequence);
+    }
+    const bool leased = lease_.valid_until > now_;
+    status.addf("lease remaining (s)", "%.2f", leased ? (lease_.valid_until - now_).toSec() : 0.0);
+    for (const auto& [name, peer] : commitment_.peers().peers()) diagnose(name, peer, status);
+    for (const auto& [refusal, count] : refusals_)
+      status.add("proposals refused: " + refusal, count);
+    status.add("breaches", breaches_);
+    status.add("duplicates", commitment_.peers().duplicates());
+    status.add("messages older than known", commitment_.peers().old_messages());
+    status.add("refused messages", refused_);
+    if (refused_ > 0) status.add("last refused message", refusal_);
+  }
+
+  void diagnose(const std::string& name, const Peer& peer,
+                diagnostic_updater::DiagnosticStatusWrapper& status) const {
+    using diagnostic_msgs::DiagnosticStatus;
+    const bool in_reach = commitment_.peers().in_reach(peer, now_.toSec());
+    if (!in_reach) {
+      status.mergeSummary(DiagnosticStatus::WARN,
+                          name + " is out of reach; its last promise still counts");
+    }
+    status.addf("peer " + name, "%s, heard %.2f s ago, epoch %u, promise %u",
+                in_reach ? "in reach" : "out of reach", now_.toSec() - peer.last_heard_s,
+                peer.epoch, peer.binding.empty() ? 0 : peer.binding.newest().id.sequence);
+  }
+
+  const RobotIdentity robot_;
+  const RobotModel model_;
+  Commitment commitment_;
+  ros::Time now_;
+  ros::Time next_fleet_;
+  std::vector<PromiseId> published_;
+  mocha_ugv::Lease lease_;
+  std::map<std::string, int> refusals_;
+  int breaches_ = 0;
+  int refused_ = 0;
+  std::string refusal_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::Publisher promises_out_;
+  ros::Publisher heartbeats_out_;
+  ros::Publisher committed_;
+  ros::Publisher fleet_;
+  ros::Publisher drawings_;
+  ros::Publisher settlements_;
+  ros::Subscriber proposals_;
+  ros::Subscriber leases_;
+  ros::Subscriber promises_in_;
+  ros::Subscriber heartbeats_in_;
+  StepLoop loop_;
+};
+
+}  // namespace
+}  // namespace mocha
+
+int main(int argc, char** argv) {
+  return mocha::run_node<mocha::TrajectoryBroadcasterNode>(argc, argv, "trajectory_broadcaster");
+}

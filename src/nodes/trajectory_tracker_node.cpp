@@ -1,0 +1,213 @@
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/Vector3Stamped.h>
+#include <mocha_ugv/Lease.h>
+#include <mocha_ugv/Trajectory.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <stdexcept>
+#include <string>
+
+#include "control/trajectory_tracker.h"
+#include "ros/conversions.h"
+#include "ros/parameters.h"
+#include "ros/pose_source.h"
+#include "ros/robot_identity.h"
+#include "ros/step_loop.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kPeriod_s = 0.02;
+
+TrackerParameters tracker_parameters(const ParameterTable& values) {
+  TrackerParameters parameters;
+  parameters.gains.along = values.number("along_gain");
+  parameters.gains.across = values.number("across_gain");
+  parameters.gains.max_bandwidth = values.number("max_bandwidth");
+  parameters.gains.damping = values.number("damping");
+  parameters.gains.heading = values.number("heading_gain");
+  parameters.gains.settle_start_rad = values.number("settle_start");
+  parameters.gains.settle_stop_rad = values.number("settle_stop");
+  parameters.max_heading_error_rad = values.number("max_heading_error");
+  parameters.max_pose_age_s = values.number("max_pose_age");
+  parameters.command_delay_s = values.number("command_delay");
+  return parameters;
+}
+
+/// Drives the committed motion: trajectories, leases and poses in, velocity commands out.
+class TrajectoryTrackerNode {
+ public:
+  TrajectoryTrackerNode(ros::NodeHandle& node, const ParameterTable& values)
+      : robot_(robot_identity()),
+        initial_lease_(values.number("initial_lease")),
+        max_lease_(values.number("max_lease")),
+        tracker_(tracker_parameters(values),
+                 load_robot_model(config_path(""), values.text("robot_model"))),
+        pose_(node, robot_, values.number("max_pose_age"), values.number("max_transform_age")),
+        commands_(node.advertise<geometry_msgs::Twist>("cmd_vel", 1)),
+        errors_(node.advertise<geometry_msgs::Vector3Stamped>("tracking_error", 10)),
+        trajectories_(node.subscribe("committed_trajectory", 5,
+                                     &TrajectoryTrackerNode::on_trajectory, this,
+                                     ros::TransportHints().tcpNoDelay())),
+        leases_(node.subscribe("lease", 10, &TrajectoryTrackerNode::on_lease, this,
+                               ros::TransportHints().tcpNoDelay())),
+        loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
+    diagnostics_.setHardwareID(robot_.name);
+    diagnostics_.add("tracking", this, &TrajectoryTrackerNode::diagnose);
+  }
+
+  void stop() {
+    commands_.publish(geometry_msgs::Twist());
+    ros::WallDuration(0.05).sleep();  // so that it is on its way before the connections close
+  }
+
+ private:
+  void on_trajectory(const mocha_ugv::Trajectory& message) {
+    using mocha_ugv::Trajectory;
+    try {
+      if (message.agent != robot_.name) throw std::invalid_argument("is for " + message.agent);
+      if (message.header.frame_id != robot_.map_frame) {
+        throw std::invalid_argument("is in frame " + message.header.frame_id);
+      }
+      if (message.state != Trajectory::COMMITTED && message.state != Trajectory::EMERGENCY) {
+        throw std::invalid_argument("is not committed");
+      }
+      // From its stamp, not its arrival: an old message that was kept for late joiners gives no
+      // right to drive.
+      const double stamp = std::min(message.header.stamp, ros::Time::now()).toSec();
+      tracker_.offer({message.epoch, message.sequence}, from_message(message),
+                     stamp + initial_lease_);
+    } catch (const std::exception& error) {
+      refuse("committed_trajectory", error.what());
+    }
+  }
+
+  void on_lease(const mocha_ugv::Lease& lease) {
+    const double ahead = (lease.valid_until - ros::Time::now()).toSec();
+    if (ahead > max_lease_) {
+      refuse("lease", "ends " + std::to_string(ahead) + " s from now, more than max_lease");
+      return;
+    }
+    tracker_.renew({lease.epoch, lease.sequence}, lease.valid_until.toSec());
+  }
+
+  void refuse(const std::string& topic, const std::string& why) {
+    ++refused_;
+    refusal_ = topic + ": " + why;
+    ROS_WARN_THROTTLE(1.0, "Refused a message on %s", refusal_.c_str());
+  }
+
+  void step(ros::Time now) {
+    reading_ = pose_.read(now);
+    const TrackerMode before = tracker_.mode();
+    const int refused_before = tracker_.refused();
+    command_ = tracker_.step(now.toSec(), reading_.state);
+    now_ = now;
+    publish();
+    if (tracker_.mode() != before) {
+      ROS_INFO("%s: %s%s%s", robot_.name.c_str(), to_text(tracker_.mode()),
+               tracker_.stop_reason().empty() ? "" : ": ", tracker_.stop_reason().c_str());
+    }
+    if (tracker_.refused() != refused_before) ROS_WARN("%s", tracker_.refusal().c_str());
+    diagnostics_.update();
+  }
+
+  void publish() {
+    geometry_msgs::Twist twist;
+    twist.linear.x = command_.speed;
+    twist.angular.z = command_.yaw_rate;
+    commands_.publish(twist);
+    if (!tracker_.error()) return;
+    geometry_msgs::Vector3Stamped error;
+    error.header.stamp = now_;
+    error.header.frame_id = robot_.base_frame;
+    error.vector.x = tracker_.error()->along_m;
+    error.vector.y = tracker_.error()->across_m;
+    error.vector.z = tracker_.error()->heading_rad;
+    errors_.publish(error);
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    const TrackerMode mode = tracker_.mode();
+    const std::string why = mode == TrackerMode::kStale ? reading_.missing : tracker_.stop_reason();
+    const bool failed = mode == TrackerMode::kErrorBraking || mode == TrackerMode::kStale;
+    const bool idle_without_pose = mode == TrackerMode::kIdle && !reading_.state;
+    if (failed) {
+      status.summary(DiagnosticStatus::ERROR, std::string(to_text(mode)) + ": " + why);
+    } else if (idle_without_pose) {
+      status.summary(DiagnosticStatus::WARN, std::string(to_text(mode)) + "; " + reading_.missing);
+    } else if (!why.empty()) {
+      status.summary(DiagnosticStatus::WARN, std::string(to_text(mode)) + ": " + why);
+    } else {
+      status.summary(DiagnosticStatus::OK, to_text(mode));
+    }
+    if (tracker_.error()) {
+      status.addf("error along (m)", "%.3f", tracker_.error()->along_m);
+      status.addf("error across (m)", "%.3f", tracker_.error()->across_m);
+      status.addf("error of the heading (rad)", "%.3f", tracker_.error()->heading_rad);
+    }
+    if (mode != TrackerMode::kIdle) {
+      status.addf("motion (epoch/sequence)", "%u/%u", tracker_.id().epoch, tracker_.id().sequence);
+      status.addf("lease remaining (s)", "%.2f", tracker_.lease_end() - now_.toSec());
+    }
+    status.addf("speed command (m/s)", "%.3f", command_.speed);
+    status.addf("yaw rate command (rad/s)", "%.3f", command_.yaw_rate);
+    status.addf("odometry age (s)", "%.3f", reading_.odometry_age_s);
+    status.addf("map to odom age (s)", "%.3f", reading_.transform_age_s);
+    status.add("refused messages", refused_);
+    if (refused_ > 0) status.add("last refused message", refusal_);
+    status.add("refused motions", tracker_.refused());
+    if (tracker_.refused() > 0) status.add("last refused motion", tracker_.refusal());
+    status.add("refused odometry", pose_.refused());
+  }
+
+  RobotIdentity robot_;
+  double initial_lease_;
+  double max_lease_;
+  TrajectoryTracker tracker_;
+  PoseSource pose_;
+  PoseReading reading_;
+  UnicycleState command_ = {0.0, 0.0};
+  ros::Time now_;
+  int refused_ = 0;
+  std::string refusal_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::Publisher commands_;
+  ros::Publisher errors_;
+  ros::Subscriber trajectories_;
+  ros::Subscriber leases_;
+  StepLoop loop_;
+};
+
+std::atomic<bool> asked_to_stop{false};
+
+void ask_to_stop(int) { asked_to_stop = true; }
+
+}  // namespace
+}  // namespace mocha
+
+int main(int argc, char** argv) {
+  // Own handlers: the last command has to leave before the connections close.
+  ros::init(argc, argv, "trajectory_tracker", ros::init_options::NoSigintHandler);
+  std::signal(SIGINT, mocha::ask_to_stop);
+  std::signal(SIGTERM, mocha::ask_to_stop);
+  ros::NodeHandle node;
+  try {
+    mocha::TrajectoryTrackerNode tracker(
+        node, mocha::read_parameters(ros::NodeHandle("~"), "trajectory_tracker"));
+    while (ros::ok() && !mocha::asked_to_stop) {
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
+    }
+    tracker.stop();
+  } catch (const std::exception& error) {
+    ROS_FATAL("trajectory_tracker: %s", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Quaternion.h>
+#include <mocha_ugv/Trajectory.h>
+#include <nav_msgs/OccupancyGrid.h>
+
+#include "trajectory/motion.h"
+#include "world/occupancy_grid.h"
+
+namespace mocha {
+
+/// Fills start and phases of the message; the other fields stay as they are.
+void to_message(const Motion& motion, mocha_ugv::Trajectory& message);
+
+/// Rebuilds the motion. Throws std::invalid_argument for a message that does not describe a valid
+/// motion.
+Motion from_message(const mocha_ugv::Trajectory& message);
+
+geometry_msgs::Quaternion quaternion_of(double yaw_rad);
+geometry_msgs::Pose to_message(const Pose& pose);
+/// Position and heading; anything out of the plane is dropped.
+Pose from_message(const geometry_msgs::Pose& pose);
+
+/// Cells from 65 on count as occupied, from 0 to 25 as free, all else as unknown. Throws
+/// std::invalid_argument for sizes that do not match, a rotated origin, or values that are not
+/// finite.
+OccupancyGrid from_message(const nav_msgs::OccupancyGrid& map);
+
+}  // namespace mocha

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <nav_msgs/Path.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trajectory/motion.h"
+#include "world/footprint.h"
+#include "world/moving_obstacle.h"
+
+namespace mocha {
+
+/// Poses along the motion, `dt` [s] apart, with the times at which the robot is there.
+nav_msgs::Path to_path(const Motion& motion, const std::string& frame, double dt);
+
+/// Positions along the drives of a motion, `dt` [s] apart.
+std::vector<Vector2> polyline(const Motion& motion, double dt);
+
+/// A picture for rviz: it replaces all that was published before on its topic. Markers are numbered
+/// in the order in which they are added, in one namespace per kind and name.
+class Drawing {
+ public:
+  Drawing(const std::string& frame, ros::Time stamp);
+
+  /// A broad line with dark edges, coloured by speed: blue at rest, red at `max_speed` [m/s].
+  void add_motion(const std::string& name, const Motion& motion, double max_speed);
+
+  /// A thin line, coloured by speed like add_motion(), with its cost at its middle; fainter where
+  /// not selected.
+  void add_candidate(const std::string& name, const Motion& motion, double max_speed, double cost,
+                     bool selected);
+
+  /// Outline, heading and name of a robot, fixed to its frame.
+  void add_robot(const std::string& name, const std::string& base_frame,
+                 const Footprint& footprint);
+
+  /// A disc with the robot's name, and an arrow where a heading is asked for.
+  void add_goal(const std::string& name, const Vector2& place, std::optional<double> yaw_rad);
+
+  /// Where a moving thing will be from `t` to `t + horizon_s`, ever fainter.
+  void add_obstacle(const MovingObstacle& obstacle, double t, double horizon_s);
+
+  const visualization_msgs::MarkerArray& markers() const { return markers_; }
+
+ private:
+  visualization_msgs::Marker& add(const std::string& name, int type);
+  visualization_msgs::Marker& add_text(const std::string& name, const std::string& text,
+                                       const Vector2& place);
+
+  std::string frame_;
+  ros::Time stamp_;
+  std::map<std::string, int> next_id_;
+  visualization_msgs::MarkerArray markers_;
+};
+
+}  // namespace mocha

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+
+#include "config/parameter_table.h"
+
+namespace mocha {
+
+/// The parameters of one node: declared in `config/<schema>.yaml` of this package, set in the
+/// node's private namespace. Throws ParameterError for a private parameter that the schema does not
+/// declare, has the wrong type or is out of range.
+ParameterTable read_parameters(const ros::NodeHandle& private_node, const std::string& schema);
+
+/// Absolute path of a file below this package's `config/`, in devel and install space.
+std::string config_path(const std::string& relative);
+
+}  // namespace mocha

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include <functional>
+#include <string>
+
+namespace mocha {
+
+/// Calls a function at a fixed rate of ROS time, from the node's callback queue.
+///
+/// On a robot this is a timer. In simulation (`use_sim_time`) it follows /clock itself and then
+/// acknowledges the step to the simulator, which waits for it: work that takes long on a slow
+/// machine takes no simulated time, and nothing depends on how fast the machine is.
+class StepLoop {
+ public:
+  /// `step(now)` is called every `period_s`. `robot` and the node's name identify the
+  /// acknowledgements.
+  StepLoop(ros::NodeHandle& node, const std::string& robot, double period_s,
+           std::function<void(ros::Time)> step);
+
+ private:
+  void on_clock(const rosgraph_msgs::Clock& clock);
+
+  std::string robot_;
+  std::string node_name_;
+  ros::Duration period_;
+  std::function<void(ros::Time)> step_;
+  ros::Time next_;
+  ros::Time last_;
+  ros::SteadyTimer timer_;
+  ros::Subscriber clock_;
+  ros::Publisher acks_;
+};
+
+}  // namespace mocha

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""The perception node from outside: map, stamps, services and what it says when something is missing."""
+
+import math
+import os
+import shutil
+import tempfile
+import time
+import unittest
+
+import rospy
+import rostest
+import tf2_ros
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import TransformStamped
+from mocha_ugv.srv import LoadMap, SaveMap
+from nav_msgs.msg import OccupancyGrid
+from sensor_msgs.msg import LaserScan
+from std_srvs.srv import Trigger
+
+HALF_ROOM = 2.0  # m
+
+
+def scan_of_room():
+    """What a lidar in the middle of a square room sees."""
+    scan = LaserScan()
+    scan.header.frame_id = "ugv1/laser"
+    scan.header.stamp = rospy.Time.now()
+    beams = 720
+    scan.angle_min = -math.pi
+    scan.angle_increment = 2.0 * math.pi / beams
+    scan.angle_max = scan.angle_min + (beams - 1) * scan.angle_increment
+    scan.range_min = 0.1
+    scan.range_max = 10.0
+    angles = [scan.angle_min + i * scan.angle_increment for i in range(beams)]
+    scan.ranges = [HALF_ROOM / max(abs(math.cos(a)), abs(math.sin(a))) for a in angles]
+    return scan
+
+
+def transform(parent, child):
+    message = TransformStamped()
+    message.header.frame_id = parent
+    message.header.stamp = rospy.Time.now()
+    message.child_frame_id = child
+    message.transform.rotation.w = 1.0
+    return message
+
+
+class PerceptionTest(unittest.TestCase):
+    def setUp(self):
+        self.maps = []
+        self.words = {}
+        rospy.Subscriber("/ugv1/map", OccupancyGrid, self.maps.append)
+        rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics)
+        self.scans = rospy.Publisher("/ugv1/scan", LaserScan, queue_size=5)
+        self.transforms = tf2_ros.StaticTransformBroadcaster()
+        self.directory = tempfile.mkdtemp()
+
+    def tearDown(self):
+        shutil.rmtree(self.directory)
+
+    def on_diagnostics(self, message):
+        for status in message.status:
+            if status.name.endswith("sensors"):
+                self.words = {"level": status.level, "message": status.message,
+                              "values": {value.key: value.value for value in status.values}}
+
+    def wait_for(self, condition, seconds=10.0, scan=None):
+        """Publishes scans at 10 Hz until the condition holds."""
+        end = time.time() + seconds
+        while time.time() < end and not condition():
+            if scan is not None:
+                scan.header.stamp = rospy.Time.now()
+                self.scans.publish(scan)
+            time.sleep(0.1)
+        return condition()
+
+    def said(self, text):
+        return text in self.words.get("message", "")
+
+    def cell(self, x, y):
+        grid = self.maps[-1]
+        column = int((x - grid.info.origin.position.x) / grid.info.resolution)
+        row = int((y - grid.info.origin.position.y) / grid.info.resolution)
+        return grid.data[row * grid.info.width + column]
+
+    def test_a_robot_in_a_room(self):
+        self.assertTrue(self.wait_for(lambda: self.said("no scan on /ugv1/scan for")), self.words)
+
+        self.assertTrue(self.wait_for(lambda: self.said("no transform map <- ugv1/laser"), 10.0, scan_of_room()),
+                        self.words)
+        self.assertEqual(self.maps, [])
+
+        self.transforms.sendTransform([transform("map", "ugv1/base_link"), transform("ugv1/base_link", "ugv1/laser")])
+        self.assertTrue(self.wait_for(lambda: len(self.maps) >= 3, 10.0, scan_of_room()))
+        self.assertTrue(self.wait_for(lambda: self.said("scans enter the map"), 5.0, scan_of_room()), self.words)
+        self.assertEqual(self.maps[-1].header.frame_id, "map")
+        self.assertEqual(self.cell(1.0, 0.5), 0)
+        self.assertEqual(self.cell(0.0, 0.0), 0)
+        self.assertEqual(self.cell(HALF_ROOM + 0.01, 0.5), 100)
+        self.assertEqual(self.cell(HALF_ROOM + 0.3, 0.5), -1)
+
+        # An unchanged map gets a fresh stamp as long as scans come in, and only then.
+        newest = self.maps[-1].header.stamp
+        self.assertTrue(self.wait_for(lambda: (self.maps[-1].header.stamp - newest).to_sec() > 2.0, 5.0, scan_of_room()))
+        time.sleep(1.0)
+        maps = len(self.maps)
+        time.sleep(1.5)
+        self.assertEqual(len(self.maps), maps)
+
+        for name in ("map.bt", "map.ot", "map.yaml"):
+            self.save_clear_and_load(os.path.join(self.directory, name))
+        self.malformed_scan()
+
+    def save_clear_and_load(self, path):
+        saved = rospy.ServiceProxy("/ugv1/save_map", SaveMap)(path)
+        self.assertTrue(saved.success, saved.message)
+        self.assertTrue(rospy.ServiceProxy("/ugv1/clear_map", Trigger)().success)
+        self.assertTrue(self.wait_for(lambda: max(self.maps[-1].data) == -1), "a cleared map is published")
+        loaded = rospy.ServiceProxy("/ugv1/load_map", LoadMap)(path)
+        self.assertTrue(loaded.success, loaded.message)
+        self.assertTrue(self.wait_for(lambda: max(self.maps[-1].data) == 100))
+        self.assertEqual(self.cell(HALF_ROOM + 0.01, 0.5), 100)
+        missing = rospy.ServiceProxy("/ugv1/load_map", LoadMap)(path + ".none.bt")
+        self.assertFalse(missing.success)
+        self.assertIn(path + ".none.bt", missing.message)
+
+    def malformed_scan(self):
+        scan = scan_of_room()
+        scan.angle_increment = float("nan")
+        key = "refused: scan: angles, times or ranges that are not finite"
+        self.assertTrue(self.wait_for(lambda: key in self.words["values"], 10.0, scan), self.words)
+
+
+if __name__ == "__main__":
+    rospy.init_node("perception_test")
+    rostest.rosrun("mocha_ugv", "perception", PerceptionTest)

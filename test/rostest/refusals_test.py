@@ -1,0 +1,88 @@
+#!/usr/bin/python3
+"""Misspelt parameters and unusable worlds end a program at once, with one line that says what is wrong."""
+
+import itertools
+import os
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import rospkg
+import rospy
+import rostest
+
+NODES = ("perception", "global_planner", "local_replanner", "trajectory_broadcaster", "trajectory_tracker",
+         "fleet_simulator")
+PATIENCE_S = 60.0
+ROOT = rospkg.RosPack().get_path("mocha_ugv")
+
+WALLED_IN = """
+bounds: {min: [-5, -5], max: [5, 5]}
+circles: [[0.1, 0.0, 0.5]]
+robots: [{name: ugv1, model: rover, start: [0.0, 0.0, 0.0], goal: [3.0, 0.0]}]
+"""
+NOT_A_NUMBER = WALLED_IN.replace("0.1, 0.0, 0.5", "3.0, .nan, 0.5")
+MISSPELT = WALLED_IN.replace("circles", "circels")
+
+
+class RefusalsTest(unittest.TestCase):
+    numbers = itertools.count()
+
+    def check_node(self, node, words, *arguments):
+        command = ["rosrun", "mocha_ugv", node, "__name:=refusing_%d" % next(self.numbers), *arguments]
+        result = subprocess.run(command, env=dict(os.environ, ROS_NAMESPACE="ugv1"), stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True, timeout=PATIENCE_S)
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertEqual(result.stdout.count("FATAL"), 1, result.stdout)
+        for word in words:
+            self.assertIn(word, result.stdout)
+
+    def test_misspelt_parameters(self):
+        for node in NODES:
+            with self.subTest(node):
+                self.check_node(node, ["unknown parameter `robot_modl`"], "_robot_modl:=rover")
+
+    def test_values_out_of_range(self):
+        for node, name, allowed in (("perception", "map_rate", "0.1"), ("global_planner", "replan_period", "30"),
+                                    ("local_replanner", "lease", "5"), ("trajectory_broadcaster", "heartbeat_rate", "100"),
+                                    ("trajectory_tracker", "max_pose_age", "2"), ("fleet_simulator", "step", "0.1")):
+            with self.subTest(node):
+                self.check_node(node, [name + " = ", "-1", allowed], "_%s:=-1.0" % name)
+
+    def test_robots_that_nobody_knows(self):
+        for node in NODES[:-1]:
+            with self.subTest(node):
+                self.check_node(node, ["robots/hovercraft.yaml"], "_robot_model:=hovercraft")
+
+    def check_demo(self, words, world):
+        """The demo with a master of its own. Its own script builds first; here, what it then runs."""
+        out = tempfile.mkdtemp()
+        command = ["/usr/bin/python3", "-m", "mocha_scripts.demo", "--headless", "--no-plots", "--rate", "0", "--world", world,
+                   "--out", out]
+        environment = dict(os.environ, PYTHONPATH=ROOT + "/scripts:" + os.environ["PYTHONPATH"], ROS_HOME=out)
+        begun = time.monotonic()
+        result = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                timeout=PATIENCE_S)
+        self.assertNotEqual(result.returncode, 0)
+        for word in words:
+            self.assertIn(word, result.stdout)
+        self.assertNotIn("Traceback", result.stdout)
+        self.assertLess(time.monotonic() - begun, PATIENCE_S)
+
+    def test_demo_in_worlds_that_are_none(self):
+        self.check_demo(["/no/such/world.yaml", "No such file"], "/no/such/world.yaml")
+        for text, words in (("robots: [", ["world file"]),
+                            (NOT_A_NUMBER, ["circles[0]", ".nan"]),
+                            (WALLED_IN, ["ugv1", "start"]),
+                            (MISSPELT, ["circels"])):
+            with self.subTest(words), tempfile.NamedTemporaryFile("w", suffix=".yaml") as world:
+                world.write(text)
+                world.flush()
+                self.check_demo([world.name] + words, world.name)
+
+
+if __name__ == "__main__":
+    rospy.init_node("refusals_test")
+    rostest.rosrun("mocha_ugv", "refusals", RefusalsTest, sys.argv)

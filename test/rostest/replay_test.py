@@ -1,0 +1,147 @@
+#!/usr/bin/python3
+"""What the demo recorded replays: the map comes out as the world is, plans on it are certified, and nothing commands a base."""
+
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+import rosgraph
+import rospkg
+import rospy
+import rostest
+import yaml
+from geometry_msgs.msg import PoseStamped
+from mocha_ugv.msg import PlannerStatus
+from mocha_ugv.srv import PlanTrajectory
+from nav_msgs.msg import OccupancyGrid
+from rosgraph_msgs.msg import Clock
+
+ROOT = rospkg.RosPack().get_path("mocha_ugv")
+WORLD = os.path.join(ROOT, "config/worlds/corridor.yaml")
+RECORDED_S = 9.0
+PLANNING_FROM_S = 5.0  # into the recording
+SEEN_X_M = 6.0  # what lies before this has been seen well by then
+NEAR_M = 0.1  # a cell and its noise
+
+
+def record(out):
+    """A few seconds of the demo, which ends too early to arrive: that is its exit status 1."""
+    environment = dict(os.environ, PYTHONPATH=ROOT + "/scripts:" + os.environ["PYTHONPATH"], ROS_HOME=out)
+    return subprocess.run(["/usr/bin/python3", "-m", "mocha_scripts.demo", "--headless", "--rate", "0", "--world", WORLD,
+                           "--limit", str(RECORDED_S), "--out", out],
+                          env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120.0)
+
+
+def occupied_places(grid):
+    cells = np.array(grid.data, dtype=np.int8).reshape(grid.info.height, grid.info.width)
+    rows, columns = np.nonzero(cells >= 50)
+    origin = np.array((grid.info.origin.position.x, grid.info.origin.position.y))
+    return origin + (np.column_stack((columns, rows)) + 0.5) * grid.info.resolution
+
+
+def distance_to_circles(places, circles):
+    """To the nearest rim, for every place."""
+    offsets = places[:, None, :] - circles[None, :, :2]
+    return np.abs(np.linalg.norm(offsets, axis=2) - circles[None, :, 2]).min(axis=1)
+
+
+def distance_to_walls(places, polygons):
+    nearest = np.full(len(places), np.inf)
+    for polygon in polygons:
+        for begin, end in zip(polygon, polygon[1:] + polygon[:1]):
+            begin, along = np.array(begin), np.array(end) - np.array(begin)
+            share = np.clip((places - begin) @ along / (along @ along), 0.0, 1.0)
+            nearest = np.minimum(nearest, np.linalg.norm(places - begin - share[:, None] * along, axis=1))
+    return nearest
+
+
+class ReplayTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.out = tempfile.mkdtemp()
+        cls.demo = record(cls.out)
+        cls.changed = threading.Condition()
+        cls.map = None
+        cls.clocks = []
+        rospy.Subscriber("/ugv1/map", OccupancyGrid, cls.on_map)
+        rospy.Subscriber("/clock", Clock, cls.on_clock)
+        log = open(os.path.join(cls.out, "replay.log"), "w")
+        cls.replay = subprocess.Popen(["roslaunch", "--wait", "mocha_ugv", "replay.launch",
+                                       "bag:=" + os.path.join(cls.out, "drive.bag")],
+                                      stdout=log, stderr=subprocess.STDOUT)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.replay.terminate()
+        cls.replay.wait(20.0)
+        shutil.rmtree(cls.out)
+
+    @classmethod
+    def on_map(cls, message):
+        with cls.changed:
+            cls.map = message
+            cls.changed.notify_all()
+
+    @classmethod
+    def on_clock(cls, message):
+        with cls.changed:
+            cls.clocks.append(message.clock.to_sec())
+            cls.changed.notify_all()
+
+    def log(self):
+        with open(os.path.join(self.out, "replay.log")) as file:
+            return self.demo.stdout + file.read()[-3000:]
+
+    def test_1_the_demo_records_and_draws(self):
+        for name in ("drive.bag", "map.png", "dynamics.png", "clearance.png", "separation.png"):
+            self.assertGreater(os.path.getsize(os.path.join(self.out, name)), 5000, self.demo.stdout)
+        self.assertIn("the limit of 9 simulated seconds is over", self.demo.stdout)
+        self.assertEqual(self.demo.returncode, 1)
+
+    def test_2_plans_are_certified_and_nothing_drives(self):
+        plan = rospy.ServiceProxy("/ugv1/plan", PlanTrajectory)
+        with self.changed:
+            enough = lambda: self.map is not None and self.clocks and self.clocks[-1] > 1.0 + PLANNING_FROM_S
+            self.assertTrue(self.changed.wait_for(enough, 60.0), self.log())
+        goal = PoseStamped()
+        goal.header.frame_id = "map"
+        goal.pose.position.x, goal.pose.position.y = 18.5, 1.2
+        answer = plan(PoseStamped(), goal)
+        self.assertTrue(answer.success, answer.status.message)
+        self.assertEqual(answer.status.reason, PlannerStatus.SOLVED)
+        phases = answer.trajectory.phases
+        self.assertLess(math.dist((phases[-1].x[-1], phases[-1].y[-1]), (18.5, 1.2)), 0.2)
+
+        publishers = {topic: nodes for topic, nodes in rosgraph.Master("/replay_test").getSystemState()[0]}
+        self.assertNotIn("/ugv1/cmd_vel", publishers)
+        self.assertEqual([node for node in publishers["/ugv1/committed_trajectory"] if not node.startswith("/play")], [])
+        self.assertIn("/ugv1/local_replanner", publishers["/ugv1/proposed_trajectory"])
+
+    def test_3_the_map_is_as_the_world_is(self):
+        self.replay.wait(60.0)  # ends with the bag
+        with open(WORLD) as file:
+            world = yaml.safe_load(file)
+        circles = np.array(world["circles"])
+        places = occupied_places(self.map)
+        error = np.minimum(distance_to_circles(places, circles), distance_to_walls(places, world["polygons"]))
+        self.assertGreater(len(places), 500)
+        self.assertGreater(np.mean(error < NEAR_M), 0.99, "%d cells are occupied by nothing" % np.sum(error >= NEAR_M))
+        for circle in circles[circles[:, 0] < SEEN_X_M]:
+            seen = np.sum(distance_to_circles(places, circle[None, :]) < NEAR_M)
+            self.assertGreater(seen * self.map.info.resolution, circle[2], "too little of %s" % circle)
+        for y in (-2.5, 2.5):
+            wall = np.array([(x, y) for x in np.arange(-2.0, SEEN_X_M, 0.2)])
+            nearest = np.linalg.norm(wall[:, None, :] - places[None, :, :], axis=2).min(axis=1)
+            self.assertGreater(np.mean(nearest < NEAR_M), 0.9)
+
+
+if __name__ == "__main__":
+    rospy.init_node("replay_test")
+    rostest.rosrun("mocha_ugv", "replay", ReplayTest, sys.argv)

@@ -1,0 +1,214 @@
+"""One robot with its whole stack in the simulator, whose clock goes on only as far as the test lets it."""
+
+import math
+import os
+import re
+import signal
+import threading
+import time
+
+import actionlib
+import rospy
+from actionlib_msgs.msg import GoalStatus
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PoseStamped
+from mocha_ugv.msg import GroundTruth, StepAck
+from move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
+from rosgraph_msgs.msg import Clock, Log
+
+STANDING_MPS = 0.03
+STANDING_RADPS = 0.05
+CHUNK_S = 0.1  # of simulated time between two looks at a condition
+STUCK_WALL_S = 60.0
+
+
+def wrap(angle):
+    return math.atan2(math.sin(angle), math.cos(angle))
+
+
+def pose(x, y, yaw=None, frame="map"):
+    """A pose; without yaw, the quaternion of zeros means any heading."""
+    stamped = PoseStamped()
+    stamped.header.frame_id = frame
+    stamped.pose.position.x, stamped.pose.position.y = x, y
+    if yaw is not None:
+        stamped.pose.orientation.z, stamped.pose.orientation.w = math.sin(0.5 * yaw), math.cos(0.5 * yaw)
+    return stamped
+
+
+class SimulatedRobot:
+    """Plays the lockstep node `judge` of a robot, so that simulated time stands while the test thinks."""
+
+    def __init__(self, name="ugv1"):
+        self.name = name
+        self.now = 0.0  # [s] simulated
+        self.truth = None
+        self.heard = []  # (time, words) of diagnostics and log
+        self.speeds = []  # (time, speed, yaw rate), ground truth
+        self._changed = threading.Condition()
+        self._stamp = None
+        self._until = 0.0
+        self._acked = {}  # node -> when [s, simulated]
+        self._acks = rospy.Publisher("/fleet_simulator/acks", StepAck, queue_size=100, tcp_nodelay=True)
+        self.client = actionlib.SimpleActionClient("/%s/move_base" % name, MoveBaseAction)
+        self.simple_goals = rospy.Publisher("/%s/move_base_simple/goal" % name, PoseStamped, queue_size=1)
+        rospy.Subscriber("/fleet_simulator/ground_truth", GroundTruth, self._on_truth, tcp_nodelay=True)
+        rospy.Subscriber("/fleet_simulator/acks", StepAck, self._on_ack, tcp_nodelay=True)
+        rospy.Subscriber("/diagnostics", DiagnosticArray, self._on_diagnostics)
+        rospy.Subscriber("/rosout", Log, self._on_log)
+        rospy.Subscriber("/clock", Clock, self._on_clock, tcp_nodelay=True)
+
+    # --- what comes in ---
+
+    def _on_truth(self, message):
+        for robot in message.robots:
+            if robot.name == self.name:
+                self.truth = robot
+                self.speeds.append((message.header.stamp.to_sec(), robot.speed, robot.yaw_rate))
+
+    def _on_ack(self, ack):
+        if ack.robot == self.name:
+            self._acked[ack.node] = ack.stamp.to_sec()
+
+    def _on_diagnostics(self, message):
+        for status in message.status:
+            self.heard.append((self.now, status.name + ": " + status.message))
+
+    def _on_log(self, message):
+        self.heard.append((self.now, message.name + ": " + message.msg))
+
+    def _on_clock(self, message):
+        with self._changed:
+            self._stamp = message.clock
+            self.now = message.clock.to_sec()
+            self._answer()
+            self._changed.notify_all()
+
+    def _answer(self):
+        if self._stamp is not None and self.now <= self._until:
+            self._acks.publish(StepAck(robot=self.name, node="judge", stamp=self._stamp))
+
+    # --- time ---
+
+    def run(self, seconds):
+        """Lets simulated time go on."""
+        with self._changed:
+            self._until = self.now + seconds - 1e-6
+            self._answer()
+            if not self._changed.wait_for(lambda: self.now > self._until, STUCK_WALL_S):
+                raise AssertionError("simulated time stands at %.2f s" % self.now)
+
+    def run_until(self, condition, limit_s, what):
+        """Lets simulated time go on until the condition holds."""
+        end = self.now + limit_s
+        while not condition():
+            if self.now > end:
+                raise AssertionError("not within %.1f s: %s; %s" % (limit_s, what, self.report()))
+            self.run(CHUNK_S)
+
+    def start(self):
+        """Until the whole stack is up and has promised to stand."""
+        deadline = time.monotonic() + STUCK_WALL_S
+        while self._stamp is None or self._acks.get_num_connections() == 0:
+            if time.monotonic() > deadline:
+                raise AssertionError("no simulator")
+            time.sleep(0.05)
+        self.run(3.0)
+
+    # --- what the robot does ---
+
+    def place(self):
+        return self.truth.pose.x, self.truth.pose.y
+
+    def distance_to(self, x, y):
+        return math.dist(self.place(), (x, y))
+
+    def standing(self):
+        return abs(self.truth.speed) < STANDING_MPS and abs(self.truth.yaw_rate) < STANDING_RADPS
+
+    def stood_at(self, moment):
+        """Whether it stood at that moment, and since."""
+        later = [entry for entry in self.speeds if entry[0] >= moment]
+        return bool(later) and all(abs(v) < STANDING_MPS and abs(w) < STANDING_RADPS for _, v, w in later)
+
+    def said(self, pattern, since=0.0):
+        """Whether a node said so, in diagnostics or in the log."""
+        return any(at >= since and re.search(pattern, words) for at, words in list(self.heard))
+
+    def report(self):
+        state = "no truth yet" if self.truth is None else "at (%.2f, %.2f, %.2f), %.2f m/s, %d contacts" % (
+            *self.place(), self.truth.pose.theta, self.truth.speed, self.truth.contacts)
+        newest = dict(words.split(": ", 1) for _, words in self.heard[-200:] if ": " in words)
+        return "at %.2f s %s; last words: %s" % (self.now, state, newest)
+
+    # --- goals ---
+
+    def send(self, x, y, yaw=None):
+        self.client.wait_for_server()
+        self.client.send_goal(MoveBaseGoal(target_pose=pose(x, y, yaw)))
+
+    def done(self):
+        return self.client.get_state() not in (GoalStatus.PENDING, GoalStatus.ACTIVE)
+
+    def outcome(self):
+        return GoalStatus.to_string(self.client.get_state()), self.client.get_goal_status_text()
+
+    def arrive(self, x, y, yaw=None, limit_s=60.0):
+        """Drives there."""
+        self.send(x, y, yaw)
+        self.run_until(self.done, limit_s, "the goal (%.1f, %.1f) is reached" % (x, y))
+        if self.outcome()[0] != "SUCCEEDED" or self.distance_to(x, y) > 0.2 or not self.standing():
+            raise AssertionError("%s: %s; %s" % (*self.outcome(), self.report()))
+
+    # --- its processes ---
+
+    def process(self, node):
+        """The id of a node's process, or None."""
+        mine = ("ROS_MASTER_URI=" + os.environ["ROS_MASTER_URI"]).encode()
+        for entry in os.listdir("/proc"):
+            if not entry.isdigit():
+                continue
+            try:
+                with open("/proc/%s/cmdline" % entry, "rb") as file:
+                    words = file.read().split(b"\0")
+                with open("/proc/%s/environ" % entry, "rb") as file:
+                    environment = file.read().split(b"\0")
+            except OSError:
+                continue
+            if words[0].endswith(b"/" + node.encode()) and mine in environment and (
+                    ("ROS_NAMESPACE=/" + self.name).encode() in environment):
+                return int(entry)
+        return None
+
+    def dead_for(self, node, seconds):
+        """Kills a node and, for that much simulated time, whatever is started in its place."""
+        over = threading.Event()
+        killed = threading.Event()
+
+        def reap():
+            while not over.is_set():
+                process = self.process(node)
+                if process is not None:
+                    os.kill(process, signal.SIGKILL)
+                    killed.set()
+                over.wait(0.05)
+
+        reaper = threading.Thread(target=reap)
+        reaper.start()
+        try:
+            if not killed.wait(5.0):
+                raise AssertionError("no process of " + node)
+            self.run(seconds)
+        finally:
+            over.set()
+            reaper.join()
+
+    def wait_for_node(self, node):
+        """Lets time go on until the node takes part again."""
+        since = self.now
+        deadline = time.monotonic() + STUCK_WALL_S
+        while self._acked.get(node, 0.0) <= since:
+            if time.monotonic() > deadline:
+                raise AssertionError(node + " has not come back; " + self.report())
+            self.run(0.02)
+            time.sleep(0.05)
