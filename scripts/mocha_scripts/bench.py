@@ -1,0 +1,21 @@
+"""Measurements by name."""
+import argparse
+import sys
+
+from mocha_scripts import bench_barn
+
+BENCHES = {"barn": bench_barn}
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="scripts/bench", description=__doc__)
+    names = parser.add_subparsers(dest="name", metavar="NAME", required=True)
+    for name, module in BENCHES.items():
+        module.add_arguments(names.add_parser(name, help=module.__doc__.strip().split("\n")[0],
+                                              description=module.__doc__))
+    options = parser.parse_args(arguments)
+    return BENCHES[options.name].run(options)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

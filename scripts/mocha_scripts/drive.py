@@ -1,0 +1,57 @@
+"""One drive of a simulated fleet: launch, watch, record, end."""
+import os
+import time
+
+import rospy
+
+from mocha_scripts.referee import Referee
+from mocha_scripts.session import Session
+
+RECORDED = ["/clock", "/tf", "/tf_static", "/fleet_simulator/ground_truth", "/fleet_simulator/contacts",
+            "/fleet_simulator/world", "/fleet/promises", "/diagnostics"]
+RECORDED_PER_ROBOT = ["scan", "odom", "cmd_vel", "map", "global_trajectory", "proposed_trajectory",
+                      "committed_trajectory", "settlement", "candidates", "planner_status", "replanner_status",
+                      "tracking_error", "fleet/trajectories"]
+
+
+def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, limit_s=180.0, stop_at_contact=False,
+          progress=lambda referee: None):
+    """Drives the fleet of a world file. Returns (results, why): `why` says what ended the drive.
+
+    The limit is in simulated seconds. Logs, and the rosbag `drive.bag`, go to the directory `out`."""
+    os.makedirs(out, exist_ok=True)
+    arguments = {"world": os.path.abspath(world), "rate": rate, "seed": seed, "rviz": str(rviz).lower()}
+    with Session("fleet_sim.launch", arguments, os.path.join(out, "drive.log")) as session:
+        if not _wait_for_launch(session):
+            return {"robots": [], "min_separation_m": None}, session.last_words()
+        if record:
+            topics = RECORDED + [f"/{name}/{topic}" for name in names for topic in RECORDED_PER_ROBOT]
+            bag = os.path.join(out, "drive.bag")
+            session.add(["rosbag", "record", "-q", "-O", bag, "-b", "512"] + topics)
+        rospy.init_node("referee", anonymous=True, disable_signals=True)
+        referee = Referee()
+        why = "all robots reached their goals"
+        while not referee.finished():
+            if not session.alive():
+                why = session.last_words()
+                break
+            if referee.elapsed_s() > limit_s:
+                why = f"the limit of {limit_s:.0f} simulated seconds is over"
+                break
+            if stop_at_contact and referee.touched():
+                why = "a robot touched something"
+                break
+            progress(referee)
+            time.sleep(0.2)
+        return referee.results(), why
+
+
+def _wait_for_launch(session, patience_s=30.0):
+    """True once roslaunch has set up its master and said that time is simulated: what starts later follows /clock."""
+    import rosgraph
+    until = time.monotonic() + patience_s
+    while time.monotonic() < until and session.alive():
+        if rosgraph.is_master_online() and rosgraph.Master("/drive").hasParam("/use_sim_time"):
+            return True
+        time.sleep(0.1)
+    return False

@@ -1,0 +1,100 @@
+"""Watches the simulator's ground truth and keeps the result of a drive."""
+import math
+import threading
+
+import rospy
+from mocha_ugv.msg import Contact, GroundTruth
+
+
+class RobotResult:
+    def __init__(self, name):
+        self.name = name
+        self.has_goal = False
+        self.reached = False
+        self.contacts = 0
+        self.time_s = None
+        self.path_m = 0.0
+        self.min_clearance_m = math.inf
+        self.max_speed_mps = 0.0
+
+    def update(self, truth):
+        self.has_goal = truth.has_goal
+        self.contacts = truth.contacts
+        self.min_clearance_m = min(self.min_clearance_m, truth.clearance)
+        self.max_speed_mps = max(self.max_speed_mps, abs(truth.speed))
+        if self.reached:
+            return
+        self.path_m = truth.path_length
+        self.reached = truth.reached
+        if truth.reached:
+            self.time_s = (truth.reached_at - truth.moved_at).to_sec() if truth.moved else 0.0
+
+    def as_dict(self):
+        rounded = lambda value: None if value is None or not math.isfinite(value) else round(value, 4)
+        return {"name": self.name, "reached": self.reached, "contacts": self.contacts, "time_s": rounded(self.time_s),
+                "path_m": rounded(self.path_m), "min_clearance_m": rounded(self.min_clearance_m),
+                "max_speed_mps": rounded(self.max_speed_mps)}
+
+
+class Referee:
+    """Subscribes to the simulator; read it under its lock or after the drive."""
+
+    def __init__(self):
+        self.robots = {}
+        self.min_separation_m = math.inf
+        self.started_s = None
+        self.now_s = 0.0
+        self.contacts = []
+        self._lock = threading.Lock()
+        rospy.Subscriber("/fleet_simulator/contacts", Contact, self._on_contact)
+        rospy.Subscriber("/fleet_simulator/ground_truth", GroundTruth, self._on_truth)
+
+    def _on_contact(self, contact):
+        with self._lock:
+            self.contacts.append(f"{contact.robot} touched {contact.other} at "
+                                 f"({contact.place.x:.2f}, {contact.place.y:.2f}), {contact.depth:.3f} m deep")
+
+    def _on_truth(self, message):
+        with self._lock:
+            self.now_s = message.header.stamp.to_sec()
+            if self.started_s is None:
+                self.started_s = self.now_s
+            self.min_separation_m = min(self.min_separation_m, message.min_separation)
+            for truth in message.robots:
+                self.robots.setdefault(truth.name, RobotResult(truth.name)).update(truth)
+
+    def elapsed_s(self):
+        return 0.0 if self.started_s is None else self.now_s - self.started_s
+
+    def finished(self):
+        with self._lock:
+            return bool(self.robots) and all(robot.reached or not robot.has_goal for robot in self.robots.values())
+
+    def touched(self):
+        with self._lock:
+            return any(robot.contacts for robot in self.robots.values())
+
+    def results(self):
+        with self._lock:
+            separation = self.min_separation_m
+            return {"robots": [robot.as_dict() for _, robot in sorted(self.robots.items())],
+                    "min_separation_m": round(separation, 4) if math.isfinite(separation) else None}
+
+
+def succeeded(results):
+    """All robots reached their goals without contact."""
+    return bool(results["robots"]) and all(robot["reached"] and robot["contacts"] == 0 for robot in results["robots"])
+
+
+def table(results):
+    """The results as lines for people."""
+    show = lambda value, digits: "-" if value is None else f"{value:.{digits}f}"
+    lines = [f"{'robot':<10}{'reached':>8}{'contacts':>10}{'time [s]':>10}{'path [m]':>10}{'clearance [m]':>15}"
+             f"{'top speed [m/s]':>17}"]
+    for robot in results["robots"]:
+        lines.append(f"{robot['name']:<10}{'yes' if robot['reached'] else 'no':>8}{robot['contacts']:>10}"
+                     f"{show(robot['time_s'], 2):>10}{show(robot['path_m'], 2):>10}"
+                     f"{show(robot['min_clearance_m'], 3):>15}{show(robot['max_speed_mps'], 2):>17}")
+    if results["min_separation_m"] is not None:
+        lines.append(f"smallest separation of two robots (centre to centre): {results['min_separation_m']:.3f} m")
+    return "\n".join(lines)

@@ -1,0 +1,69 @@
+"""A ROS session of its own: a master on a free port and one roslaunch in it, both ended together."""
+import os
+import signal
+import socket
+import subprocess
+import time
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class Session:
+    """Starts roslaunch with its own master. Environment variables of this process point at it from then on."""
+
+    def __init__(self, launch_file, arguments, log_path):
+        port = free_port()
+        os.environ["ROS_MASTER_URI"] = f"http://localhost:{port}"
+        os.environ["ROS_HOSTNAME"] = "localhost"
+        os.environ.setdefault("ROSCONSOLE_STDOUT_LINE_BUFFERED", "1")
+        os.environ.setdefault("ROSCONSOLE_FORMAT", "[${severity}] [${time}] ${message}")
+        os.environ.setdefault("ROS_HOME", os.path.dirname(os.path.abspath(log_path)))
+        self.log_path = log_path
+        self._log = open(log_path, "w")
+        command = ["roslaunch", "-p", str(port), "mocha_ugv", launch_file]
+        command += [f"{key}:={value}" for key, value in arguments.items()]
+        self._process = subprocess.Popen(command, stdout=self._log, stderr=subprocess.STDOUT, start_new_session=True)
+        self._extra = []
+
+    def add(self, command):
+        """Another process that ends with the session."""
+        self._extra.append(subprocess.Popen(command, stdout=self._log, stderr=subprocess.STDOUT,
+                                            start_new_session=True))
+
+    def alive(self):
+        return self._process.poll() is None
+
+    def last_words(self):
+        """The complaint with which a session ended by itself."""
+        self._log.flush()
+        with open(self.log_path) as log:
+            lines = [line.strip() for line in log if "[FATAL]" in line or "[ERROR]" in line or "Error" in line]
+        return lines[0] if lines else "roslaunch ended; see " + self.log_path
+
+    def close(self):
+        for process in self._extra + [self._process]:
+            _end(process)
+        self._log.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+def _end(process):
+    for number, patience_s in ((signal.SIGINT, 10.0), (signal.SIGTERM, 5.0), (signal.SIGKILL, 5.0)):
+        if process.poll() is not None:
+            return
+        try:
+            os.killpg(process.pid, number)
+        except ProcessLookupError:
+            return
+        until = time.monotonic() + patience_s
+        while process.poll() is None and time.monotonic() < until:
+            time.sleep(0.05)
