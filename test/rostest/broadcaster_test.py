@@ -76,12 +76,24 @@ class Robot:
         assert self.wait_for(lambda: sequence in self.settlements), "no settlement of %d" % sequence
         return self.settlements[sequence]
 
+    def await_committed(self, sequence):
+        """The settlement may be heard before it: they are two topics."""
+        drives = lambda: self.committed and self.committed[-1].sequence == sequence
+        assert self.wait_for(drives), "%d is not committed" % sequence
+
+    def set_down(self, place):
+        """Puts the robot at rest somewhere, whatever it has promised: only an emergency may jump."""
+        sequence = self.propose(place, place, Trajectory.EMERGENCY)
+        self.settlement(sequence)
+        self.await_committed(sequence)
+        return sequence
+
     def bind(self, start, end):
         """Proposes until it is binding: a broadcaster that has just started refuses for a while."""
         for _ in range(20):
             sequence = self.propose(start, end)
             if self.settlement(sequence).reason == PlannerStatus.SOLVED:
-                self.wait_for(lambda: self.committed and self.committed[-1].sequence == sequence)
+                self.await_committed(sequence)
                 return sequence
             time.sleep(0.3)
         raise AssertionError("never binding: " + self.settlements[sequence].message)
@@ -121,9 +133,8 @@ class BroadcasterTest(unittest.TestCase):
         for trial in range(5):
             y = 100.0 * trial
             begun = {robot.name: len(robot.committed) for robot in (self.first, self.second)}
-            # From the second trial on they would jump there: an emergency motion sets them down.
-            for robot, place in ((self.first, (-3.0, y)), (self.second, (0.0, y - 3.0))):
-                robot.settlement(robot.propose(place, place, Trajectory.EMERGENCY))
+            self.first.set_down((-3.0, y))
+            self.second.set_down((0.0, y - 3.0))
             time.sleep(LEAD_S + 0.2)
             one = self.first.propose((-3.0, y), (3.0, y))
             two = self.second.propose((0.0, y - 3.0), (0.0, y + 3.0))
@@ -131,7 +142,10 @@ class BroadcasterTest(unittest.TestCase):
             loser = self.second.settlement(two)
             solved = [status.reason == PlannerStatus.SOLVED for status in (winner, loser)]
             self.assertEqual(sum(solved), 1, (winner.message, loser.message))
-            if solved[1]:  # it may have been settled before the other proposal was made
+            # The second may have been settled before the first was proposed.
+            robot, sequence = (self.second, two) if solved[1] else (self.first, one)
+            robot.await_committed(sequence)
+            if solved[1]:
                 loser = winner
             self.assertEqual(loser.reason, PlannerStatus.PEER_CONFLICT)
             self.assertEqual(loser.violated, PlannerStatus.SEPARATION)
@@ -143,8 +157,7 @@ class BroadcasterTest(unittest.TestCase):
             self.assertEqual(total, 3)  # two set down, one driven
 
     def test_2_the_peer_is_told(self):
-        sequence = self.first.propose((50.0, 50.0), (50.0, 50.0), Trajectory.EMERGENCY)
-        self.first.settlement(sequence)
+        sequence = self.first.set_down((50.0, 50.0))
         told = lambda: self.second.fleet and any(
             each.agent == "race1" and abs(each.phases[-1].x[-1] - 50.0) < 1e-6
             for each in self.second.fleet.trajectories)
@@ -157,7 +170,7 @@ class BroadcasterTest(unittest.TestCase):
 
     def test_3_bad_messages_are_refused_and_counted(self):
         here = (70.0, 70.0)
-        self.first.settlement(self.first.propose(here, here, Trajectory.EMERGENCY))
+        self.first.set_down(here)
         before = int(self.first.diagnosis["refused messages"]) if self.first.diagnosis else 0
         count = len(self.first.committed)
         for changes in ({"footprint_radius": -1.0}, {"footprint_radius": float("nan")}, {"agent": "race2"},
@@ -179,7 +192,7 @@ class BroadcasterTest(unittest.TestCase):
         self.assertEqual(len(self.first.committed), count)
 
     def test_4_a_killed_broadcaster_comes_back_with_a_new_epoch(self):
-        self.second.settlement(self.second.propose((-20.0, -20.0), (-20.0, -20.0), Trajectory.EMERGENCY))
+        self.second.set_down((-20.0, -20.0))
         time.sleep(LEAD_S + 0.2)
         self.second.bind((-20.0, -20.0), (-15.0, -20.0))
         epoch = self.second.committed[-1].epoch
