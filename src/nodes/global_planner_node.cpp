@@ -1,9 +1,6 @@
 #include <diagnostic_updater/diagnostic_updater.h>
-#include <mocha_ugv/Candidates.h>
 #include <mocha_ugv/PlanTrajectory.h>
-#include <mocha_ugv/PlannerStatus.h>
 #include <mocha_ugv/Trajectory.h>
-#include <nav_msgs/Path.h>
 #include <ros/ros.h>
 
 #include <algorithm>
@@ -18,9 +15,9 @@
 #include "ros/conversions.h"
 #include "ros/goal_inputs.h"
 #include "ros/map_source.h"
-#include "ros/markers.h"
 #include "ros/parameters.h"
 #include "ros/peer_source.h"
+#include "ros/planner_outputs.h"
 #include "ros/pose_source.h"
 #include "ros/robot_identity.h"
 #include "ros/run_node.h"
@@ -33,7 +30,6 @@ namespace {
 
 constexpr double kMapBorder_m = 3.0;
 constexpr double kSoonest_s = 0.2;   // between two plans, whoever asks
-constexpr double kPathStep_s = 0.1;  // of what is drawn
 constexpr double kAfterEnd_s = 0.5;  // a plan that ended this long ago without arrival has failed
 
 /// Finds the way: goals and maps in, plans out.
@@ -49,11 +45,7 @@ class GlobalPlannerNode {
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
-        plans_(node.advertise<mocha_ugv::Trajectory>("global_trajectory", 2, true)),
-        candidates_(node.advertise<mocha_ugv::Candidates>("candidates", 2, true)),
-        statuses_(node.advertise<mocha_ugv::PlannerStatus>("planner_status", 10, true)),
-        paths_(node.advertise<nav_msgs::Path>("global_path", 2, true)),
-        drawings_(node.advertise<visualization_msgs::MarkerArray>("planner_markers", 2, true)),
+        outputs_(node, identity_, model_),
         commitments_(
             node.subscribe("committed_trajectory", 10, &GlobalPlannerNode::on_committed, this)),
         requests_(node.subscribe("replan_request", 10, &GlobalPlannerNode::on_request, this)),
@@ -117,7 +109,7 @@ class GlobalPlannerNode {
         begin_goal();
         break;
       case GoalQueue::Event::kTimedOut:
-        inputs_.finish(false, "no progress; last: " + text_);
+        inputs_.finish(false, "no progress; last: " + outputs_.text());
         stop("no progress towards the goal");
         return;
       case GoalQueue::Event::kNone:
@@ -150,7 +142,7 @@ class GlobalPlannerNode {
     planned_at_ = now_;
     requested_ = false;
     ++plans_made_;
-    publish_candidates(result);
+    outputs_.show_candidates(result, goals_.current(), now_);
     if (result.motion.empty()) {
       report(result.reason, result.violation, result.message);
       give_up_where_occupied(result);
@@ -204,7 +196,7 @@ class GlobalPlannerNode {
     response.success = result.reason == PlanReason::kSolved;
     response.status =
         to_message(result.reason, result.violation, result.message, identity_.map_frame, now_);
-    if (!result.motion.empty()) response.trajectory = planned(result.motion);
+    if (!result.motion.empty()) response.trajectory = outputs_.planned(result.motion, now_);
     for (const auto& candidate : result.candidates) {
       response.candidates.push_back(to_message(candidate, identity_.map_frame, now_));
     }
@@ -248,57 +240,23 @@ class GlobalPlannerNode {
 
   // --- what goes out ---
 
-  mocha_ugv::Trajectory planned(const Motion& motion) const {
-    mocha_ugv::Trajectory message;
-    message.header.stamp = now_;
-    message.header.frame_id = identity_.map_frame;
-    message.state = mocha_ugv::Trajectory::PLANNED;
-    message.agent = identity_.name;
-    message.sequence = adopted_;
-    message.footprint_radius = model_.footprint.circumscribed_radius_m();
-    to_message(motion, message);
-    return message;
-  }
-
   void adopt(const Motion& motion) {
     plan_ = motion;
-    ++adopted_;
-    plans_.publish(planned(motion));
-    paths_.publish(to_path(motion, identity_.map_frame, kPathStep_s));
-  }
-
-  void publish_candidates(const PlanResult& result) {
-    mocha_ugv::Candidates message;
-    message.header.stamp = now_;
-    message.header.frame_id = identity_.map_frame;
-    Drawing drawing(identity_.map_frame, now_);
-    for (const PlanCandidate& candidate : result.candidates) {
-      message.candidates.push_back(to_message(candidate, identity_.map_frame, now_));
-      drawing.add_candidate("candidates", candidate.motion, model_.limits.max_speed, candidate.cost,
-                            candidate.selected);
-    }
-    drawing.add_goal(identity_.name, goals_.current().position, goals_.current().yaw_rad);
-    candidates_.publish(message);
-    drawings_.publish(drawing.markers());
+    outputs_.adopt(motion, now_);
   }
 
   void report(PlanReason reason, const Violation& violation, const std::string& text) {
-    const bool news = reason != reason_ || text != text_;
-    reason_ = reason;
-    text_ = text;
-    statuses_.publish(to_message(reason, violation, text, identity_.map_frame, now_));
-    if (news && reason != PlanReason::kSolved) {
-      ROS_WARN_THROTTLE(2.0, "%s: %s: %s", identity_.name.c_str(), to_text(reason), text.c_str());
-    }
+    outputs_.report(reason, violation, text, now_);
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
-    const bool fine = goals_.empty() || reason_ == PlanReason::kSolved;
-    status.summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
-                   goals_.empty() ? "no goal" : std::string(to_text(reason_)) + ": " + text_);
+    const bool fine = goals_.empty() || outputs_.reason() == PlanReason::kSolved;
+    status.summary(
+        fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+        goals_.empty() ? "no goal" : to_text(outputs_.reason()) + (": " + outputs_.text()));
     status.add("plans made", plans_made_);
-    status.add("plans adopted", adopted_);
+    status.add("plans adopted", outputs_.adopted());
     status.add("last request", request_);
     status.add("messages refused", refused_messages_ + inputs_.refused() + map_.refused() +
                                        peers_.refused() + pose_.refused());
@@ -313,6 +271,7 @@ class GlobalPlannerNode {
   PoseSource pose_;
   MapSource map_;
   PeerSource peers_;
+  PlannerOutputs outputs_;
   Motion committed_;
   Motion plan_;
   ros::Time now_;
@@ -321,16 +280,8 @@ class GlobalPlannerNode {
   bool requested_ = false;
   std::optional<ros::Time> occupied_since_;
   std::string request_;
-  std::uint32_t adopted_ = 0;
   int plans_made_ = 0;
   int refused_messages_ = 0;
-  PlanReason reason_ = PlanReason::kNoGoal;
-  std::string text_;
-  ros::Publisher plans_;
-  ros::Publisher candidates_;
-  ros::Publisher statuses_;
-  ros::Publisher paths_;
-  ros::Publisher drawings_;
   ros::Subscriber commitments_;
   ros::Subscriber requests_;
   ros::ServiceServer service_;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "planning/escape_proof.h"
-#include "planning/speed_profile.h"
+#include "planning/retreat.h"
 #include "trajectory/stopping.h"
 
 namespace mocha {
@@ -259,48 +259,19 @@ PlanResult GlobalPlanner::turn_only(const PlanQuery& query, const PlanningScene&
   return result;
 }
 
-std::optional<Motion> GlobalPlanner::back_out(const PlanQuery& query,
-                                              const DistanceField& obstacles) const {
+std::optional<Motion> GlobalPlanner::back_out(const PlanQuery& query, const Vector2& goal,
+                                              const PlanningScene& scene) const {
   const MotionState start = query.committed.at(query.start_time_s);
   if (!start.at_rest) return std::nullopt;
-  std::vector<Vector2> back = {start.pose.position};
-  double length = 0.0;
-  for (auto point = query.trail.rbegin(); point != query.trail.rend() && length < rules_.back_out_m;
-       ++point) {
-    const double step = (*point - back.back()).norm();
-    if (step < 0.2) continue;
-    length += step;
-    back.push_back(*point);
-  }
-  if (back.size() < 2) return std::nullopt;
-  const Vector2 away = -unit(start.pose.yaw_rad);
-  if ((back[1] - back[0]).normalized().dot(away) < 0.8)
-    return std::nullopt;  // did not come from behind
-  MotionLimits slow = robot_.limits;
-  slow.max_speed = std::min(slow.max_speed, 0.4);
-  slow.max_acceleration *= 0.5;
-  const InitialKnots knots = spread_knots(back, 0.0, slow, 0.3);
-  const int last = static_cast<int>(knots.path.cols()) - 1;
-  PlanarMinco::State from;
-  PlanarMinco::State to;
-  const double acceleration = 0.5 * slow.max_acceleration;
-  from << knots.path.col(0), Vector2::Zero(), acceleration * away;
-  to << knots.path.col(last), Vector2::Zero(),
-      -acceleration * (knots.path.col(last) - knots.path.col(last - 1)).normalized();
-  PlanarMinco minco;
-  minco.resize(last);
-  minco.solve(from, to, knots.path.middleCols(1, last - 1), knots.durations_s);
-  const Motion motion(query.start_time_s, {DrivePhase{-1, minco.curve().stretched(1.3)}});
-  if (check_limits(motion, robot_.limits, query.start_time_s)) return std::nullopt;
-  if (certify(motion, obstacles, query.start_time_s)) return std::nullopt;
-  return motion;
-}
-
-bool GlobalPlanner::leads_to(const Vector2& goal, const Vector2& from,
-                             const PlanningScene& scene) const {
-  PlanningScene without_peers;  // for they may go away
-  without_peers.obstacles = scene.obstacles;
-  return find_path(from, goal, 0.0, without_peers).outcome == GridPath::Outcome::kFound;
+  const auto motion =
+      retreat_along(query.trail, start.pose, query.start_time_s, rules_.back_out_m, robot_.limits);
+  if (!motion || certify(*motion, *scene.obstacles, query.start_time_s)) return std::nullopt;
+  // Worth while only if the goal can be reached from there, as far as the map says. Team-mates do
+  // not count: they may go away.
+  const PlanningScene without_peers{scene.obstacles, {}};
+  const Vector2 end = motion->end_pose().position;
+  const GridPath onward = find_path(end, goal, motion->end_time(), without_peers);
+  return onward.outcome == GridPath::Outcome::kFound ? motion : std::nullopt;
 }
 
 PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scene,
@@ -348,8 +319,7 @@ PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scen
                          ? "planning was stopped before a motion was found"
                          : "the optimisation found nothing finite";
   }
-  const auto retreat = back_out(query, *scene.obstacles);
-  if (retreat && leads_to(*goal, retreat->end_pose().position, scene)) {
+  if (const auto retreat = back_out(query, *goal, scene)) {
     result.reason = PlanReason::kBackingOut;
     result.message += "; backs out along the driven path";
     result.motion = *retreat;

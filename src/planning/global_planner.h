@@ -67,9 +67,8 @@ class GlobalPlanner {
   /// Takes the motion as that of the candidate, with what it violates first.
   void prove(const PlanQuery& query, Motion motion, const DistanceField& obstacles,
              PlanCandidate& candidate) const;
-  std::optional<Motion> back_out(const PlanQuery& query, const DistanceField& obstacles) const;
-  /// Whether the goal can be reached from there at all, as far as the map says.
-  bool leads_to(const Vector2& goal, const Vector2& from, const PlanningScene& scene) const;
+  std::optional<Motion> back_out(const PlanQuery& query, const Vector2& goal,
+                                 const PlanningScene& scene) const;
   std::optional<Vector2> free_goal(const Vector2& goal, const DistanceField& obstacles) const;
   PlanResult turn_only(const PlanQuery& query, const PlanningScene& scene) const;
   double required_clearance_m() const;

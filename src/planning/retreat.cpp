@@ -1,0 +1,61 @@
+#include "planning/retreat.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planning/speed_profile.h"
+#include "safety/certificate.h"
+#include "trajectory/minco.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kTrailStep_m = 0.2;  // closer points of the trail are noise of the pose
+constexpr double kKnotSpacing_m = 0.3;
+constexpr double kSlow_mps = 0.4;     // backward, where the lidar may not see
+constexpr double kSlackOfTime = 1.3;  // the curve's own shape asks for more than its profile
+constexpr double kFromBehind = 0.8;   // cosine between the trail and straight back
+
+/// The trail from `here` backward, thinned out.
+std::vector<Vector2> way_back(const std::vector<Vector2>& trail, const Vector2& here,
+                              double length_m) {
+  std::vector<Vector2> back = {here};
+  double length = 0.0;
+  for (auto point = trail.rbegin(); point != trail.rend() && length < length_m; ++point) {
+    const double step = (*point - back.back()).norm();
+    if (step < kTrailStep_m) continue;
+    length += step;
+    back.push_back(*point);
+  }
+  return back;
+}
+
+}  // namespace
+
+std::optional<Motion> retreat_along(const std::vector<Vector2>& trail, const Pose& pose,
+                                    double start_time_s, double length_m,
+                                    const MotionLimits& limits) {
+  const std::vector<Vector2> back = way_back(trail, pose.position, length_m);
+  if (back.size() < 2) return std::nullopt;
+  const Vector2 away(-std::cos(pose.yaw_rad), -std::sin(pose.yaw_rad));
+  if ((back[1] - back[0]).normalized().dot(away) < kFromBehind) return std::nullopt;
+  MotionLimits slow = limits;
+  slow.max_speed = std::min(slow.max_speed, kSlow_mps);
+  slow.max_acceleration *= 0.5;
+  const InitialKnots knots = spread_knots(back, 0.0, slow, kKnotSpacing_m);
+  const int last = static_cast<int>(knots.path.cols()) - 1;
+  const double acceleration = 0.5 * slow.max_acceleration;
+  PlanarMinco::State from;
+  PlanarMinco::State to;
+  from << knots.path.col(0), Vector2::Zero(), acceleration * away;
+  to << knots.path.col(last), Vector2::Zero(),
+      -acceleration * (knots.path.col(last) - knots.path.col(last - 1)).normalized();
+  PlanarMinco minco;
+  minco.resize(last);
+  minco.solve(from, to, knots.path.middleCols(1, last - 1), knots.durations_s);
+  const Motion motion(start_time_s, {DrivePhase{-1, minco.curve().stretched(kSlackOfTime)}});
+  if (check_limits(motion, limits, start_time_s)) return std::nullopt;
+  return motion;
+}
+
+}  // namespace mocha
