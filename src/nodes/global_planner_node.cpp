@@ -143,12 +143,12 @@ class GlobalPlannerNode {
     requested_ = false;
     ++plans_made_;
     outputs_.show_candidates(result, goals_.current(), now_);
+    if (improvement && (result.motion.empty() || !much_better(result.motion))) return;
     if (result.motion.empty()) {
       report(result.reason, result.violation, result.message);
       give_up_where_occupied(result);
       return;
     }
-    if (improvement && !much_better(result.motion)) return;
     goal_is_new_ = false;
     occupied_since_.reset();
     report(result.reason, result.violation, result.message);
