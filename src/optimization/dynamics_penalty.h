@@ -16,16 +16,33 @@ class DynamicsPenalty : public Penalty<D> {
 
   const char* name() const override { return "dynamics"; }
 
-  double add(const TrajectorySample<D>& sample, SampleGradient<D>& gradient) const override {
-    const Cubic speed = cubic(sample.velocity.squaredNorm() * inverse_v2_ - 1.0);
-    const Cubic acceleration = cubic(sample.acceleration.squaredNorm() * inverse_a2_ - 1.0);
-    gradient.by_velocity += (2.0 * weight_ * speed.slope * inverse_v2_) * sample.velocity;
-    gradient.by_acceleration +=
-        (2.0 * weight_ * acceleration.slope * inverse_a2_) * sample.acceleration;
-    return weight_ * (speed.value + acceleration.value);
+  Derivatives wanted(const PieceBounds<D>& piece) const override {
+    return (piece.max_speed2 * inverse_v2_ > 1.0 ? kVelocity : kNone) |
+           (piece.max_acceleration2 * inverse_a2_ > 1.0 ? kAcceleration : kNone);
+  }
+
+  void add(const PieceSamples<D>& samples, PenaltyRows<D>& rows) const override {
+    const Derivatives which = wanted(samples.bounds);
+    if (which & kVelocity)
+      add_excess(samples.velocity(), inverse_v2_, rows.value, rows.by_velocity());
+    if (which & kAcceleration) {
+      add_excess(samples.acceleration(), inverse_a2_, rows.value, rows.by_acceleration());
+    }
   }
 
  private:
+  using Rows = typename PieceSamples<D>::Rows;
+
+  void add_excess(const Rows& entries, double inverse_limit2, Eigen::VectorXd& value,
+                  Rows& gradient) const {
+    for (int j = 0; j < entries.rows(); ++j) {
+      const Cubic excess = cubic(entries.row(j).squaredNorm() * inverse_limit2 - 1.0);
+      if (excess.value == 0.0) continue;
+      value[j] += weight_ * excess.value;
+      gradient.row(j) += (2.0 * weight_ * excess.slope * inverse_limit2) * entries.row(j);
+    }
+  }
+
   double weight_;
   double inverse_v2_;
   double inverse_a2_;

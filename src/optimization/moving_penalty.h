@@ -27,29 +27,44 @@ class MovingPenalty : public Penalty<2> {
 
   const char* name() const override { return "moving"; }
 
-  double add(const TrajectorySample<2>& sample, SampleGradient<2>& gradient) const override {
-    const double now = start_time_s_ + sample.time_s;
-    double sum = 0.0;
+  Derivatives wanted(const PieceBounds<2>& piece) const override {
+    const double begin_s = start_time_s_ + piece.start_s;
+    const double half_s = 0.5 * piece.duration_s;
     for (const Other& other : others_) {
-      if (now > other.until_s) continue;
-      const MovingObstacle::Disc disc = other.obstacle->at(now);
-      const double safety = reach_m_ + disc.radius_m;
-      const double inverse_ds2 = 1.0 / (safety * safety);
-      const Eigen::Vector2d apart = sample.position - disc.centre;
-      const double ratio = apart.squaredNorm() * inverse_ds2;
-      const Cubic penalty = cubic(1.0 - ratio);
-      if (penalty.value == 0.0) continue;
-      sum += weight_ * penalty.value;
-      const double scale = weight_ * penalty.slope;
-      gradient.by_position -= (2.0 * scale * inverse_ds2) * apart;
-      gradient.by_time +=
-          2.0 * scale *
-          (apart.dot(disc.velocity) * inverse_ds2 + ratio * disc.radius_rate / safety);
+      if (begin_s > other.until_s) continue;
+      const MovingObstacle::Disc disc = other.obstacle->at(begin_s + half_s);
+      const double reach_m =
+          reach_m_ + disc.radius_m + other.obstacle->max_closing_speed(begin_s) * half_s;
+      if (!(piece.box.exteriorDistance(disc.centre) > reach_m)) return kPosition;
     }
-    return sum;
+    return kNone;
+  }
+
+  void add(const PieceSamples<2>& samples, PenaltyRows<2>& rows) const override {
+    for (const Other& other : others_) {
+      for (int j = 0; j < samples.size(); ++j) add_one(other, samples, j, rows);
+    }
   }
 
  private:
+  void add_one(const Other& other, const PieceSamples<2>& samples, int j,
+               PenaltyRows<2>& rows) const {
+    const double now = start_time_s_ + samples.time_s[j];
+    if (now > other.until_s) return;
+    const MovingObstacle::Disc disc = other.obstacle->at(now);
+    const double safety = reach_m_ + disc.radius_m;
+    const double inverse_ds2 = 1.0 / (safety * safety);
+    const Eigen::Vector2d apart = samples.position().row(j).transpose() - disc.centre;
+    const double ratio = apart.squaredNorm() * inverse_ds2;
+    const Cubic penalty = cubic(1.0 - ratio);
+    if (penalty.value == 0.0) return;
+    const double scale = weight_ * penalty.slope;
+    rows.value[j] += weight_ * penalty.value;
+    rows.by_position().row(j) -= (2.0 * scale * inverse_ds2) * apart;
+    rows.by_time[j] +=
+        2.0 * scale * (apart.dot(disc.velocity) * inverse_ds2 + ratio * disc.radius_rate / safety);
+  }
+
   double weight_;
   double start_time_s_;
   double reach_m_;

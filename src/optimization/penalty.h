@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+
+#include "optimization/piece_bounds.h"
 
 namespace mocha {
 
@@ -15,29 +18,57 @@ inline Cubic cubic(double x) {
   return {x * x * x, 3.0 * x * x};
 }
 
-/// One sample of a trajectory: what a penalty sees.
+/// A set of derivatives of a trajectory, as bits: 1 << order.
+using Derivatives = unsigned;
+constexpr int kOrders = 4;
+constexpr Derivatives kNone = 0;
+constexpr Derivatives kPosition = 1;
+constexpr Derivatives kVelocity = 2;
+constexpr Derivatives kAcceleration = 4;
+constexpr Derivatives kJerk = 8;
+
+/// One piece of a trajectory at kappa + 1 uniform times, a row each: what penalties see.
+/// Derivatives that no penalty wants hold nothing of use.
 template <int D>
-struct TrajectorySample {
-  using Vector = Eigen::Matrix<double, D, 1>;
-  Vector position;               ///< [m]
-  Vector velocity;               ///< [m/s]
-  Vector acceleration;           ///< [m/s^2]
-  double time_s;                 ///< from the start of the trajectory: tau_f of (22)
-  Vector jerk = Vector::Zero();  ///< [m/s^3]
+struct PieceSamples {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, D>;
+
+  explicit PieceSamples(int samples) : time_s(samples) {
+    for (Rows& rows : derivative) rows.resize(samples, D);
+  }
+
+  int size() const { return static_cast<int>(time_s.size()); }
+  const Rows& position() const { return derivative[0]; }      ///< [m]
+  const Rows& velocity() const { return derivative[1]; }      ///< [m/s]
+  const Rows& acceleration() const { return derivative[2]; }  ///< [m/s^2]
+  const Rows& jerk() const { return derivative[3]; }          ///< [m/s^3]
+
+  std::array<Rows, kOrders> derivative;
+  Eigen::VectorXd time_s;  ///< from the start of the trajectory: tau_f of (22)
+  PieceBounds<D> bounds;   ///< hold for the whole piece
 };
 
-/// Gradient of a penalty by the sample's entries; penalties add to it.
+/// Penalty of each sample of a piece, and its gradient by the sample's entries; penalties add to
+/// them.
 template <int D>
-struct SampleGradient {
-  using Vector = Eigen::Matrix<double, D, 1>;
-  Vector by_position = Vector::Zero();
-  Vector by_velocity = Vector::Zero();
-  Vector by_acceleration = Vector::Zero();
-  Vector by_jerk = Vector::Zero();
-  double by_time = 0.0;
+struct PenaltyRows {
+  using Rows = typename PieceSamples<D>::Rows;
+
+  explicit PenaltyRows(int samples) : value(samples), by_time(samples) {
+    for (Rows& rows : by_derivative) rows.resize(samples, D);
+  }
+
+  Rows& by_position() { return by_derivative[0]; }
+  Rows& by_velocity() { return by_derivative[1]; }
+  Rows& by_acceleration() { return by_derivative[2]; }
+  Rows& by_jerk() { return by_derivative[3]; }
+
+  Eigen::VectorXd value;  ///< [1/s]
+  std::array<Rows, kOrders> by_derivative;
+  Eigen::VectorXd by_time;
 };
 
-/// One term of J_p (14): its value per second of trajectory at one sample (21).
+/// One term of J_p (14): what every instant of a trajectory costs (21).
 ///
 /// Penalties are dimensionless: what is to be avoided is measured against its limit before (31) is
 /// applied, so that one set of weights serves robots of every size. The paper's form follows with
@@ -48,8 +79,11 @@ class Penalty {
   virtual ~Penalty() = default;
   /// A short name for reports, such as "obstacle".
   virtual const char* name() const = 0;
-  /// The weighted penalty [1/s]; its gradient is added.
-  virtual double add(const TrajectorySample<D>& sample, SampleGradient<D>& gradient) const = 0;
+  /// The derivatives that add() looks at on a piece. kNone only where the penalty is certainly zero
+  /// all along it, as most are on most pieces: such a piece is not even sampled.
+  virtual Derivatives wanted(const PieceBounds<D>& piece) const = 0;
+  /// Adds the weighted penalty [1/s] and its gradient at every sample.
+  virtual void add(const PieceSamples<D>& samples, PenaltyRows<D>& rows) const = 0;
 };
 
 }  // namespace mocha

@@ -3,89 +3,136 @@
 #include <cmath>
 
 namespace mocha {
+namespace {
+
+double falling_factorial(int n, int k) {
+  double product = 1.0;
+  for (int j = 0; j < k; ++j) product *= n - j;
+  return product;
+}
+
+bool contains(Derivatives set, int order) { return (set >> order) & 1u; }
+
+}  // namespace
 
 template <int D, int S>
-TimeQuadrature<D, S>::TimeQuadrature(int kappa) : kappa_(kappa) {
-  for (int j = 0; j <= kappa; ++j) {
-    const double u = static_cast<double>(j) / kappa;
-    Basis value;
-    Basis first = Basis::Zero();
-    Basis second = Basis::Zero();
-    Basis third = Basis::Zero();
-    for (int k = 0; k < 2 * S; ++k) {
-      value[k] = std::pow(u, k);
-      if (k >= 1) first[k] = k * std::pow(u, k - 1);
-      if (k >= 2) second[k] = k * (k - 1) * std::pow(u, k - 2);
-      if (k >= 3) third[k] = k * (k - 1) * (k - 2) * std::pow(u, k - 3);
+TimeQuadrature<D, S>::TimeQuadrature(int kappa, int pieces, std::size_t penalties)
+    : kappa_(kappa),
+      alpha_(Eigen::VectorXd::LinSpaced(kappa + 1, 0.0, 1.0)),
+      omega_(Eigen::VectorXd::Ones(kappa + 1)),
+      samples_(kappa + 1),
+      rows_(kappa + 1),
+      by_time_(pieces) {
+  active_.reserve(penalties);
+  omega_[0] = omega_[kappa] = 0.5;
+  for (int order = 0; order < kOrders; ++order) {
+    basis_[order].setZero(kappa + 1, 2 * S);
+    for (int j = 0; j <= kappa; ++j) {
+      for (int k = order; k < 2 * S; ++k) {
+        basis_[order](j, k) = falling_factorial(k, order) * std::pow(alpha_[j], k - order);
+      }
     }
-    value_.push_back(value);
-    first_.push_back(first);
-    second_.push_back(second);
-    third_.push_back(third);
+    weighted_basis_[order] = omega_.asDiagonal() * basis_[order];
   }
 }
 
+/// Which penalties may be other than zero on the piece whose bounds are set, and what they want.
 template <int D, int S>
-double TimeQuadrature<D, S>::add(const Minco<D, S>& curve,
-                                 const std::vector<std::unique_ptr<Penalty<D>>>& penalties,
+Derivatives TimeQuadrature<D, S>::choose(const Penalties& penalties) {
+  Derivatives wanted = kNone;
+  active_.clear();
+  for (std::size_t p = 0; p < penalties.size(); ++p) {
+    const Derivatives needs = penalties[p]->wanted(samples_.bounds);
+    if (needs != kNone) active_.push_back(p);
+    wanted |= needs;
+  }
+  return wanted;
+}
+
+template <int D, int S>
+void TimeQuadrature<D, S>::sample(const Piece& coefficients, Derivatives wanted) {
+  const double inverse_tau = 1.0 / samples_.bounds.duration_s;
+  double scale = 1.0;
+  for (int order = 0; order < kOrders; ++order, scale *= inverse_tau) {
+    if (!contains(wanted, order)) continue;
+    const Piece scaled = scale * coefficients;
+    samples_.derivative[order].noalias() = basis_[order].lazyProduct(scaled.transpose());
+    rows_.by_derivative[order].setZero();
+  }
+  samples_.time_s =
+      (samples_.bounds.start_s + samples_.bounds.duration_s * alpha_.array()).matrix();
+  rows_.by_time.setZero();
+}
+
+/// The integral over the piece; zero only if every sample's penalty is.
+template <int D, int S>
+double TimeQuadrature<D, S>::penalise(const Penalties& penalties, std::vector<double>& shares) {
+  double sum = 0.0;
+  for (const std::size_t p : active_) {
+    rows_.value.setZero();
+    penalties[p]->add(samples_, rows_);
+    const double share = samples_.bounds.duration_s / kappa_ * omega_.dot(rows_.value);
+    shares[p] += share;
+    sum += share;
+  }
+  return sum;
+}
+
+/// Adds the gradient by the coefficients; returns that by the piece's own duration through the
+/// samples' velocities and higher derivatives, which shrink as it grows.
+template <int D, int S>
+double TimeQuadrature<D, S>::propagate(Derivatives wanted, Piece& by_coefficients) {
+  const double inverse_tau = 1.0 / samples_.bounds.duration_s;
+  double scale = samples_.bounds.duration_s / kappa_;
+  double by_tau = 0.0;
+  for (int order = 0; order < kOrders; ++order, scale *= inverse_tau) {
+    if (!contains(wanted, order)) continue;
+    const auto& by_samples = rows_.by_derivative[order];
+    const Piece by_scaled = by_samples.transpose().lazyProduct(weighted_basis_[order]);
+    by_coefficients += scale * by_scaled;
+    if (order == 0) continue;
+    const auto products = by_samples.cwiseProduct(samples_.derivative[order]);
+    for (int axis = 0; axis < D; ++axis) by_tau -= order * products.col(axis).dot(omega_) / kappa_;
+  }
+  return by_tau;
+}
+
+template <int D, int S>
+double TimeQuadrature<D, S>::add(const Minco<D, S>& curve, const Penalties& penalties,
                                  std::vector<Piece>& by_piece, Eigen::VectorXd& by_duration,
-                                 std::vector<double>& shares) const {
+                                 std::vector<double>& shares) {
   double total = 0.0;
-  double piece_start = 0.0;
-  double by_time_so_far =
-      0.0;  // of everything before a piece: these samples do not move when it gets longer
-  double by_time_total = 0.0;
+  double start_s = 0.0;
   for (int i = 0; i < curve.pieces(); ++i) {
     const double tau = curve.piece_duration(i);
-    const Piece& c = curve.piece(i);
-    double sum = 0.0;
-    double by_tau = 0.0;
-    double by_time_here = 0.0;
-    for (int j = 0; j <= kappa_; ++j) {
-      const double weight = j == 0 || j == kappa_ ? 0.5 : 1.0;
-      const double u = static_cast<double>(j) / kappa_;
-      TrajectorySample<D> sample;
-      sample.position.noalias() = c * value_[j];
-      sample.velocity.noalias() = c * first_[j] / tau;
-      sample.acceleration.noalias() = c * second_[j] / (tau * tau);
-      sample.jerk.noalias() = c * third_[j] / (tau * tau * tau);
-      sample.time_s = piece_start + u * tau;
-      SampleGradient<D> gradient;
-      double value = 0.0;
-      for (std::size_t p = 0; p < penalties.size(); ++p) {
-        const double share = penalties[p]->add(sample, gradient);
-        shares[p] += weight * tau / kappa_ * share;
-        value += share;
-      }
-      if (value == 0.0) continue;
-      sum += weight * value;
-      const double step = weight * tau / kappa_;
-      by_piece[i].noalias() += step * gradient.by_position * value_[j].transpose();
-      by_piece[i].noalias() += (step / tau) * gradient.by_velocity * first_[j].transpose();
-      by_piece[i].noalias() +=
-          (step / (tau * tau)) * gradient.by_acceleration * second_[j].transpose();
-      by_piece[i].noalias() +=
-          (step / (tau * tau * tau)) * gradient.by_jerk * third_[j].transpose();
-      by_tau -= step / tau *
-                (gradient.by_velocity.dot(sample.velocity) +
-                 2.0 * gradient.by_acceleration.dot(sample.acceleration) +
-                 3.0 * gradient.by_jerk.dot(sample.jerk));
-      by_tau += step * u * gradient.by_time;
-      by_time_here += step * gradient.by_time;
-    }
-    total += tau / kappa_ * sum;
-    // (26): a longer piece moves every later sample in absolute time. Later pieces' shares are
-    // added below.
-    by_duration[i] += sum / kappa_ + by_tau - by_time_so_far - by_time_here;
-    by_time_so_far += by_time_here;
-    by_time_total += by_time_here;
-    piece_start += tau;
+    by_time_[i] = 0.0;
+    samples_.bounds = bounds_of<D, S>(curve.piece(i), start_s, tau);
+    start_s += tau;
+    const Derivatives wanted = choose(penalties);
+    if (wanted == kNone) continue;
+    sample(curve.piece(i), wanted);
+    const double integral = penalise(penalties, shares);
+    if (integral == 0.0) continue;
+    total += integral;
+    const auto by_time = rows_.by_time.cwiseProduct(omega_);
+    by_time_[i] = tau / kappa_ * by_time.sum();
+    by_duration[i] +=
+        integral / tau + propagate(wanted, by_piece[i]) + tau / kappa_ * by_time.dot(alpha_);
   }
-  if (by_time_total != 0.0) by_duration.array() += by_time_total;
+  // (26): a longer piece moves every later sample in absolute time.
+  double by_later = 0.0;
+  for (int i = curve.pieces() - 1; i >= 0; --i) {
+    by_duration[i] += by_later;
+    by_later += by_time_[i];
+  }
   return total;
 }
 
+template class TimeQuadrature<2, 2>;
 template class TimeQuadrature<2, 3>;
+template class TimeQuadrature<2, 4>;
+template class TimeQuadrature<3, 2>;
 template class TimeQuadrature<3, 3>;
+template class TimeQuadrature<3, 4>;
 
 }  // namespace mocha

@@ -10,7 +10,7 @@ namespace mocha {
 template <int D, int S>
 TrajectoryObjective<D, S>::TrajectoryObjective(Setup setup)
     : setup_(std::move(setup)),
-      quadrature_(setup_.kappa),
+      quadrature_(setup_.kappa, pieces(), setup_.penalties.size()),
       knots_(D, pieces() - 1),
       by_knot_(D, pieces() - 1),
       durations_(pieces()),

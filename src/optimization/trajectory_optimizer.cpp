@@ -71,7 +71,8 @@ OptimizedTrajectory<D, S> optimize(TrajectoryObjective<D, S>& objective, Eigen::
                                    const OptimizerRules& rules) {
   OptimizedTrajectory<D, S> result;
   WatchedObjective<D, S> watched(objective, rules);
-  const LBFGSpp::LBFGSParam<double> parameters = solver_parameters(rules);  // the solver refers to it
+  const LBFGSpp::LBFGSParam<double> parameters =
+      solver_parameters(rules);  // the solver refers to it
   LBFGSpp::LBFGSSolver<double, LBFGSpp::LineSearchBracketing> solver(parameters);
   try {
     double cost;

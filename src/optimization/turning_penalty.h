@@ -19,43 +19,59 @@ class TurningPenalty : public Penalty<2> {
 
   const char* name() const override { return "turning"; }
 
-  double add(const TrajectorySample<2>& sample, SampleGradient<2>& gradient) const override {
-    const Eigen::Vector2d& v = sample.velocity;
-    const Eigen::Vector2d& a = sample.acceleration;
-    const double speed2 = v.squaredNorm();
-    if (speed2 < kRestSpeed2) return add_at_rest(sample, gradient);
-    const double soft2 = speed2 + soft_speed2_;
-    const double cross = (v.x() * a.y() - v.y() * a.x()) / max_yaw_rate_;
-    const double excess = (cross * cross - speed2 * speed2) / (soft2 * soft2);
-    const Cubic penalty = cubic(excess);
-    if (penalty.value == 0.0) return 0.0;
-    const double by_cross = 2.0 * cross / (soft2 * soft2 * max_yaw_rate_);
-    const double by_speed2 = -2.0 * (speed2 / (soft2 * soft2) + excess / soft2);
-    const double scale = weight_ * penalty.slope;
-    gradient.by_velocity +=
-        scale * (by_cross * Eigen::Vector2d(a.y(), -a.x()) + 2.0 * by_speed2 * v);
-    gradient.by_acceleration += scale * by_cross * Eigen::Vector2d(-v.y(), v.x());
-    return weight_ * penalty.value;
+  Derivatives wanted(const PieceBounds<2>& piece) const override {
+    // |v x a| <= |v| |a|
+    const double turns_slower_than2 = max_yaw_rate_ * max_yaw_rate_ * piece.min_speed2;
+    if (piece.max_acceleration2 <= turns_slower_than2) return kNone;
+    return kVelocity | kAcceleration | (piece.min_speed2 < kRestSpeed2 ? kJerk : kNone);
+  }
+
+  void add(const PieceSamples<2>& samples, PenaltyRows<2>& rows) const override {
+    for (int j = 0; j < samples.size(); ++j) {
+      if (samples.velocity().row(j).squaredNorm() < kRestSpeed2) {
+        add_at_rest(samples, j, rows);
+      } else {
+        add_moving(samples, j, rows);
+      }
+    }
   }
 
  private:
+  using Vector = Eigen::Vector2d;
   static constexpr double kRestSpeed2 = 1e-12;  // [m^2/s^2]
   static constexpr double kRestAcceleration2 =
       1e-6;  // [m^2/s^4] below, there is no limit to speak of
 
-  double add_at_rest(const TrajectorySample<2>& sample, SampleGradient<2>& gradient) const {
-    const Eigen::Vector2d& a = sample.acceleration;
-    const Eigen::Vector2d& j = sample.jerk;
+  void add_moving(const PieceSamples<2>& samples, int j, PenaltyRows<2>& rows) const {
+    const Vector v = samples.velocity().row(j);
+    const Vector a = samples.acceleration().row(j);
+    const double speed2 = v.squaredNorm();
+    const double soft2 = speed2 + soft_speed2_;
+    const double cross = (v.x() * a.y() - v.y() * a.x()) / max_yaw_rate_;
+    const double excess = (cross * cross - speed2 * speed2) / (soft2 * soft2);
+    const Cubic penalty = cubic(excess);
+    if (penalty.value == 0.0) return;
+    const double by_cross = 2.0 * cross / (soft2 * soft2 * max_yaw_rate_);
+    const double by_speed2 = -2.0 * (speed2 / (soft2 * soft2) + excess / soft2);
+    const double scale = weight_ * penalty.slope;
+    rows.value[j] += weight_ * penalty.value;
+    rows.by_velocity().row(j) += scale * (by_cross * Vector(a.y(), -a.x()) + 2.0 * by_speed2 * v);
+    rows.by_acceleration().row(j) += scale * by_cross * Vector(-v.y(), v.x());
+  }
+
+  void add_at_rest(const PieceSamples<2>& samples, int index, PenaltyRows<2>& rows) const {
+    const Vector a = samples.acceleration().row(index);
+    const Vector j = samples.jerk().row(index);
     const double a2 = a.squaredNorm();
-    if (a2 < kRestAcceleration2) return 0.0;
+    if (a2 < kRestAcceleration2) return;
     const double ratio = (a.x() * j.y() - a.y() * j.x()) / (2.0 * a2 * max_yaw_rate_);
     const Cubic penalty = cubic(ratio * ratio - 1.0);
     const double by_ratio = weight_ * penalty.slope * 2.0 * ratio;
     const double by_cross = by_ratio / (2.0 * a2 * max_yaw_rate_);
-    gradient.by_acceleration +=
-        by_cross * Eigen::Vector2d(j.y(), -j.x()) - (2.0 * by_ratio * ratio / a2) * a;
-    gradient.by_jerk += by_cross * Eigen::Vector2d(-a.y(), a.x());
-    return weight_ * penalty.value;
+    rows.value[index] += weight_ * penalty.value;
+    rows.by_acceleration().row(index) +=
+        by_cross * Vector(j.y(), -j.x()) - (2.0 * by_ratio * ratio / a2) * a;
+    rows.by_jerk().row(index) += by_cross * Vector(-a.y(), a.x());
   }
 
   double weight_;

@@ -176,8 +176,14 @@ double DistanceField::distance_bound(const Vector2& p) const {
   return beyond_m > 0.0 ? std::max(beyond_m, bound - beyond_m) : bound;
 }
 
+double DistanceField::room(const Vector& p, double radius_m) const {
+  // sample() falls short of the true distance by the interpolation, less than a cell. Beyond the
+  // map's rim, going along and going away both count.
+  return std::max(0.0, (distance_bound(p) - radius_m - resolution_m_) * M_SQRT1_2);
+}
+
 bool DistanceField::clear(const Box& box, double radius_m) const {
-  return distance_bound(box.center()) >= radius_m + 0.5 * box.diagonal().norm();
+  return room(box.center(), radius_m) > 0.5 * box.diagonal().norm();
 }
 
 }  // namespace mocha

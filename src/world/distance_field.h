@@ -28,6 +28,7 @@ class DistanceField : public ObstacleField<2> {
 
   Sample sample(const Vector2& p) const override;
   double distance_bound(const Vector2& p) const override;
+  double room(const Vector& p, double radius_m) const override;
   bool clear(const Box& box, double radius_m) const override;
 
   double resolution_m() const { return resolution_m_; }

@@ -8,13 +8,14 @@
 #include "optimization/dynamics_penalty.h"
 #include "optimization/moving_penalty.h"
 #include "optimization/obstacle_penalty.h"
+#include "optimization/one_sample.h"
 #include "optimization/turning_penalty.h"
 #include "safety/circle_field.h"
 
 namespace mocha {
 namespace {
 
-using Sample = TrajectorySample<2>;
+using Sample = mocha::Sample<2>;
 const Vector2 kZero = Vector2::Zero();
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
@@ -23,16 +24,10 @@ Sample sample_at(const Vector2& position, const Vector2& velocity, const Vector2
   return {position, velocity, acceleration, time_s};
 }
 
-double value_of(const Penalty<2>& penalty, const Sample& sample) {
-  SampleGradient<2> ignored;
-  return penalty.add(sample, ignored);
-}
-
 /// Compares the gradient with differences in all entries.
 void expect_gradient(const Penalty<2>& penalty, const Sample& sample, double step,
                      double tolerance) {
-  SampleGradient<2> gradient;
-  penalty.add(sample, gradient);
+  PenaltyRows<2> rows = rows_at(penalty, sample);
   const auto slope = [&](const std::function<double&(Sample&)>& entry) {
     Sample plus = sample;
     Sample minus = sample;
@@ -45,16 +40,16 @@ void expect_gradient(const Penalty<2>& penalty, const Sample& sample, double ste
         << penalty.name() << ", by " << what;
   };
   for (int axis = 0; axis < 2; ++axis) {
-    expect(gradient.by_position[axis],
+    expect(rows.by_position()(0, axis),
            slope([axis](Sample& s) -> double& { return s.position[axis]; }), "position");
-    expect(gradient.by_velocity[axis],
+    expect(rows.by_velocity()(0, axis),
            slope([axis](Sample& s) -> double& { return s.velocity[axis]; }), "velocity");
-    expect(gradient.by_acceleration[axis],
+    expect(rows.by_acceleration()(0, axis),
            slope([axis](Sample& s) -> double& { return s.acceleration[axis]; }), "acceleration");
-    expect(gradient.by_jerk[axis], slope([axis](Sample& s) -> double& { return s.jerk[axis]; }),
+    expect(rows.by_jerk()(0, axis), slope([axis](Sample& s) -> double& { return s.jerk[axis]; }),
            "jerk");
   }
-  expect(gradient.by_time, slope([](Sample& s) -> double& { return s.time_s; }), "time");
+  expect(rows.by_time[0], slope([](Sample& s) -> double& { return s.time_s; }), "time");
 }
 
 class RandomSamples {
@@ -138,10 +133,10 @@ TEST(TurningPenalty, GradientAtRestMatchesDifferences) {
 
 TEST(TurningPenalty, IsFiniteWithoutAnyMotion) {
   const TurningPenalty penalty(5.0, 0.5, 0.05);
-  SampleGradient<2> gradient;
-  EXPECT_EQ(penalty.add(sample_at(kZero, kZero, kZero), gradient), 0.0);
-  EXPECT_TRUE(gradient.by_velocity.isZero());
-  EXPECT_TRUE(gradient.by_acceleration.isZero());
+  PenaltyRows<2> rows = rows_at(penalty, sample_at(kZero, kZero, kZero));
+  EXPECT_EQ(rows.value[0], 0.0);
+  EXPECT_TRUE(rows.by_velocity().isZero());
+  EXPECT_TRUE(rows.by_acceleration().isZero());
 }
 
 TEST(TurningPenalty, GradientMatchesDifferencesAlsoNearStandstill) {
@@ -225,10 +220,10 @@ TEST(MovingPenalty, NobodyAroundCostsNothing) {
 
 TEST(Penalties, ThreeDimensionsAreLikeTwo) {
   const DynamicsPenalty<3> penalty(10.0, 2.0, 3.0);
-  TrajectorySample<3> sample{{0.0, 0.0, 0.0}, {0.0, 0.0, 4.0}, {0.0, 3.0, 3.0}, 0.0};
-  SampleGradient<3> gradient;
-  EXPECT_NEAR(penalty.add(sample, gradient), 280.0, 1e-9);
-  EXPECT_GT(gradient.by_velocity.z(), 0.0);
+  const mocha::Sample<3> sample{{0.0, 0.0, 0.0}, {0.0, 0.0, 4.0}, {0.0, 3.0, 3.0}};
+  PenaltyRows<3> rows = rows_at(penalty, sample);
+  EXPECT_NEAR(rows.value[0], 280.0, 1e-9);
+  EXPECT_GT(rows.by_velocity()(0, 2), 0.0);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <memory>
 
+#include "optimization/one_sample.h"
+
 namespace mocha {
 namespace {
 
@@ -12,15 +14,22 @@ namespace {
 class SmoothPenalty : public Penalty<2> {
  public:
   const char* name() const override { return "smooth"; }
-  double add(const TrajectorySample<2>& s, SampleGradient<2>& gradient) const override {
-    const double swing = std::sin(s.time_s);
-    gradient.by_position += 2.0 * swing * swing * s.position;
-    gradient.by_velocity += 2.0 * s.velocity;
-    gradient.by_acceleration += 0.2 * s.acceleration;
-    gradient.by_jerk += 0.02 * s.jerk;
-    gradient.by_time += 2.0 * swing * std::cos(s.time_s) * s.position.squaredNorm();
-    return swing * swing * s.position.squaredNorm() + s.velocity.squaredNorm() +
-           0.1 * s.acceleration.squaredNorm() + 0.01 * s.jerk.squaredNorm();
+  Derivatives wanted(const PieceBounds<2>&) const override {
+    return kPosition | kVelocity | kAcceleration | kJerk;
+  }
+  void add(const PieceSamples<2>& s, PenaltyRows<2>& rows) const override {
+    for (int j = 0; j < s.size(); ++j) {
+      const double swing = std::sin(s.time_s[j]);
+      const double distance2 = s.position().row(j).squaredNorm();
+      rows.value[j] += swing * swing * distance2 + s.velocity().row(j).squaredNorm() +
+                       0.1 * s.acceleration().row(j).squaredNorm() +
+                       0.01 * s.jerk().row(j).squaredNorm();
+      rows.by_position().row(j) += 2.0 * swing * swing * s.position().row(j);
+      rows.by_time[j] += 2.0 * swing * std::cos(s.time_s[j]) * distance2;
+    }
+    rows.by_velocity() += 2.0 * s.velocity();
+    rows.by_acceleration() += 0.2 * s.acceleration();
+    rows.by_jerk() += 0.02 * s.jerk();
   }
 };
 
@@ -28,11 +37,31 @@ class SmoothPenalty : public Penalty<2> {
 class One : public Penalty<2> {
  public:
   const char* name() const override { return "one"; }
-  double add(const TrajectorySample<2>&, SampleGradient<2>&) const override { return 1.0; }
+  Derivatives wanted(const PieceBounds<2>&) const override { return kPosition; }
+  void add(const PieceSamples<2>&, PenaltyRows<2>& rows) const override {
+    rows.value.array() += 1.0;
+  }
+};
+
+/// Says that it is zero after a time, and is.
+class OneUntil : public Penalty<2> {
+ public:
+  explicit OneUntil(double end_s) : end_s_(end_s) {}
+  const char* name() const override { return "one until"; }
+  Derivatives wanted(const PieceBounds<2>& piece) const override {
+    return piece.start_s < end_s_ ? kVelocity : kNone;
+  }
+  void add(const PieceSamples<2>& s, PenaltyRows<2>& rows) const override {
+    EXPECT_LT(s.bounds.start_s, end_s_) << "was asked about a piece that it does not want";
+    rows.value.array() += 1.0;
+  }
+
+ private:
+  double end_s_;
 };
 
 /// What the penalties see of a curve at time t of it.
-TrajectorySample<2> sample_of(const PlanarPath& path, double t, double time_s) {
+Sample<2> sample_of(const PlanarPath& path, double t, double time_s) {
   return {path.position(t), path.derivative(t, 1), path.derivative(t, 2), time_s,
           path.derivative(t, 3)};
 }
@@ -64,8 +93,8 @@ Integral integrate(const PlanarMinco& minco, const Penalties& penalties, int kap
   result.by_piece.assign(minco.pieces(), PlanarMinco::Piece::Zero());
   result.by_duration.setZero(minco.pieces());
   result.shares.assign(penalties.size(), 0.0);
-  result.value = TimeQuadrature<2, 3>(kappa).add(minco, penalties, result.by_piece,
-                                                 result.by_duration, result.shares);
+  result.value = TimeQuadrature<2, 3>(kappa, minco.pieces(), penalties.size())
+                     .add(minco, penalties, result.by_piece, result.by_duration, result.shares);
   return result;
 }
 
@@ -76,8 +105,7 @@ double fine_integral(const PlanarMinco& minco, const Penalty<2>& penalty) {
   double sum = 0.0;
   for (int i = 0; i < kSteps; ++i) {
     const double t = (i + 0.5) * step;
-    SampleGradient<2> ignored;
-    sum += step * penalty.add(sample_of(path, t, t), ignored);
+    sum += step * value_of(penalty, sample_of(path, t, t));
   }
   return sum;
 }
@@ -114,13 +142,24 @@ TEST(TimeQuadrature, SharesAddUp) {
   EXPECT_NEAR(result.shares[0] + result.shares[1], result.value, 1e-12);
 }
 
+TEST(TimeQuadrature, SkipsPiecesOnWhichAPenaltyIsZero) {
+  const PlanarMinco minco = curve();
+  Penalties penalties;
+  penalties.push_back(std::make_unique<OneUntil>(1.5));  // the first two pieces: 1.3 s and 0.7 s
+  const Integral result = integrate(minco, penalties, 12);
+  EXPECT_NEAR(result.value, 2.0, 1e-12);
+  EXPECT_EQ(result.by_duration[2], 0.0);
+  EXPECT_EQ(result.by_duration[3], 0.0);
+}
+
 TEST(TimeQuadrature, AddsToWhatIsThere) {
   const PlanarMinco minco = curve();
   Penalties penalties;
   penalties.push_back(std::make_unique<SmoothPenalty>());
   const Integral once = integrate(minco, penalties, 12);
   Integral twice = once;
-  TimeQuadrature<2, 3>(12).add(minco, penalties, twice.by_piece, twice.by_duration, twice.shares);
+  TimeQuadrature<2, 3>(12, minco.pieces(), 1)
+      .add(minco, penalties, twice.by_piece, twice.by_duration, twice.shares);
   EXPECT_LT((twice.by_duration - 2.0 * once.by_duration).norm(), 1e-9);
   EXPECT_LT((twice.by_piece[2] - 2.0 * once.by_piece[2]).norm(), 1e-9);
 }
@@ -140,9 +179,8 @@ double value_with(const PlanarMinco& minco, int piece, int row, int column, doub
     const PlanarPath single({c}, {tau});
     for (int j = 0; j <= kKappa; ++j) {
       const double t = tau * j / kKappa;
-      SampleGradient<2> ignored;
       total += (j == 0 || j == kKappa ? 0.5 : 1.0) * tau / kKappa *
-               SmoothPenalty().add(sample_of(single, t, start_s + t), ignored);
+               value_of(SmoothPenalty(), sample_of(single, t, start_s + t));
     }
     start_s += tau;
   }

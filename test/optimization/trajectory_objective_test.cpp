@@ -1,10 +1,10 @@
 #include "optimization/trajectory_objective.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <memory>
 #include <random>
-
-#include <gtest/gtest.h>
 
 #include "camouflage/camouflage_map.h"
 #include "optimization/dynamics_penalty.h"
@@ -36,7 +36,9 @@ class Balls : public ObstacleField<D> {
     }
     return nearest;
   }
-  double distance_bound(const Vector& p) const override { return std::max(0.0, sample(p).distance_m); }
+  double distance_bound(const Vector& p) const override {
+    return std::max(0.0, sample(p).distance_m);
+  }
   bool clear(const Box& box, double r) const override {
     return distance_bound(box.center()) > r + 0.5 * box.diagonal().norm();
   }
@@ -50,7 +52,8 @@ Eigen::Matrix<double, D, Eigen::Dynamic> prey_knots(int count, std::mt19937& ran
   std::normal_distribution<double> noise(0.0, 0.2);
   Eigen::Matrix<double, D, Eigen::Dynamic> prey(D, count);
   for (int k = 0; k < count; ++k) {
-    for (int axis = 0; axis < D; ++axis) prey(axis, k) = (axis == 0 ? k + 1.0 : 0.0) + noise(random);
+    for (int axis = 0; axis < D; ++axis)
+      prey(axis, k) = (axis == 0 ? k + 1.0 : 0.0) + noise(random);
   }
   return prey;
 }
@@ -70,8 +73,8 @@ typename TrajectoryObjective<D, 3>::Setup basic_setup(std::shared_ptr<const Knot
   setup.kappa = 12;
   setup.penalties.push_back(std::make_unique<DynamicsPenalty<D>>(7.0, 0.9, 0.6));
   setup.penalties.push_back(std::make_unique<ObstaclePenalty<D>>(
-      11.0, field,
-      std::vector<typename ObstaclePenalty<D>::Cover>{{0.15, 0.6}, {-0.15, 0.7}}, 0.05));
+      11.0, field, std::vector<typename ObstaclePenalty<D>::Cover>{{0.15, 0.6}, {-0.15, 0.7}},
+      0.05));
   return setup;
 }
 
@@ -209,8 +212,9 @@ TEST(TrajectoryOptimizer, AvoidsAnObstacleOnThePreyPath) {
     clearance = std::min(clearance, balls.sample(result.curve.position(t)).distance_m);
   }
   EXPECT_GT(clearance, 0.45);
-  EXPECT_GT(result.curve.duration(), 6.0);   // no faster than the speed limit allows
-  EXPECT_LT(result.curve.duration(), 8.5);   // and not much slower: 6 s + 1 s for starting and stopping
+  EXPECT_GT(result.curve.duration(), 6.0);  // no faster than the speed limit allows
+  EXPECT_LT(result.curve.duration(),
+            8.5);  // and not much slower: 6 s + 1 s for starting and stopping
 }
 
 TEST(TrajectoryOptimizer, ReportsWhyItStopped) {
