@@ -26,6 +26,12 @@ class CircleField : public ObstacleField<2> {
     }
     return nearest;
   }
+  void visit_near(const Vector& p, double radius_m, Visitor visit) const override {
+    for (const Circle& circle : circles_) {
+      const double distance = (p - circle.centre).norm() - circle.radius_m;
+      if (distance < radius_m) visit({distance, (p - circle.centre).normalized()});
+    }
+  }
   double distance_bound(const Vector& p) const override {
     return std::max(0.0, sample(p).distance_m);
   }

@@ -1,10 +1,10 @@
 #include "world/distance_field.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <random>
-
-#include <gtest/gtest.h>
 
 namespace mocha {
 namespace {
@@ -99,8 +99,7 @@ TEST(DistanceField, GradientIsThatOfTheInterpolation) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> inside(0.02, 0.08);
   for (int i = 0; i < 200; ++i) {
-    const Vector2 p =
-        field.corner(i % 21, i % 15) + Vector2(inside(random), inside(random));
+    const Vector2 p = field.corner(i % 21, i % 15) + Vector2(inside(random), inside(random));
     const auto sample = field.sample(p);
     constexpr double kStep = 1e-5;
     for (int axis = 0; axis < 2; ++axis) {
@@ -133,7 +132,8 @@ TEST(DistanceField, SamplesOutsideAgreeWithWhatIsProvedThere) {
   for (int i = 0; i < 2000; ++i) {
     const Vector2 p(anywhere(random), anywhere(random));
     const Vector2 at = (p - field.origin()) / field.resolution_m();
-    if (at.minCoeff() >= 0.0 && at.x() <= field.columns() - 1 && at.y() <= field.rows() - 1) continue;
+    if (at.minCoeff() >= 0.0 && at.x() <= field.columns() - 1 && at.y() <= field.rows() - 1)
+      continue;
     ++outside;
     const auto sample = field.sample(p);
     EXPECT_NEAR(sample.distance_m, field.distance_bound(p), 0.5 * field.resolution_m());
@@ -145,6 +145,30 @@ TEST(DistanceField, SamplesOutsideAgreeWithWhatIsProvedThere) {
     }
   }
   EXPECT_GT(outside, 1000);
+}
+
+TEST(DistanceField, ShowsItsNearestDistanceAloneWhereItIsClose) {
+  const DistanceField field(random_grid(2, OccupancyGrid::kFree), DistanceField::Solid::kOccupied);
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> x(-1.0, 1.3);
+  std::uniform_real_distribution<double> y(0.5, 2.2);
+  constexpr double kRadius_m = 0.3;
+  int shown = 0;
+  int held_back = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vector2 p(x(random), y(random));
+    const auto nearest = field.sample(p);
+    int visits = 0;
+    field.visit_near(p, kRadius_m, [&](const auto& sample) {
+      ++visits;
+      EXPECT_EQ(sample.distance_m, nearest.distance_m);
+      EXPECT_EQ(sample.gradient, nearest.gradient);
+    });
+    EXPECT_EQ(visits, nearest.distance_m < kRadius_m ? 1 : 0);
+    ++(visits == 1 ? shown : held_back);
+  }
+  EXPECT_GT(shown, 50);
+  EXPECT_GT(held_back, 50);
 }
 
 TEST(DistanceField, WhatIsNotFiniteIsNowhere) {
