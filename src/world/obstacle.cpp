@@ -16,10 +16,13 @@ const Vector2& corner(const Polygon& polygon, std::size_t i) {
   return polygon.corners[i % polygon.corners.size()];
 }
 
-Vector2 nearest_on_segment(const Vector2& p, const Vector2& a, const Vector2& b) {
-  const Vector2 along = b - a;
-  const double share = along.dot(p - a) / std::max(along.squaredNorm(), 1e-300);
-  return a + std::clamp(share, 0.0, 1.0) * along;
+/// Twice the area, positive for corners in counter-clockwise order.
+double doubled_area(const Polygon& polygon) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+    sum += cross(corner(polygon, i), corner(polygon, i + 1));
+  }
+  return sum;
 }
 
 /// Whether the segments a-b and c-d share a point; where, for those that are not parallel.
@@ -116,13 +119,15 @@ std::string fault_of(const Polygon& polygon) {
       return "a corner is repeated";
     }
   }
-  double doubled_area = 0.0;
-  for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-    doubled_area += cross(corner(polygon, i), corner(polygon, i + 1));
-  }
   if (sides_cross(polygon)) return "sides cross each other";
-  if (std::abs(doubled_area) < kSmallestSide_m * kSmallestSide_m) return "has no area";
+  if (std::abs(doubled_area(polygon)) < kSmallestSide_m * kSmallestSide_m) return "has no area";
   return {};
+}
+
+Vector2 nearest_on_segment(const Vector2& p, const Vector2& a, const Vector2& b) {
+  const Vector2 along = b - a;
+  const double share = along.dot(p - a) / std::max(along.squaredNorm(), 1e-300);
+  return a + std::clamp(share, 0.0, 1.0) * along;
 }
 
 Gap gap(const Vector2& point, const Circle& circle) {
@@ -146,6 +151,21 @@ Gap gap(const Vector2& point, const Polygon& polygon) {
   }
   if (inside) nearest.distance_m = -nearest.distance_m;
   return nearest;
+}
+
+Vector2 outward_normal(const Vector2& point, const Polygon& polygon) {
+  double nearest = kInfinity;
+  Vector2 side = Vector2::Zero();
+  for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+    const Vector2& a = corner(polygon, i);
+    const Vector2& b = corner(polygon, i + 1);
+    const double distance = (point - nearest_on_segment(point, a, b)).norm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    side = b - a;
+  }
+  const double sense = doubled_area(polygon) > 0.0 ? 1.0 : -1.0;
+  return sense * Vector2(side.y(), -side.x()).normalized();
 }
 
 Gap gap(const Obstacle& first, const Obstacle& second) {

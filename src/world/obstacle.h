@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <variant>
 #include <vector>
 
@@ -21,9 +22,20 @@ struct Polygon {
 
 using Obstacle = std::variant<Circle, Polygon>;
 
+/// An upright solid cylinder in space; without a height it is a column from minus to plus infinity.
+struct Cylinder {
+  Vector2 centre = Vector2::Zero();
+  double radius_m = 0.0;
+  double from_z_m = -std::numeric_limits<double>::infinity();
+  double to_z_m = std::numeric_limits<double>::infinity();
+};
+
 /// Why a polygon cannot be an obstacle (too few corners, a repeated corner, sides that cross);
 /// empty for a sound one.
 std::string fault_of(const Polygon& polygon);
+
+/// The point nearest to p on the line segment from a to b.
+Vector2 nearest_on_segment(const Vector2& p, const Vector2& a, const Vector2& b);
 
 /// A distance between surfaces, negative where the shapes overlap, and where it was found.
 struct Gap {
@@ -34,6 +46,9 @@ struct Gap {
 /// From `point` to the nearest point of the shape's rim (`place`); negative inside.
 Gap gap(const Vector2& point, const Circle& circle);
 Gap gap(const Vector2& point, const Polygon& polygon);
+
+/// The outward unit normal of the polygon's side nearest to `point`.
+Vector2 outward_normal(const Vector2& point, const Polygon& polygon);
 
 /// Between two shapes; `place` is on or in the second one. Apart, the distance is exact. Of
 /// overlapping polygons it is minus the depth of the deepest corner of either in the other, or of
