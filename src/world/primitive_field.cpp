@@ -154,6 +154,17 @@ double PrimitiveField<D>::distance_bound(const Vector& p) const {
 }
 
 template <int D>
+double PrimitiveField<D>::room(const Vector& p, double radius_m) const {
+  if (!p.allFinite()) return 0.0;
+  double nearest_m = listed_m_;  // what is not listed is farther
+  for (const Entry& entry : listed(p)) {
+    if (entry.bound_m >= nearest_m) break;
+    nearest_m = std::min(nearest_m, mocha::sample(primitives_[entry.primitive], p).distance_m);
+  }
+  return std::max(0.0, nearest_m - radius_m);
+}
+
+template <int D>
 bool PrimitiveField<D>::clear(const Box& box, double radius_m) const {
   const auto is_clear = [&](const Primitive& primitive) {
     const double distance = distance_m(primitive, box);

@@ -32,7 +32,8 @@ class PrimitiveField : public ObstacleField<D> {
 
   Sample sample(const Vector& p) const override;
   void visit_near(const Vector& p, double radius_m, Visitor visit) const override;
-  double distance_bound(const Vector& p) const override;       ///< exact
+  double distance_bound(const Vector& p) const override;  ///< exact
+  double room(const Vector& p, double radius_m) const override;
   bool clear(const Box& box, double radius_m) const override;  ///< exact
 
   const std::vector<Primitive>& primitives() const { return primitives_; }

@@ -171,6 +171,42 @@ TEST(DistanceField, ShowsItsNearestDistanceAloneWhereItIsClose) {
   EXPECT_GT(held_back, 50);
 }
 
+TEST(DistanceField, NobodyIsNearWithinTheRoomNorInAClearBox) {
+  const DistanceField field(random_grid(2, OccupancyGrid::kFree), DistanceField::Solid::kOccupied);
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> x(-2.0, 2.3);
+  std::uniform_real_distribution<double> y(-0.5, 3.2);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const auto is_near = [&](const Vector2& p, double radius_m) {
+    bool near = false;
+    field.visit_near(p, radius_m, [&](const auto&) { near = true; });
+    return near;
+  };
+  int roomy = 0;
+  int clear = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vector2 p(x(random), y(random));
+    const double radius_m = 0.5 * share(random);
+    const double room_m = field.room(p, radius_m);
+    const double angle = 2.0 * M_PI * share(random);
+    if (is_near(p, radius_m)) {
+      EXPECT_EQ(room_m, 0.0);
+    }
+    if (room_m > 0.0) {
+      ++roomy;
+      const Vector2 step(std::cos(angle), std::sin(angle));
+      EXPECT_FALSE(is_near(p + 0.999 * share(random) * room_m * step, radius_m));
+    }
+    const Vector2 size(0.3 * share(random), 0.3 * share(random));
+    if (!field.clear({p, p + size}, radius_m)) continue;
+    ++clear;
+    EXPECT_FALSE(
+        is_near(p + Vector2(share(random) * size.x(), share(random) * size.y()), radius_m));
+  }
+  EXPECT_GT(roomy, 5000);
+  EXPECT_GT(clear, 3000);
+}
+
 TEST(DistanceField, WhatIsNotFiniteIsNowhere) {
   const DistanceField field(random_grid(2, OccupancyGrid::kFree), DistanceField::Solid::kOccupied);
   for (const Vector2& p : {Vector2(NAN, 0.0), Vector2(0.0, NAN), Vector2(0.0, -INFINITY)}) {

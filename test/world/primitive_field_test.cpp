@@ -199,6 +199,28 @@ TYPED_TEST(PrimitiveFields, ABoxIsClearWhereAllItsPointsAre) {
   EXPECT_GT(clear, 200);
 }
 
+TYPED_TEST(PrimitiveFields, NobodyIsNearWithinTheRoom) {
+  constexpr int D = TypeParam::value;
+  const PrimitiveField<D> field(random_primitives<D>(9, 60), 1.5);
+  Random random(10);
+  int roomy = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto p = random.place<D>(-5.0, 45.0);
+    const auto direction = random.place<D>(-1.0, 1.0).normalized().eval();
+    for (const double radius : {0.5, 1.5, 10.0}) {
+      const double room_m = field.room(p, radius);
+      EXPECT_GE(room_m, 0.0);
+      if (!visited<D>(field, p, radius).empty()) {
+        EXPECT_EQ(room_m, 0.0);
+      }
+      if (room_m == 0.0) continue;
+      ++roomy;
+      EXPECT_TRUE(visited<D>(field, p + 0.999 * room_m * direction, radius).empty());
+    }
+  }
+  EXPECT_GT(roomy, 1000);
+}
+
 TEST(PrimitiveField, ABoxThatAPolygonCrossesIsNotClear) {
   const Polygon needle{{{-10.0, 0.0}, {10.0, 0.001}, {-10.0, 0.002}}};
   const Polygon block{{{3.0, 3.0}, {9.0, 3.0}, {9.0, 9.0}, {3.0, 9.0}}};
