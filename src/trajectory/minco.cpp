@@ -206,7 +206,11 @@ void Minco<D, S>::propagate(const std::vector<Piece>& by_piece, Eigen::VectorXd&
   }
 }
 
+template class Minco<2, 2>;
 template class Minco<2, 3>;
+template class Minco<2, 4>;
+template class Minco<3, 2>;
 template class Minco<3, 3>;
+template class Minco<3, 4>;
 
 }  // namespace mocha

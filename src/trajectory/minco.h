@@ -70,8 +70,12 @@ class Minco {
   std::vector<Ends> by_ends_;      // M
 };
 
+extern template class Minco<2, 2>;
 extern template class Minco<2, 3>;
+extern template class Minco<2, 4>;
+extern template class Minco<3, 2>;
 extern template class Minco<3, 3>;
+extern template class Minco<3, 4>;
 
 using PlanarMinco = Minco<2, 3>;
 

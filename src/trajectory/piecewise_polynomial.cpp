@@ -87,7 +87,11 @@ PiecewisePolynomial<D, S> PiecewisePolynomial<D, S>::stretched(double factor) co
   return PiecewisePolynomial(pieces_, std::move(durations));
 }
 
+template class PiecewisePolynomial<2, 2>;
 template class PiecewisePolynomial<2, 3>;
+template class PiecewisePolynomial<2, 4>;
+template class PiecewisePolynomial<3, 2>;
 template class PiecewisePolynomial<3, 3>;
+template class PiecewisePolynomial<3, 4>;
 
 }  // namespace mocha

@@ -62,8 +62,12 @@ class PiecewisePolynomial {
   std::vector<double> knots_;  // end time of each piece
 };
 
+extern template class PiecewisePolynomial<2, 2>;
 extern template class PiecewisePolynomial<2, 3>;
+extern template class PiecewisePolynomial<2, 4>;
+extern template class PiecewisePolynomial<3, 2>;
 extern template class PiecewisePolynomial<3, 3>;
+extern template class PiecewisePolynomial<3, 4>;
 
 using PlanarPath = PiecewisePolynomial<2, 3>;
 

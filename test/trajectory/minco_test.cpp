@@ -4,60 +4,71 @@
 
 #include <random>
 
+#include "trajectory/dense_minimum_effort.h"
+#include "trajectory/minco_problem.h"
+
 namespace mocha {
 namespace {
 
-/// A random problem of M pieces in D dimensions.
-template <int D>
-struct Problem {
-  using M = Minco<D, 3>;
-  typename M::State start;
-  typename M::State end;
-  typename M::Knots knots;
-  Eigen::VectorXd durations;
+using test::dense_minimum_effort;
+using test::Problem;
 
-  Problem(int pieces, int seed) : knots(D, pieces - 1), durations(pieces) {
-    std::mt19937 random(seed);
-    std::normal_distribution<double> normal;
-    std::uniform_real_distribution<double> tau(0.3, 2.0);
-    for (auto& x : start.reshaped()) x = normal(random);
-    for (auto& x : end.reshaped()) x = normal(random);
-    for (auto& x : knots.reshaped()) x = 3.0 * normal(random);
-    for (auto& x : durations) x = tau(random);
-  }
+template <typename Case>
+class MincoTest : public ::testing::Test {};
+TYPED_TEST_SUITE(MincoTest, test::AllCases);
 
-  M solved() const {
-    M minco;
-    minco.resize(static_cast<int>(durations.size()));
-    minco.solve(start, end, knots, durations);
-    return minco;
+template <int D, int S>
+void expect_dense_reference(const Problem<D, S>& problem, double tolerance) {
+  const auto minco = problem.solved();
+  const auto reference = dense_minimum_effort(problem);
+  for (int i = 0; i < problem.pieces(); ++i) {
+    const typename Minco<D, S>::Piece expected =
+        reference.middleRows(2 * S * i, 2 * S).transpose().template cast<double>();
+    EXPECT_LT((minco.piece(i) - expected).norm(), tolerance * expected.norm()) << "piece " << i;
+    EXPECT_EQ(minco.piece_duration(i), problem.durations[i]);
   }
-};
-
-template <int D>
-void expect_continuity(int pieces) {
-  const Problem<D> problem(pieces, pieces);
-  const auto curve = problem.solved().curve();
-  for (int i = 0; i + 1 < pieces; ++i) {
-    for (int order = 0; order <= 4; ++order) {
-      const auto before = curve.derivative({i, 1.0}, order);
-      const auto after = curve.derivative({i + 1, 0.0}, order);
-      EXPECT_LT((before - after).norm(), 1e-8 * (1.0 + before.norm())) << i << " order " << order;
-    }
-    EXPECT_LT((curve.derivative({i, 1.0}, 0) - problem.knots.col(i)).norm(), 1e-10);
-  }
-  EXPECT_LT((curve.state(0.0) - problem.start).norm(), 1e-10);
-  EXPECT_LT((curve.state(curve.duration()) - problem.end).norm(), 1e-9);
-  EXPECT_NEAR(curve.duration(), problem.durations.sum(), 1e-12);
 }
 
-TEST(Minco, IsSmoothToOrderFourAndMeetsKnotsAndEnds) {
-  for (const int pieces : {1, 2, 3, 20}) expect_continuity<2>(pieces);
-  for (const int pieces : {1, 2, 7}) expect_continuity<3>(pieces);
+TYPED_TEST(MincoTest, IsTheCurveOfLeastEffort) {
+  for (const int pieces : {1, 2, 3, 6}) {
+    for (int seed = 0; seed < 5; ++seed) {
+      expect_dense_reference(Problem<TypeParam::D, TypeParam::S>(pieces, seed), 1e-9);
+    }
+  }
+}
+
+/// A stiff short piece between soft long ones costs digits, the more the higher S.
+TYPED_TEST(MincoTest, BearsWidelyDifferingDurations) {
+  const double tolerance = TypeParam::S == 4 ? 1e-4 : 1e-8;
+  for (const int pieces : {1, 2, 3, 5}) {
+    for (int seed = 0; seed < 10; ++seed) {
+      expect_dense_reference(Problem<TypeParam::D, TypeParam::S>(pieces, seed, 1e-2, 10.0),
+                             tolerance);
+    }
+  }
+}
+
+TYPED_TEST(MincoTest, IsSmoothAndMeetsKnotsAndEnds) {
+  constexpr int S = TypeParam::S;
+  for (const int pieces : {1, 2, 3, 20}) {
+    const Problem<TypeParam::D, S> problem(pieces, pieces);
+    const auto curve = problem.solved().curve();
+    for (int i = 0; i + 1 < pieces; ++i) {
+      for (int order = 0; order <= 2 * S - 2; ++order) {
+        const auto before = curve.derivative({i, 1.0}, order);
+        const auto after = curve.derivative({i + 1, 0.0}, order);
+        EXPECT_LT((before - after).norm(), 1e-8 * (1.0 + before.norm())) << i << " order " << order;
+      }
+      EXPECT_LT((curve.derivative({i, 1.0}, 0) - problem.knots.col(i)).norm(), 1e-10);
+    }
+    EXPECT_LT((curve.state(0.0) - problem.start).norm(), 1e-10);
+    EXPECT_LT((curve.state(curve.duration()) - problem.end).norm(), 1e-8);
+    EXPECT_NEAR(curve.duration(), problem.durations.sum(), 1e-12);
+  }
 }
 
 TEST(Minco, OnePieceRestToRestIsTheMinimumJerkProfile) {
-  Problem<2> problem(1, 1);
+  Problem<2, 3> problem(1, 1);
   problem.start.setZero();
   problem.end.setZero();
   problem.end.col(0) << 3.0, -4.0;
@@ -71,42 +82,46 @@ TEST(Minco, OnePieceRestToRestIsTheMinimumJerkProfile) {
   EXPECT_NEAR(minco.effort(), 720.0 * 25.0 / std::pow(2.5, 5), 1e-9);
 }
 
-TEST(Minco, EffortIsTheIntegralOfTheSquaredJerk) {
-  const auto minco = Problem<2>(6, 3).solved();
+TYPED_TEST(MincoTest, EffortIsTheIntegralOfTheSquaredDerivative) {
+  const auto minco = Problem<TypeParam::D, TypeParam::S>(6, 3).solved();
   const auto curve = minco.curve();
   double integral = 0.0;
-  const int steps = 200;
+  const int steps = 400;
   for (int i = 0; i < curve.pieces(); ++i) {
-    for (int k = 0; k < steps; ++k) {
-      const double u = (k + 0.5) / steps;
-      integral += curve.derivative({i, u}, 3).squaredNorm() * curve.piece_duration(i) / steps;
+    for (int k = 0; k <= steps; ++k) {  // Simpson's rule
+      const double weight = k == 0 || k == steps ? 1.0 : 2.0 + 2.0 * (k % 2);
+      const double u = static_cast<double>(k) / steps;
+      integral += weight * curve.derivative({i, u}, TypeParam::S).squaredNorm() *
+                  curve.piece_duration(i) / (3.0 * steps);
     }
   }
-  EXPECT_NEAR(minco.effort() / integral, 1.0, 1e-4);
+  EXPECT_NEAR(minco.effort() / integral, 1.0, 1e-8);
 }
 
-/// Any other C2 curve through the same knots has derivatives 1 and 2 at the knots that differ:
+/// Any other C^(S-1) curve through the same knots has derivatives 1 .. S-1 there that differ:
 /// perturb those.
-TEST(Minco, NoOtherCurveThroughTheSameKnotsTakesLessEffort) {
+TYPED_TEST(MincoTest, NoOtherCurveThroughTheSameKnotsTakesLessEffort) {
+  using M = Minco<TypeParam::D, TypeParam::S>;
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
-  const Problem<2> problem(5, 9);
+  const Problem<TypeParam::D, TypeParam::S> problem(5, 9);
   const auto minco = problem.solved();
   const auto curve = minco.curve();
   for (int trial = 0; trial < 50; ++trial) {
     const double size = trial < 25 ? 1.0 : 1e-3;
     double effort = 0.0;
-    std::vector<PlanarPath::State> states;
+    std::vector<typename M::State> states;
     for (int i = 0; i <= 5; ++i) {
       states.push_back(i < 5 ? curve.state(curve.piece_start(i)) : problem.end);
-      if (i > 0 && i < 5) {
-        for (auto& x : states.back().rightCols<2>().reshaped()) x += size * normal(random);
+      if (i == 0 || i == 5) continue;
+      for (auto& x : states.back().template rightCols<M::kFree>().reshaped()) {
+        x += size * normal(random);
       }
     }
     for (int i = 0; i < 5; ++i) {
-      PlanarMinco piece;
+      M piece;
       piece.resize(1);
-      piece.solve(states[i], states[i + 1], PlanarMinco::Knots(2, 0),
+      piece.solve(states[i], states[i + 1], typename M::Knots(TypeParam::D, 0),
                   Eigen::VectorXd::Constant(1, problem.durations[i]));
       effort += piece.effort();
     }
@@ -114,79 +129,16 @@ TEST(Minco, NoOtherCurveThroughTheSameKnotsTakesLessEffort) {
   }
 }
 
-/// J = effort-independent random smooth function of coefficients and durations; total gradient
-/// against differences.
-template <int D>
-void expect_gradients(int pieces, bool effort) {
-  Problem<D> problem(pieces, 31 + pieces);
-  std::mt19937 random(17);
-  std::normal_distribution<double> normal;
-  using Piece = typename Minco<D, 3>::Piece;
-  std::vector<Piece> weights(pieces);
-  for (Piece& weight : weights) {
-    for (auto& x : weight.reshaped()) x = 0.02 * normal(random);
+TYPED_TEST(MincoTest, IsReusable) {
+  auto minco = Problem<TypeParam::D, TypeParam::S>(8, 1).solved();
+  for (const int pieces : {3, 1, 12}) {
+    const Problem<TypeParam::D, TypeParam::S> other(pieces, 2);
+    minco.resize(pieces);
+    minco.solve(other.start, other.end, other.knots, other.durations);
+    const auto fresh = other.solved();
+    EXPECT_EQ(minco.effort(), fresh.effort());
+    for (int i = 0; i < pieces; ++i) EXPECT_EQ(minco.piece(i), fresh.piece(i));
   }
-  const auto value = [&](const Minco<D, 3>& minco) {
-    if (effort) return 0.7 * minco.effort();
-    double sum = 0.0;
-    for (int i = 0; i < pieces; ++i) {
-      sum += std::sin(minco.piece(i).cwiseProduct(weights[i]).sum()) * minco.piece_duration(i);
-    }
-    return sum;
-  };
-  auto minco = problem.solved();
-  std::vector<Piece> by_piece(pieces, Piece::Zero());
-  Eigen::VectorXd by_duration = Eigen::VectorXd::Zero(pieces);
-  if (effort) {
-    minco.add_effort_gradient(0.7, by_piece, by_duration);
-  } else {
-    for (int i = 0; i < pieces; ++i) {
-      const double sum = minco.piece(i).cwiseProduct(weights[i]).sum();
-      by_piece[i] = std::cos(sum) * minco.piece_duration(i) * weights[i];
-      by_duration[i] = std::sin(sum);
-    }
-  }
-  typename Minco<D, 3>::Knots by_knot(D, pieces - 1);
-  minco.propagate(by_piece, by_duration, by_knot);
-
-  const auto slope = [&](double& variable) {  // fourth-order central difference
-    const double h = 1e-4;
-    const double middle = variable;
-    const auto at = [&](double offset) {
-      variable = middle + offset;
-      return value(problem.solved());
-    };
-    const double slope = (8.0 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12.0 * h);
-    variable = middle;
-    return slope;
-  };
-  const double scale =
-      by_duration.cwiseAbs().maxCoeff() + (pieces > 1 ? by_knot.cwiseAbs().maxCoeff() : 0.0);
-  for (int i = 0; i < pieces; ++i) {
-    EXPECT_NEAR(by_duration[i], slope(problem.durations[i]), 1e-6 * scale) << "duration " << i;
-  }
-  for (int i = 0; i < by_knot.size(); ++i) {
-    EXPECT_NEAR(by_knot.reshaped()[i], slope(problem.knots.reshaped()[i]), 1e-6 * scale)
-        << "knot value " << i;
-  }
-}
-
-TEST(Minco, EffortGradientIsThatOfDifferences) {
-  for (const int pieces : {1, 2, 6}) expect_gradients<2>(pieces, true);
-  expect_gradients<3>(5, true);
-}
-
-TEST(Minco, PropagatesAnyGradient) {
-  for (const int pieces : {1, 2, 6}) expect_gradients<2>(pieces, false);
-  expect_gradients<3>(5, false);
-}
-
-TEST(Minco, IsReusable) {
-  auto minco = Problem<2>(8, 1).solved();
-  const Problem<2> other(3, 2);
-  minco.resize(3);
-  minco.solve(other.start, other.end, other.knots, other.durations);
-  EXPECT_EQ(minco.effort(), other.solved().effort());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "trajectory/minco_problem.h"
 #include "trajectory/random_motion.h"
 
 namespace mocha {
@@ -78,6 +79,37 @@ TEST(PiecewisePolynomial, StretchingSlowsTheSamePath) {
     EXPECT_LT((slow.position(2.0 * t) - path.position(t)).norm(), 1e-9);
     EXPECT_LT((slow.derivative(2.0 * t, 1) - 0.5 * path.derivative(t, 1)).norm(), 1e-9);
     EXPECT_LT((slow.derivative(2.0 * t, 2) - 0.25 * path.derivative(t, 2)).norm(), 1e-9);
+  }
+}
+
+template <typename Case>
+class PiecewisePolynomialTest : public ::testing::Test {};
+TYPED_TEST_SUITE(PiecewisePolynomialTest, test::AllCases);
+
+TYPED_TEST(PiecewisePolynomialTest, DerivesSlicesAndStretches) {
+  using Curve = PiecewisePolynomial<TypeParam::D, TypeParam::S>;
+  using Vector = typename Curve::Vector;
+  const Curve curve = test::Problem<TypeParam::D, TypeParam::S>(5, 2).solved().curve();
+  const double t0 = 0.3 * curve.duration();
+  const Curve part = curve.slice(t0, curve.duration());
+  const Curve slow = curve.stretched(3.0);
+  for (double t = 0.01; t + 0.01 < part.duration(); t += 0.1) {
+    for (int order = 1; order < Curve::kCoefficients; ++order) {
+      const double h = 1e-4;
+      const Vector value = curve.derivative(t0 + t, order);
+      const Vector rise =
+          curve.derivative(t0 + t + h, order - 1) - curve.derivative(t0 + t - h, order - 1);
+      const bool smooth = curve.locate(t0 + t - h).piece == curve.locate(t0 + t + h).piece;
+      if (smooth) {
+        EXPECT_LT((rise / (2.0 * h) - value).norm(), 1e-5 * (1.0 + value.norm()));
+      }
+      EXPECT_LT((part.derivative(t, order) - value).norm(), 1e-7 * (1.0 + value.norm())) << order;
+      EXPECT_LT((slow.derivative(3.0 * (t0 + t), order) * std::pow(3.0, order) - value).norm(),
+                1e-7 * (1.0 + value.norm()));
+      if (order < TypeParam::S) {
+        EXPECT_EQ(curve.state(t0 + t).col(order), value);
+      }
+    }
   }
 }
 
