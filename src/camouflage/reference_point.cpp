@@ -1,79 +1,113 @@
 #include "camouflage/reference_point.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 namespace mocha {
 namespace {
 
-using Point = Eigen::Vector2d;
-
 constexpr double kLeastLeverage_m = 1e-3;  // between a reference and its knots
+constexpr double kStraight = 1e-6;         // deviation from the chord, relative to its length
 
-Point left_of(const Point& direction) { return {-direction.y(), direction.x()}; }
+/// Places reference points for stretches of one path.
+template <int D>
+class ReferenceChooser {
+ public:
+  using Point = Eigen::Matrix<double, D, 1>;
+  using Points = Eigen::Matrix<double, D, Eigen::Dynamic>;
 
-/// Free room beside the stretch, summed: the sparser side has more. `side` is +1 left, -1 right.
-double room_beside(const PlanarPoints& path, int from, int to, double side,
-                   const ObstacleField<2>& field, double depth_m) {
-  double room = 0.0;
-  for (int k = from; k < to; ++k) {
-    const Point along = (path.col(k + 1) - path.col(k)).normalized();
-    const Point middle = 0.5 * (path.col(k) + path.col(k + 1));
-    for (const double share : {0.5, 1.0}) {
-      const Point beside = middle + side * share * depth_m * left_of(along);
-      room += std::clamp(field.sample(beside).distance_m, 0.0, depth_m);
+  ReferenceChooser(const Points& path, const ObstacleField<D>& field, const ReferenceRules& rules)
+      : path_(path), field_(field), rules_(rules), max_cosine_(std::cos(rules.min_angle_rad)) {}
+
+  /// The apex over the stretch between two points of the path, on the sparser side if that keeps
+  /// the angle, else on the other.
+  std::optional<Point> reference_for(int from, int to) const {
+    const Point chord = path_.col(to) - path_.col(from);
+    const Point side = side_of(from, to, chord);
+    const double preferred =
+        room_beside(from, to, side) >= room_beside(from, to, -side) ? 1.0 : -1.0;
+    for (const double sign : {preferred, -preferred}) {
+      const Point apex =
+          path_.col(from) + 0.5 * (chord + sign * rules_.apex_height * chord.norm() * side);
+      if (keeps_angle(from, to, apex)) return apex;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// A unit vector across the chord: the left in the plane.
+  Point side_of(int from, int to, const Point& chord) const {
+    if constexpr (D == 2) {
+      return Point(-chord.y(), chord.x()).normalized();
+    } else {
+      const Point along = chord.normalized();
+      Eigen::Matrix<double, D, D> scatter = Eigen::Matrix<double, D, D>::Zero();
+      for (int k = from + 1; k < to; ++k) {
+        const Point offset = path_.col(k) - path_.col(from);
+        const Point beside = offset - offset.dot(along) * along;
+        scatter += beside * beside.transpose();
+      }
+      if (!(scatter.trace() > kStraight * kStraight * chord.squaredNorm())) {
+        const Point level = along.cross(Point::UnitZ());
+        return (level.squaredNorm() > kStraight ? level : Point::UnitX()).normalized();
+      }
+      return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>>(scatter).eigenvectors().col(
+          D - 1);
     }
   }
-  return room;
-}
 
-Point apex(const PlanarPoints& path, int from, int to, double side, double height) {
-  const Point chord = path.col(to) - path.col(from);
-  return path.col(from) + 0.5 * chord + side * 0.5 * height * left_of(chord);
-}
-
-/// Do the rays to the knots strictly between from and to keep the angle to the path on both sides
-/// of the knot?
-bool keeps_angle(const PlanarPoints& path, int from, int to, const Point& reference,
-                 double min_sine) {
-  for (int k = from + 1; k < to; ++k) {
-    const Point ray = path.col(k) - reference;
-    for (const Point& along :
-         {Point(path.col(k) - path.col(k - 1)), Point(path.col(k + 1) - path.col(k))}) {
-      const double cross = std::abs(ray.x() * along.y() - ray.y() * along.x());
-      // Written so that a vanishing ray or step fails, too.
-      if (!(ray.norm() > kLeastLeverage_m && cross > min_sine * ray.norm() * along.norm()))
-        return false;
+  /// Free room beside the stretch, summed: the sparser side has more.
+  double room_beside(int from, int to, const Point& side) const {
+    double room = 0.0;
+    for (int k = from; k < to; ++k) {
+      const Point along = (path_.col(k + 1) - path_.col(k)).normalized();
+      const Point middle = 0.5 * (path_.col(k) + path_.col(k + 1));
+      const Point across = (side - side.dot(along) * along).normalized();
+      for (const double share : {0.5, 1.0}) {
+        const Point beside = middle + share * rules_.side_depth_m * across;
+        room += std::clamp(field_.sample(beside).distance_m, 0.0, rules_.side_depth_m);
+      }
     }
+    return room;
   }
-  return true;
-}
 
-std::optional<Point> reference_for(const PlanarPoints& path, int from, int to,
-                                   const ObstacleField<2>& field, const ReferenceRules& rules) {
-  const double left = room_beside(path, from, to, 1.0, field, rules.side_depth_m);
-  const double right = room_beside(path, from, to, -1.0, field, rules.side_depth_m);
-  const double preferred = left >= right ? 1.0 : -1.0;
-  for (const double side : {preferred, -preferred}) {
-    const Point reference = apex(path, from, to, side, rules.apex_height);
-    if (keeps_angle(path, from, to, reference, std::sin(rules.min_angle_rad))) return reference;
+  /// Do the rays to the knots strictly between from and to keep the angle to the path on both sides
+  /// of the knot?
+  bool keeps_angle(int from, int to, const Point& reference) const {
+    for (int k = from + 1; k < to; ++k) {
+      const Point ray = path_.col(k) - reference;
+      for (const Point& along :
+           {Point(path_.col(k) - path_.col(k - 1)), Point(path_.col(k + 1) - path_.col(k))}) {
+        // Written so that a vanishing ray or step fails, too.
+        if (!(ray.norm() > kLeastLeverage_m &&
+              std::abs(ray.dot(along)) < max_cosine_ * ray.norm() * along.norm()))
+          return false;
+      }
+    }
+    return true;
   }
-  return std::nullopt;
-}
+
+  const Points& path_;
+  const ObstacleField<D>& field_;
+  const ReferenceRules& rules_;
+  const double max_cosine_;
+};
 
 }  // namespace
 
-std::optional<PlanarPoints> choose_references(const PlanarPoints& path,
-                                              const ObstacleField<2>& field,
-                                              const ReferenceRules& rules) {
+template <int D>
+std::optional<Eigen::Matrix<double, D, Eigen::Dynamic>> choose_references(
+    const Eigen::Matrix<double, D, Eigen::Dynamic>& path, const ObstacleField<D>& field,
+    const ReferenceRules& rules) {
+  const ReferenceChooser<D> chooser(path, field, rules);
   const int last = static_cast<int>(path.cols()) - 1;
-  PlanarPoints references(2, std::max(0, last - 1));
+  Eigen::Matrix<double, D, Eigen::Dynamic> references(D, std::max(0, last - 1));
   for (int from = 0; from + 1 < last;) {
     int to = last;
-    std::optional<Point> reference;
+    std::optional<Eigen::Matrix<double, D, 1>> reference;
     // Stretches overlap by one step, so that every interior knot lies strictly inside one of them.
-    for (; to >= from + 2 && !reference; --to)
-      reference = reference_for(path, from, to, field, rules);
+    for (; to >= from + 2 && !reference; --to) reference = chooser.reference_for(from, to);
     if (!reference) return std::nullopt;
     ++to;
     for (int k = from + 1; k < to; ++k) references.col(k - 1) = *reference;
@@ -81,5 +115,12 @@ std::optional<PlanarPoints> choose_references(const PlanarPoints& path,
   }
   return references;
 }
+
+template std::optional<Eigen::Matrix2Xd> choose_references<2>(const Eigen::Matrix2Xd&,
+                                                              const ObstacleField<2>&,
+                                                              const ReferenceRules&);
+template std::optional<Eigen::Matrix3Xd> choose_references<3>(const Eigen::Matrix3Xd&,
+                                                              const ObstacleField<3>&,
+                                                              const ReferenceRules&);
 
 }  // namespace mocha

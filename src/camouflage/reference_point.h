@@ -7,7 +7,7 @@
 
 namespace mocha {
 
-/// Reference points for camouflage about a planar prey path (Fig. 3).
+/// Reference points for camouflage about a prey path (Fig. 3).
 struct ReferenceRules {
   /// Height of the apex over the middle of the chord, in half chords; 1 is the isosceles right
   /// triangle.
@@ -18,17 +18,24 @@ struct ReferenceRules {
   double side_depth_m = 1.0;
 };
 
-using PlanarPoints = Eigen::Matrix2Xd;
-
-/// One reference point for each interior knot. `path` is start, K interior knots, end (2 x (K + 2))
+/// One reference point for each interior knot. `path` is start, K interior knots, end (D x (K + 2))
 /// [m].
 ///
-/// The whole path shares the apex over its chord, on the side with fewer obstacles, if every ray
-/// keeps the angle; otherwise the path is cut into the longest stretches that do, one apex a
-/// stretch. Nothing where that fails (for example coincident points): the caller then falls back to
-/// waypoints as variables.
-std::optional<PlanarPoints> choose_references(const PlanarPoints& path,
-                                              const ObstacleField<2>& field,
-                                              const ReferenceRules& rules);
+/// The whole path shares the apex over its chord if every ray keeps the angle; otherwise the path
+/// is cut into the longest stretches that do, one apex a stretch. The triangle stands on the side
+/// with fewer obstacles; in space, in the plane in which the path leaves its chord most, since that
+/// is how it gets round obstacles (level, where it is straight). Nothing where that fails (for
+/// example coincident points): the caller then falls back to waypoints as variables.
+template <int D>
+std::optional<Eigen::Matrix<double, D, Eigen::Dynamic>> choose_references(
+    const Eigen::Matrix<double, D, Eigen::Dynamic>& path, const ObstacleField<D>& field,
+    const ReferenceRules& rules);
+
+extern template std::optional<Eigen::Matrix2Xd> choose_references<2>(const Eigen::Matrix2Xd&,
+                                                                     const ObstacleField<2>&,
+                                                                     const ReferenceRules&);
+extern template std::optional<Eigen::Matrix3Xd> choose_references<3>(const Eigen::Matrix3Xd&,
+                                                                     const ObstacleField<3>&,
+                                                                     const ReferenceRules&);
 
 }  // namespace mocha

@@ -95,12 +95,21 @@ OptimizedTrajectory<D, S> optimize(TrajectoryObjective<D, S>& objective, Eigen::
   objective.evaluate(watched.best(), gradient);
   result.terms = objective.terms();
   result.curve = objective.curve();
+  result.variables = watched.best();
   return result;
 }
 
+template OptimizedTrajectory<2, 2> optimize(TrajectoryObjective<2, 2>&, Eigen::VectorXd,
+                                            const OptimizerRules&);
 template OptimizedTrajectory<2, 3> optimize(TrajectoryObjective<2, 3>&, Eigen::VectorXd,
                                             const OptimizerRules&);
+template OptimizedTrajectory<2, 4> optimize(TrajectoryObjective<2, 4>&, Eigen::VectorXd,
+                                            const OptimizerRules&);
+template OptimizedTrajectory<3, 2> optimize(TrajectoryObjective<3, 2>&, Eigen::VectorXd,
+                                            const OptimizerRules&);
 template OptimizedTrajectory<3, 3> optimize(TrajectoryObjective<3, 3>&, Eigen::VectorXd,
+                                            const OptimizerRules&);
+template OptimizedTrajectory<3, 4> optimize(TrajectoryObjective<3, 4>&, Eigen::VectorXd,
                                             const OptimizerRules&);
 
 }  // namespace mocha

@@ -31,6 +31,7 @@ struct OptimizedTrajectory {
   double cost = 0.0;
   CostTerms terms;
   typename Minco<D, S>::Curve curve;  ///< the best one seen; empty if no cost was finite
+  Eigen::VectorXd variables;          ///< of that curve
 };
 
 /// Minimises the objective by L-BFGS from `x`. Returns the best trajectory seen, whatever ended the
@@ -39,9 +40,17 @@ template <int D, int S>
 OptimizedTrajectory<D, S> optimize(TrajectoryObjective<D, S>& objective, Eigen::VectorXd x,
                                    const OptimizerRules& rules);
 
+extern template OptimizedTrajectory<2, 2> optimize(TrajectoryObjective<2, 2>&, Eigen::VectorXd,
+                                                   const OptimizerRules&);
 extern template OptimizedTrajectory<2, 3> optimize(TrajectoryObjective<2, 3>&, Eigen::VectorXd,
                                                    const OptimizerRules&);
+extern template OptimizedTrajectory<2, 4> optimize(TrajectoryObjective<2, 4>&, Eigen::VectorXd,
+                                                   const OptimizerRules&);
+extern template OptimizedTrajectory<3, 2> optimize(TrajectoryObjective<3, 2>&, Eigen::VectorXd,
+                                                   const OptimizerRules&);
 extern template OptimizedTrajectory<3, 3> optimize(TrajectoryObjective<3, 3>&, Eigen::VectorXd,
+                                                   const OptimizerRules&);
+extern template OptimizedTrajectory<3, 4> optimize(TrajectoryObjective<3, 4>&, Eigen::VectorXd,
                                                    const OptimizerRules&);
 
 }  // namespace mocha

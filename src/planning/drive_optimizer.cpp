@@ -97,8 +97,8 @@ OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
     const std::function<bool()>& should_stop) const {
   MotionLimits limits = robot_.limits;
   limits.max_speed *= effort.speed;
-  const InitialKnots knots = spread_knots(query.path, query.start.col(1).norm(), limits,
-                                          rules_.knot_spacing_m * effort.spacing);
+  const InitialKnots<2> knots = spread_knots<2>(query.path, query.start.col(1).norm(), limits,
+                                                rules_.knot_spacing_m * effort.spacing);
   const double a_max = robot_.limits.max_acceleration;
   TrajectoryObjective<2, 3>::Setup setup;
   setup.start = query.start;

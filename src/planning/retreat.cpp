@@ -42,7 +42,7 @@ std::optional<Motion> retreat_along(const std::vector<Vector2>& trail, const Pos
   MotionLimits slow = limits;
   slow.max_speed = std::min(slow.max_speed, kSlow_mps);
   slow.max_acceleration *= 0.5;
-  const InitialKnots knots = spread_knots(back, 0.0, slow, kKnotSpacing_m);
+  const InitialKnots<2> knots = spread_knots<2>(back, 0.0, slow, kKnotSpacing_m);
   const int last = static_cast<int>(knots.path.cols()) - 1;
   const double acceleration = 0.5 * slow.max_acceleration;
   PlanarMinco::State from;

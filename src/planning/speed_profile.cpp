@@ -11,10 +11,14 @@ constexpr double kStep_m = 0.05;              // of the sampled path
 constexpr double kShareOfAcceleration = 0.6;  // leaves room for the curve's own shape
 constexpr double kSlowest = 0.05;             // [m/s] of the profile, so that times stay finite
 
-std::vector<Vector2> resample(const std::vector<Vector2>& points) {
-  std::vector<Vector2> samples = {points.front()};
+template <int D>
+using Points = std::vector<Eigen::Matrix<double, D, 1>>;
+
+template <int D>
+Points<D> resample(const Points<D>& points) {
+  Points<D> samples = {points.front()};
   for (std::size_t i = 1; i < points.size(); ++i) {
-    const Vector2 step = points[i] - points[i - 1];
+    const auto step = points[i] - points[i - 1];
     const int parts = std::max(1, static_cast<int>(std::ceil(step.norm() / kStep_m)));
     for (int k = 1; k <= parts; ++k) {
       samples.push_back(points[i - 1] + step * (static_cast<double>(k) / parts));
@@ -24,15 +28,17 @@ std::vector<Vector2> resample(const std::vector<Vector2>& points) {
 }
 
 /// Speed allowed by the turn of the path over a window of about `window_m` around each sample.
-std::vector<double> corner_speeds(const std::vector<Vector2>& samples, const MotionLimits& limits,
+template <int D>
+std::vector<double> corner_speeds(const Points<D>& samples, const MotionLimits& limits,
                                   double window_m) {
   const int reach = std::max(1, static_cast<int>(0.5 * window_m / kStep_m));
   const int last = static_cast<int>(samples.size()) - 1;
   std::vector<double> speeds(samples.size(), limits.max_speed);
   for (int i = 1; i < last; ++i) {
-    const Vector2 in = samples[i] - samples[std::max(0, i - reach)];
-    const Vector2 out = samples[std::min(last, i + reach)] - samples[i];
-    const double turn = std::abs(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
+    const Eigen::Matrix<double, D, 1> in = samples[i] - samples[std::max(0, i - reach)];
+    const Eigen::Matrix<double, D, 1> out = samples[std::min(last, i + reach)] - samples[i];
+    const double across = (out * in.squaredNorm() - in * in.dot(out)).norm() / (in.norm() + 1e-9);
+    const double turn = std::atan2(across, in.dot(out));
     const double curvature = turn / (0.5 * (in.norm() + out.norm()) + 1e-9);
     if (curvature < 1e-6) continue;
     speeds[i] = std::min({speeds[i], limits.max_yaw_rate / curvature,
@@ -43,7 +49,8 @@ std::vector<double> corner_speeds(const std::vector<Vector2>& samples, const Mot
 
 /// Times at which the samples are reached, after limiting acceleration forward and deceleration
 /// backward.
-std::vector<double> arrival_times(const std::vector<Vector2>& samples, std::vector<double> speeds,
+template <int D>
+std::vector<double> arrival_times(const Points<D>& samples, std::vector<double> speeds,
                                   double start_speed, const MotionLimits& limits) {
   const double gain = 2.0 * kShareOfAcceleration * limits.max_acceleration;
   speeds.front() = std::min(speeds.front(), start_speed);
@@ -66,16 +73,17 @@ std::vector<double> arrival_times(const std::vector<Vector2>& samples, std::vect
 
 }  // namespace
 
-InitialKnots spread_knots(const std::vector<Vector2>& points, double start_speed,
-                          const MotionLimits& limits, double spacing_m) {
+template <int D>
+InitialKnots<D> spread_knots(const Points<D>& points, double start_speed,
+                             const MotionLimits& limits, double spacing_m) {
   if (points.size() < 2) throw std::invalid_argument("spread_knots: needs at least two points");
-  const std::vector<Vector2> samples = resample(points);
+  const Points<D> samples = resample<D>(points);
   const std::vector<double> times =
-      arrival_times(samples, corner_speeds(samples, limits, spacing_m), start_speed, limits);
+      arrival_times<D>(samples, corner_speeds<D>(samples, limits, spacing_m), start_speed, limits);
   const double interval_s = spacing_m / limits.max_speed;
   const int pieces = std::max(2, static_cast<int>(std::ceil(times.back() / interval_s)));
-  InitialKnots knots;
-  knots.path.resize(2, pieces + 1);
+  InitialKnots<D> knots;
+  knots.path.resize(D, pieces + 1);
   knots.durations_s.setConstant(pieces, std::max(1e-2, times.back() / pieces));
   std::size_t i = 1;
   for (int k = 0; k <= pieces; ++k) {
@@ -87,5 +95,8 @@ InitialKnots spread_knots(const std::vector<Vector2>& points, double start_speed
   }
   return knots;
 }
+
+template InitialKnots<2> spread_knots<2>(const Points<2>&, double, const MotionLimits&, double);
+template InitialKnots<3> spread_knots<3>(const Points<3>&, double, const MotionLimits&, double);
 
 }  // namespace mocha

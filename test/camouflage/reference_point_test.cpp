@@ -8,9 +8,12 @@
 #include "camouflage/camouflage_map.h"
 #include "safety/circle_field.h"
 #include "trajectory/motion.h"
+#include "world/primitive_field.h"
 
 namespace mocha {
 namespace {
+
+using PlanarPoints = Eigen::Matrix2Xd;
 
 const CircleField kOpen({});
 
@@ -118,6 +121,46 @@ TEST(ReferencePoint, NothingWhereNoRayHasLeverage) {
   PlanarPoints broken = straight(8);
   broken(0, 3) = NAN;
   none(broken);
+}
+
+/// A path along a tilted chord that swings aside in the direction given.
+Eigen::Matrix3Xd swinging_path(const Eigen::Vector3d& chord, const Eigen::Vector3d& aside) {
+  constexpr int kPoints = 21;
+  Eigen::Matrix3Xd path(3, kPoints);
+  for (int k = 0; k < kPoints; ++k) {
+    const double share = k / (kPoints - 1.0);
+    path.col(k) = share * chord + std::sin(2.0 * M_PI * share) * aside;
+  }
+  return path;
+}
+
+TEST(ReferencePoint, InSpaceStandsInThePlaneInWhichThePathSwings) {
+  const PrimitiveField<3> open({}, 1.0);
+  const Eigen::Vector3d chord(20.0, 10.0, 4.0);
+  const Eigen::Vector3d level = chord.cross(Eigen::Vector3d::UnitZ()).normalized();
+  const Eigen::Vector3d upward = level.cross(chord).normalized();
+  for (const Eigen::Vector3d& aside :
+       {level, upward, Eigen::Vector3d(0.6 * level + 0.8 * upward)}) {
+    const auto references = choose_references(swinging_path(chord, aside), open, {});
+    ASSERT_TRUE(references);
+    const Eigen::Vector3d apex = references->col(9) - 0.5 * chord;
+    EXPECT_NEAR(apex.norm(), 0.5 * chord.norm(), 1e-9);
+    EXPECT_NEAR(std::abs(apex.normalized().dot(aside)), 1.0, 1e-9);
+    EXPECT_NEAR(apex.dot(chord), 0.0, 1e-9);
+  }
+}
+
+TEST(ReferencePoint, InSpaceAStraightPathHasItsReferenceBesideIt) {
+  const PrimitiveField<3> tree_on_the_left({{{10.0, 0.8}, 0.3}}, 1.0);
+  const auto references = choose_references(
+      swinging_path({20.0, 0.0, 0.0}, Eigen::Vector3d::Zero()), tree_on_the_left, {});
+  ASSERT_TRUE(references);
+  EXPECT_LT((references->col(5) - Eigen::Vector3d(10.0, -10.0, 0.0)).norm(), 1e-9);
+  const PrimitiveField<3> open({}, 1.0);
+  const auto climbing =
+      choose_references(swinging_path({0.0, 0.0, 20.0}, Eigen::Vector3d::Zero()), open, {});
+  ASSERT_TRUE(climbing);  // there is no level direction of its own
+  EXPECT_NEAR(climbing->col(5).z(), 10.0, 1e-9);
 }
 
 TEST(ReferencePoint, PathsWithoutInteriorKnotsNeedNone) {

@@ -11,7 +11,7 @@ const MotionLimits kLimits{2.0, 1.0, 1.5, 4.0};
 
 InitialKnots spread(const std::vector<Vector2>& points, double start_speed = 0.0,
                     double spacing_m = 0.5) {
-  const InitialKnots knots = spread_knots(points, start_speed, kLimits, spacing_m);
+  const InitialKnots<2> knots = spread_knots<2>(points, start_speed, kLimits, spacing_m);
   EXPECT_EQ(knots.path.cols(), knots.durations_s.size() + 1);
   EXPECT_GE(knots.durations_s.size(), 2);
   EXPECT_GT(knots.durations_s.minCoeff(), 0.0);
@@ -27,7 +27,7 @@ double speed(const InitialKnots& knots, int piece) {
 }
 
 TEST(SpeedProfile, StraightIsATrapezoid) {
-  const InitialKnots knots = spread({{0.0, 0.0}, {20.0, 0.0}});
+  const InitialKnots<2> knots = spread({{0.0, 0.0}, {20.0, 0.0}});
   const int pieces = static_cast<int>(knots.durations_s.size());
   EXPECT_LT(speed(knots, 0), 0.3);
   EXPECT_NEAR(speed(knots, pieces / 2), kLimits.max_speed, 1e-6);
@@ -40,7 +40,7 @@ TEST(SpeedProfile, StraightIsATrapezoid) {
 }
 
 TEST(SpeedProfile, KnotsAreTheSpacingApartAtFullSpeedAndUniformInTime) {
-  const InitialKnots knots = spread({{0.0, 0.0}, {20.0, 0.0}}, 0.0, 0.8);
+  const InitialKnots<2> knots = spread({{0.0, 0.0}, {20.0, 0.0}}, 0.0, 0.8);
   const int middle = static_cast<int>(knots.durations_s.size()) / 2;
   EXPECT_NEAR((knots.path.col(middle + 1) - knots.path.col(middle)).norm(), 0.8, 0.03);
   EXPECT_NEAR(knots.durations_s.maxCoeff(), knots.durations_s.minCoeff(), 1e-12);
@@ -54,7 +54,7 @@ TEST(SpeedProfile, GoesOnAtTheSpeedItHas) {
 }
 
 TEST(SpeedProfile, IsSlowerInCorners) {
-  const InitialKnots knots = spread({{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}}, 0.0, 0.4);
+  const InitialKnots<2> knots = spread({{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}}, 0.0, 0.4);
   double slowest = kLimits.max_speed;
   for (int k = 0; k < knots.durations_s.size(); ++k) {
     const Vector2 middle = 0.5 * (knots.path.col(k) + knots.path.col(k + 1));
@@ -73,7 +73,7 @@ TEST(SpeedProfile, RespectsTheYawRate) {
   }
   MotionLimits lazy = kLimits;
   lazy.max_yaw_rate = 0.2;
-  const InitialKnots knots = spread_knots(circle, 0.0, lazy, 0.5);
+  const InitialKnots<2> knots = spread_knots<2>(circle, 0.0, lazy, 0.5);
   for (int k = 0; k < knots.durations_s.size(); ++k) EXPECT_LT(speed(knots, k), 1.05 * 0.2 * 2.0);
   EXPECT_GT(speed(knots, static_cast<int>(knots.durations_s.size()) / 2), 0.9 * 0.2 * 2.0);
 }
@@ -89,7 +89,7 @@ TEST(SpeedProfile, AGentleBendIsFasterThanASharpOne) {
 }
 
 TEST(SpeedProfile, KnotsLieOnThePath) {
-  const InitialKnots knots = spread({{0.0, 0.0}, {3.0, 0.0}, {3.0, 3.0}, {6.0, 3.0}}, 0.5, 0.3);
+  const InitialKnots<2> knots = spread({{0.0, 0.0}, {3.0, 0.0}, {3.0, 3.0}, {6.0, 3.0}}, 0.5, 0.3);
   for (int k = 0; k < knots.path.cols(); ++k) {
     const double x = knots.path(0, k);
     const double y = knots.path(1, k);
@@ -106,8 +106,8 @@ TEST(SpeedProfile, NextToNothingToDriveIsNoProblem) {
 }
 
 TEST(SpeedProfile, FewerThanTwoPointsAreRefused) {
-  EXPECT_THROW(spread_knots({}, 0.0, kLimits, 0.5), std::invalid_argument);
-  EXPECT_THROW(spread_knots({{1.0, 1.0}}, 0.0, kLimits, 0.5), std::invalid_argument);
+  EXPECT_THROW(spread_knots<2>({}, 0.0, kLimits, 0.5), std::invalid_argument);
+  EXPECT_THROW(spread_knots<2>({{1.0, 1.0}}, 0.0, kLimits, 0.5), std::invalid_argument);
 }
 
 }  // namespace

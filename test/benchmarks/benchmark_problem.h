@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "benchmarks/benchmark_world.h"
+#include "camouflage/camouflage_map.h"
+#include "camouflage/reference_point.h"
+#include "optimization/dynamics_penalty.h"
+#include "optimization/obstacle_penalty.h"
+#include "optimization/trajectory_objective.h"
+#include "planning/speed_profile.h"
+
+namespace mocha {
+
+/// The optimisation of Table I, in the paper's units: its weights belong to penalties with
+/// dimension.
+struct TableRules {
+  double max_speed = 12.0;        ///< [m/s]
+  double max_acceleration = 5.0;  ///< [m/s^2]
+  int kappa = 20;
+  double w_e = 1.0;
+  double w_t = 1.0;
+  double w_o = 100.0;
+  double w_d = 100.0;
+  double d_s_m = 1.2;        ///< safety distance of the penalty
+  double clearance_m = 0.5;  ///< what the certificate asks for: the robot as a ball
+  double travel_m = 4.0;     ///< of a knot along its ray
+};
+
+template <int D>
+double length_m(const std::vector<Eigen::Matrix<double, D, 1>>& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return length;
+}
+
+/// Knots at uniform time, `spacing_m` apart on average.
+template <int D>
+InitialKnots<D> knots_on(const std::vector<Eigen::Matrix<double, D, 1>>& path, double spacing_m,
+                         const TableRules& rules) {
+  MotionLimits limits;
+  limits.max_speed = rules.max_speed;
+  limits.max_acceleration = rules.max_acceleration;
+  limits.max_yaw_rate = std::numeric_limits<double>::infinity();
+  // spread_knots() counts in time; what the spacing is at full speed is found by trying.
+  const int wanted = static_cast<int>(std::round(length_m<D>(path) / spacing_m));
+  double at_full_speed_m = spacing_m;
+  for (int attempt = 0; attempt < 50; ++attempt) {
+    InitialKnots<D> knots = spread_knots<D>(path, 0.0, limits, at_full_speed_m);
+    if (knots.durations_s.size() == wanted) return knots;
+    at_full_speed_m *= static_cast<double>(knots.durations_s.size()) / wanted;
+  }
+  throw std::runtime_error("table1: no such spacing");
+}
+
+/// J of (14) from rest to rest; with camouflage, or with waypoints as variables.
+template <int D>
+typename TrajectoryObjective<D, 3>::Setup table_setup(const BenchmarkWorld<D>& world,
+                                                      const InitialKnots<D>& knots, bool camouflage,
+                                                      const TableRules& rules) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const auto to_sixth = [](double limit) { return std::pow(limit, 6); };
+  typename TrajectoryObjective<D, 3>::Setup setup;
+  setup.start.setZero();
+  setup.end.setZero();
+  setup.start.col(0) = world.path.front();
+  setup.end.col(0) = world.path.back();
+  const auto prey = knots.path.middleCols(1, knots.path.cols() - 2);
+  if (camouflage) {
+    ReferenceRules reference_rules;
+    reference_rules.side_depth_m = rules.travel_m;
+    const auto references = choose_references<D>(knots.path, world.field, reference_rules);
+    if (!references) throw std::runtime_error("table1: no reference points");
+    setup.knot_map = std::make_shared<CamouflageMap<D>>(prey, *references, rules.travel_m);
+  } else {
+    setup.knot_map = std::make_shared<WaypointMap<D>>(prey);
+  }
+  setup.effort_weight = rules.w_e;
+  setup.duration_cost = {rules.w_t};
+  setup.kappa = rules.kappa;
+  setup.penalties.push_back(std::make_unique<ObstaclePenalty<D>>(
+      rules.w_o * to_sixth(rules.d_s_m), world.field,
+      std::vector<typename ObstaclePenalty<D>::Cover>{{0.0, rules.d_s_m}}, 1.0));
+  setup.penalties.push_back(std::make_unique<DynamicsPenalty<D>>(
+      rules.w_d * to_sixth(rules.max_speed), rules.max_speed, kNever));
+  setup.penalties.push_back(std::make_unique<DynamicsPenalty<D>>(
+      rules.w_d * to_sixth(rules.max_acceleration), kNever, rules.max_acceleration));
+  return setup;
+}
+
+}  // namespace mocha

@@ -1,0 +1,93 @@
+#include "benchmarks/benchmark_world.h"
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "topology/grid_path.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kCell_m = 0.25;
+constexpr double kBorder_m = 6.0;
+
+struct Ground {
+  double side_m;
+  int circles;
+  double smallest_m;
+  double largest_m;
+};
+
+/// Circles at random, apart from each other and from both corners.
+std::vector<Circle> scatter(const Ground& ground, double gap_m, std::mt19937& random) {
+  std::uniform_real_distribution<double> place(0.0, ground.side_m);
+  std::uniform_real_distribution<double> size(ground.smallest_m, ground.largest_m);
+  std::vector<Circle> circles;
+  for (int attempt = 0; attempt < 200000; ++attempt) {
+    const Circle circle{{place(random), place(random)}, size(random)};
+    const auto is_free = [&](const Vector2& p, double radius) {
+      return (p - circle.centre).norm() > radius + circle.radius_m + gap_m;
+    };
+    bool free = is_free({0.0, 0.0}, 0.0) && is_free({ground.side_m, ground.side_m}, 0.0);
+    for (const Circle& other : circles) free = free && is_free(other.centre, other.radius_m);
+    if (free) circles.push_back(circle);
+    if (static_cast<int>(circles.size()) == ground.circles) return circles;
+  }
+  throw std::runtime_error("benchmark world: the circles do not fit");
+}
+
+std::vector<Vector2> front_end(const std::vector<Circle>& circles, double side_m,
+                               double clearance_m) {
+  OccupancyGrid map;
+  map.resolution_m = kCell_m;
+  map.origin = {-kBorder_m, -kBorder_m};
+  map.width = map.height = static_cast<int>((side_m + 2.0 * kBorder_m) / kCell_m);
+  map.cells.assign(static_cast<std::size_t>(map.width) * map.height, OccupancyGrid::kFree);
+  for (const Circle& circle : circles) {
+    fill_disc(map, circle.centre, circle.radius_m, OccupancyGrid::kOccupied);
+  }
+  GridPathRules rules;
+  rules.required_clearance_m = clearance_m;
+  rules.preferred_clearance_m = clearance_m;
+  rules.step_m = 0.5;
+  const DistanceField field(map, DistanceField::Solid::kOccupied);
+  GridPath path = find_grid_path(field, {0.0, 0.0}, {side_m, side_m}, {}, rules);
+  if (path.outcome != GridPath::Outcome::kFound) {
+    throw std::runtime_error("benchmark world: there is no way through");
+  }
+  return path.points;
+}
+
+}  // namespace
+
+BenchmarkWorld<2> circle_world(int seed, const BenchmarkRules& rules) {
+  std::mt19937 random(seed);
+  const Ground ground{100.0, 65, 1.0, 4.0};
+  const std::vector<Circle> circles = scatter(ground, rules.gap_m, random);
+  return {PrimitiveField<2>({circles.begin(), circles.end()}, 2.0),
+          front_end(circles, ground.side_m, rules.front_end_clearance_m)};
+}
+
+BenchmarkWorld<3> forest_world(int seed, const BenchmarkRules& rules) {
+  constexpr double kStartHeight_m = 2.0;
+  constexpr double kClimb_m = 8.0;
+  std::mt19937 random(1000 + seed);
+  const Ground ground{122.0, 150, 0.4, 1.2};
+  const std::vector<Circle> trunks = scatter(ground, rules.gap_m, random);
+  std::vector<Cylinder> cylinders;
+  for (const Circle& trunk : trunks) cylinders.push_back({trunk.centre, trunk.radius_m});
+  // Trunks have no end, so the way round them is that of the plane, climbing evenly.
+  const std::vector<Vector2> level = front_end(trunks, ground.side_m, rules.front_end_clearance_m);
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < level.size(); ++i) length_m += (level[i] - level[i - 1]).norm();
+  std::vector<Eigen::Vector3d> path;
+  double along_m = 0.0;
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    if (i > 0) along_m += (level[i] - level[i - 1]).norm();
+    path.emplace_back(level[i].x(), level[i].y(), kStartHeight_m + kClimb_m * along_m / length_m);
+  }
+  return {PrimitiveField<3>(std::move(cylinders), 2.0), std::move(path)};
+}
+
+}  // namespace mocha
