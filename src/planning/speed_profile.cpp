@@ -74,28 +74,40 @@ std::vector<double> arrival_times(const Points<D>& samples, std::vector<double> 
 }  // namespace
 
 template <int D>
-InitialKnots<D> spread_knots(const Points<D>& points, double start_speed,
-                             const MotionLimits& limits, double spacing_m) {
-  if (points.size() < 2) throw std::invalid_argument("spread_knots: needs at least two points");
-  const Points<D> samples = resample<D>(points);
-  const std::vector<double> times =
-      arrival_times<D>(samples, corner_speeds<D>(samples, limits, spacing_m), start_speed, limits);
-  const double interval_s = spacing_m / limits.max_speed;
-  const int pieces = std::max(2, static_cast<int>(std::ceil(times.back() / interval_s)));
+SpeedProfile<D>::SpeedProfile(const Points& points, double start_speed, const MotionLimits& limits,
+                              double window_m) {
+  if (points.size() < 2) throw std::invalid_argument("SpeedProfile: needs at least two points");
+  samples_ = resample<D>(points);
+  times_s_ =
+      arrival_times<D>(samples_, corner_speeds<D>(samples_, limits, window_m), start_speed, limits);
+}
+
+template <int D>
+InitialKnots<D> SpeedProfile<D>::knots(int pieces) const {
   InitialKnots<D> knots;
   knots.path.resize(D, pieces + 1);
-  knots.durations_s.setConstant(pieces, std::max(1e-2, times.back() / pieces));
+  knots.durations_s.setConstant(pieces, std::max(1e-2, duration_s() / pieces));
   std::size_t i = 1;
   for (int k = 0; k <= pieces; ++k) {
-    const double t = times.back() * k / pieces;
-    while (i + 1 < times.size() && times[i] < t) ++i;
-    const double span = times[i] - times[i - 1];
-    const double share = span > 0.0 ? std::clamp((t - times[i - 1]) / span, 0.0, 1.0) : 1.0;
-    knots.path.col(k) = samples[i - 1] + share * (samples[i] - samples[i - 1]);
+    const double t = duration_s() * k / pieces;
+    while (i + 1 < times_s_.size() && times_s_[i] < t) ++i;
+    const double span = times_s_[i] - times_s_[i - 1];
+    const double share = span > 0.0 ? std::clamp((t - times_s_[i - 1]) / span, 0.0, 1.0) : 1.0;
+    knots.path.col(k) = samples_[i - 1] + share * (samples_[i] - samples_[i - 1]);
   }
   return knots;
 }
 
+template <int D>
+InitialKnots<D> spread_knots(const Points<D>& points, double start_speed,
+                             const MotionLimits& limits, double spacing_m) {
+  const SpeedProfile<D> profile(points, start_speed, limits, spacing_m);
+  const double interval_s = spacing_m / limits.max_speed;
+  return profile.knots(std::max(2, static_cast<int>(std::ceil(profile.duration_s() / interval_s))));
+}
+
+template class SpeedProfile<2>;
+template class SpeedProfile<3>;
 template InitialKnots<2> spread_knots<2>(const Points<2>&, double, const MotionLimits&, double);
 template InitialKnots<3> spread_knots<3>(const Points<3>&, double, const MotionLimits&, double);
 

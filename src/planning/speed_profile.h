@@ -14,11 +14,31 @@ struct InitialKnots {
   Eigen::VectorXd durations_s;                    ///< one fewer than points
 };
 
-/// Drives along straight lines at a trapezoidal speed profile, slower in corners, and puts knots at
-/// uniform TIME, so that slow stretches get more of them.
-///
-/// Throws std::invalid_argument for fewer than two points. The path begins at `start_speed` [m/s]
-/// and ends at rest; the knots are about `spacing_m` apart at full speed.
+/// A trapezoidal speed profile along straight lines, slower in corners, to rest at the end.
+template <int D>
+class SpeedProfile {
+ public:
+  using Points = std::vector<Eigen::Matrix<double, D, 1>>;
+
+  /// Throws std::invalid_argument for fewer than two points. The path begins at `start_speed`
+  /// [m/s]; a corner is rounded over about `window_m`.
+  SpeedProfile(const Points& points, double start_speed, const MotionLimits& limits,
+               double window_m);
+
+  double duration_s() const { return times_s_.back(); }
+
+  /// Knots between `pieces` >= 1 pieces of uniform TIME, so that slow stretches get more of them.
+  InitialKnots<D> knots(int pieces) const;
+
+ private:
+  Points samples_;
+  std::vector<double> times_s_;  // at which the samples are reached
+};
+
+extern template class SpeedProfile<2>;
+extern template class SpeedProfile<3>;
+
+/// Knots of that profile, about `spacing_m` apart at full speed.
 template <int D>
 InitialKnots<D> spread_knots(const std::vector<Eigen::Matrix<double, D, 1>>& points,
                              double start_speed, const MotionLimits& limits, double spacing_m);

@@ -45,15 +45,8 @@ InitialKnots<D> knots_on(const std::vector<Eigen::Matrix<double, D, 1>>& path, d
   limits.max_speed = rules.max_speed;
   limits.max_acceleration = rules.max_acceleration;
   limits.max_yaw_rate = std::numeric_limits<double>::infinity();
-  // spread_knots() counts in time; what the spacing is at full speed is found by trying.
-  const int wanted = static_cast<int>(std::round(length_m<D>(path) / spacing_m));
-  double at_full_speed_m = spacing_m;
-  for (int attempt = 0; attempt < 50; ++attempt) {
-    InitialKnots<D> knots = spread_knots<D>(path, 0.0, limits, at_full_speed_m);
-    if (knots.durations_s.size() == wanted) return knots;
-    at_full_speed_m *= static_cast<double>(knots.durations_s.size()) / wanted;
-  }
-  throw std::runtime_error("table1: no such spacing");
+  const SpeedProfile<D> profile(path, 0.0, limits, spacing_m);
+  return profile.knots(static_cast<int>(std::round(length_m<D>(path) / spacing_m)));
 }
 
 /// J of (14) from rest to rest; with camouflage, or with waypoints as variables.

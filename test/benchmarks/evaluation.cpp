@@ -90,10 +90,11 @@ void run() {
       if (!std::isfinite(sum + spline.sum())) throw std::runtime_error("evaluation: not finite");
       const char* method = camouflage ? "camouflage" : "minco";
       for (const auto& [what, seconds] : {std::pair{"full", full_s}, {"spline", spline_s}}) {
-        std::printf("%s\n  {\"what\": \"%s\", \"method\": \"%s\", \"world\": %d, \"pieces\": %d, "
-                    "\"seconds\": %.4g}",
-                    camouflage && seed == 1 && what[0] == 'f' ? "" : ",", what, method, seed,
-                    objective.pieces(), seconds);
+        std::printf(
+            "%s\n  {\"what\": \"%s\", \"method\": \"%s\", \"world\": %d, \"pieces\": %d, "
+            "\"seconds\": %.4g}",
+            camouflage && seed == 1 && what[0] == 'f' ? "" : ",", what, method, seed,
+            objective.pieces(), seconds);
       }
     }
   }

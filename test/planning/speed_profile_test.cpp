@@ -9,7 +9,7 @@ namespace {
 
 const MotionLimits kLimits{2.0, 1.0, 1.5, 4.0};
 
-InitialKnots spread(const std::vector<Vector2>& points, double start_speed = 0.0,
+InitialKnots<2> spread(const std::vector<Vector2>& points, double start_speed = 0.0,
                     double spacing_m = 0.5) {
   const InitialKnots<2> knots = spread_knots<2>(points, start_speed, kLimits, spacing_m);
   EXPECT_EQ(knots.path.cols(), knots.durations_s.size() + 1);
@@ -22,7 +22,7 @@ InitialKnots spread(const std::vector<Vector2>& points, double start_speed = 0.0
 }
 
 /// Mean speed between two knots.
-double speed(const InitialKnots& knots, int piece) {
+double speed(const InitialKnots<2>& knots, int piece) {
   return (knots.path.col(piece + 1) - knots.path.col(piece)).norm() / knots.durations_s[piece];
 }
 
