@@ -24,14 +24,16 @@ template <int D, int S>
 Eigen::VectorXd TrajectoryObjective<D, S>::initial(const Eigen::VectorXd& durations_s) const {
   Eigen::VectorXd x(variables());
   x.head(setup_.knot_map->variables()) = setup_.knot_map->initial();
-  for (int i = 0; i < pieces(); ++i) x[setup_.knot_map->variables() + i] = eta_of(durations_s[i]);
+  for (int i = 0; i < pieces(); ++i) {
+    x[setup_.knot_map->variables() + i] = setup_.metres_per_eta * eta_of(durations_s[i]);
+  }
   return x;
 }
 
 template <int D, int S>
 double TrajectoryObjective<D, S>::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {
   const KnotMap<D>& map = *setup_.knot_map;
-  const double* eta = x.data() + map.variables();
+  const auto eta = x.tail(pieces()) / setup_.metres_per_eta;
   map.place(x.data(), knots_);
   for (int i = 0; i < pieces(); ++i) durations_[i] = duration_of(eta[i]);
   minco_.solve(setup_.start, setup_.end, knots_, durations_);
@@ -49,7 +51,8 @@ double TrajectoryObjective<D, S>::evaluate(const Eigen::VectorXd& x, Eigen::Vect
 
   map.pull_back(x.data(), by_knot_, gradient.data());
   for (int i = 0; i < pieces(); ++i) {
-    gradient[map.variables() + i] = by_duration_[i] * duration_slope(eta[i]);
+    gradient[map.variables() + i] =
+        by_duration_[i] * duration_slope(eta[i]) / setup_.metres_per_eta;
   }
   return effort_ + duration_ + penalty;
 }

@@ -15,8 +15,8 @@ namespace mocha {
 /// A cost by its parts, weighted as they enter the sum.
 using CostTerms = std::vector<std::pair<std::string, double>>;
 
-/// J_total (14) over unconstrained variables: those of the knot map first, then one eta a piece
-/// (12). After construction evaluating it allocates nothing.
+/// J_total (14) over unconstrained variables: those of the knot map first, then one scaled
+/// eta a piece (12). After construction evaluating it allocates nothing.
 template <int D, int S>
 class TrajectoryObjective {
  public:
@@ -31,6 +31,10 @@ class TrajectoryObjective {
     DurationCost duration_cost;
     std::vector<std::unique_ptr<Penalty<D>>> penalties;
     int kappa;
+    /// How far the trajectory moves along itself, about, when one eta grows by one [m]. A variable
+    /// is eta times this, so that one unit of it moves as much as one unit of a knot's does: the
+    /// solver converges faster where all variables are alike.
+    double metres_per_eta = 1.0;
   };
 
   explicit TrajectoryObjective(Setup setup);

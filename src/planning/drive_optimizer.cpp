@@ -110,6 +110,7 @@ OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
   setup.duration_cost = {rules_.weight_duration};
   setup.penalties = penalties(query, field, effort);
   setup.kappa = rules_.samples_per_piece;
+  setup.metres_per_eta = knots.metres_per_eta();
   TrajectoryObjective<2, 3> objective(std::move(setup));
   OptimizerRules optimizer_rules;
   optimizer_rules.max_evaluations = rules_.max_evaluations;

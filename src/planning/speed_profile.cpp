@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "camouflage/bounded_maps.h"
+
 namespace mocha {
 namespace {
 
@@ -25,6 +27,21 @@ Points<D> resample(const Points<D>& points) {
     }
   }
   return samples;
+}
+
+/// Moving average of the samples over `window_m`, which narrows towards both ends, as these stay.
+template <int D>
+Points<D> rounded(const Points<D>& samples, double window_m) {
+  const int last = static_cast<int>(samples.size()) - 1;
+  const int widest = static_cast<int>(0.5 * window_m / kStep_m);
+  Points<D> sums = {Eigen::Matrix<double, D, 1>::Zero()};
+  for (const auto& sample : samples) sums.push_back(sums.back() + sample);
+  Points<D> means;
+  for (int i = 0; i <= last; ++i) {
+    const int reach = std::min({widest, i, last - i});
+    means.push_back((sums[i + reach + 1] - sums[i - reach]) / (2.0 * reach + 1.0));
+  }
+  return means;
 }
 
 /// Speed allowed by the turn of the path over a window of about `window_m` around each sample.
@@ -74,10 +91,18 @@ std::vector<double> arrival_times(const Points<D>& samples, std::vector<double> 
 }  // namespace
 
 template <int D>
+double InitialKnots<D>::metres_per_eta() const {
+  const auto steps = path.rightCols(path.cols() - 1) - path.leftCols(path.cols() - 1);
+  const double speed = steps.colwise().norm().sum() / durations_s.sum();
+  return std::max(kSlowest, speed) * duration_slope(eta_of(durations_s.mean()));
+}
+
+template <int D>
 SpeedProfile<D>::SpeedProfile(const Points& points, double start_speed, const MotionLimits& limits,
                               double window_m) {
   if (points.size() < 2) throw std::invalid_argument("SpeedProfile: needs at least two points");
   samples_ = resample<D>(points);
+  for (int pass = 0; pass < 2; ++pass) samples_ = rounded<D>(samples_, window_m);
   times_s_ =
       arrival_times<D>(samples_, corner_speeds<D>(samples_, limits, window_m), start_speed, limits);
 }
@@ -106,6 +131,8 @@ InitialKnots<D> spread_knots(const Points<D>& points, double start_speed,
   return profile.knots(std::max(2, static_cast<int>(std::ceil(profile.duration_s() / interval_s))));
 }
 
+template struct InitialKnots<2>;
+template struct InitialKnots<3>;
 template class SpeedProfile<2>;
 template class SpeedProfile<3>;
 template InitialKnots<2> spread_knots<2>(const Points<2>&, double, const MotionLimits&, double);

@@ -12,16 +12,21 @@ template <int D>
 struct InitialKnots {
   Eigen::Matrix<double, D, Eigen::Dynamic> path;  ///< start, interior knots, end [m]
   Eigen::VectorXd durations_s;                    ///< one fewer than points
+
+  /// How far the path is driven on, about, while an eta (12) grows by one: mean speed times slope.
+  double metres_per_eta() const;
 };
 
-/// A trapezoidal speed profile along straight lines, slower in corners, to rest at the end.
+/// A trapezoidal speed profile along a path whose corners are rounded, slower there, to rest at the
+/// end.
 template <int D>
 class SpeedProfile {
  public:
   using Points = std::vector<Eigen::Matrix<double, D, 1>>;
 
   /// Throws std::invalid_argument for fewer than two points. The path begins at `start_speed`
-  /// [m/s]; a corner is rounded over about `window_m`.
+  /// [m/s]; corners are rounded over about `window_m`, so that knots do not carry the kinks and the
+  /// jitter of a searched path into directions in which they cannot move.
   SpeedProfile(const Points& points, double start_speed, const MotionLimits& limits,
                double window_m);
 
@@ -35,6 +40,8 @@ class SpeedProfile {
   std::vector<double> times_s_;  // at which the samples are reached
 };
 
+extern template struct InitialKnots<2>;
+extern template struct InitialKnots<3>;
 extern template class SpeedProfile<2>;
 extern template class SpeedProfile<3>;
 

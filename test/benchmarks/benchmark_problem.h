@@ -27,7 +27,7 @@ struct TableRules {
   double w_d = 100.0;
   double d_s_m = 1.2;        ///< safety distance of the penalty
   double clearance_m = 0.5;  ///< what the certificate asks for: the robot as a ball
-  double travel_m = 4.0;     ///< of a knot along its ray
+  double travel_m = 8.0;     ///< of a knot along its ray
 };
 
 template <int D>
@@ -74,6 +74,7 @@ typename TrajectoryObjective<D, 3>::Setup table_setup(const BenchmarkWorld<D>& w
   setup.effort_weight = rules.w_e;
   setup.duration_cost = {rules.w_t};
   setup.kappa = rules.kappa;
+  setup.metres_per_eta = knots.metres_per_eta();
   setup.penalties.push_back(std::make_unique<ObstaclePenalty<D>>(
       rules.w_o * to_sixth(rules.d_s_m), world.field,
       std::vector<typename ObstaclePenalty<D>::Cover>{{0.0, rules.d_s_m}}, 1.0));
