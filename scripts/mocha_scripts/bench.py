@@ -2,9 +2,9 @@
 import argparse
 import sys
 
-from mocha_scripts import bench_barn
+from mocha_scripts import bench_barn, bench_evaluation, bench_table1
 
-BENCHES = {"barn": bench_barn}
+BENCHES = {"barn": bench_barn, "evaluation": bench_evaluation, "table1": bench_table1}
 
 
 def main(arguments):

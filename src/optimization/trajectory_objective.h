@@ -28,7 +28,7 @@ class TrajectoryObjective {
     State end;
     std::shared_ptr<const KnotMap<D>> knot_map;
     double effort_weight;  ///< w_e
-    DurationCost duration_cost;
+    DurationCost duration_cost = DurationCost::total(1.0);
     std::vector<std::unique_ptr<Penalty<D>>> penalties;
     int kappa;
     /// How far the trajectory moves along itself, about, when one eta grows by one [m]. A variable

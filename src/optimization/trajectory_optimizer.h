@@ -12,7 +12,8 @@ enum class StopReason {
   kLineSearchEnded,  ///< no further descent in floating point
   kBudget,           ///< evaluations used up
   kStopped,          ///< the caller's should_stop said so
-  kNotFinite         ///< the cost was not finite at the start
+  kNotFinite,        ///< the cost was not finite at the start
+  kInvalidInput      ///< the problem itself is not one: nothing was tried
 };
 
 struct OptimizerRules {
@@ -26,7 +27,7 @@ struct OptimizerRules {
 
 template <int D, int S>
 struct OptimizedTrajectory {
-  StopReason stop;
+  StopReason stop = StopReason::kInvalidInput;
   int evaluations = 0;
   double cost = 0.0;
   CostTerms terms;

@@ -1,6 +1,7 @@
 #include "planning/drive_optimizer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "camouflage/camouflage_map.h"
@@ -29,6 +30,19 @@ Vector2 final_direction(const std::vector<Vector2>& path, double length_m) {
     if ((end - *point).norm() >= length_m) return (end - *point).normalized();
   }
   return (end - path.front()).normalized();
+}
+
+/// Whether there is a problem to solve at all. What is merely hopeless, such as a start faster than
+/// the robot, is for the certificate to say.
+bool is_sound(const DriveQuery& query) {
+  constexpr double kFarthest = 1e6;  // [m], [m/s], [m/s^2]; beyond, nothing can be computed
+  if (query.path.size() < 2 || !std::isfinite(query.start_time_s)) return false;
+  for (const Vector2& point : query.path) {
+    if (!(point.cwiseAbs().maxCoeff() < kFarthest)) return false;
+  }
+  return query.start.cwiseAbs().maxCoeff() < kFarthest &&
+         (query.path.back() - query.path.front()).norm() + (query.path[1] - query.path[0]).norm() >
+             0.0;
 }
 
 double peer_distance_m(const RobotModel& robot) {
@@ -95,6 +109,7 @@ std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQu
 OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
     const DriveQuery& query, const ObstacleField<2>& field, const Effort& effort,
     const std::function<bool()>& should_stop) const {
+  if (!is_sound(query)) return {};
   MotionLimits limits = robot_.limits;
   limits.max_speed *= effort.speed;
   const InitialKnots<2> knots = spread_knots<2>(query.path, query.start.col(1).norm(), limits,
@@ -107,7 +122,7 @@ OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
   setup.end.col(2) = -rest_acceleration() * final_direction(query.path, 0.3);
   setup.knot_map = knot_map(knots.path, field, effort.camouflage);
   setup.effort_weight = rules_.weight_effort / (a_max * a_max);
-  setup.duration_cost = {rules_.weight_duration};
+  setup.duration_cost = DurationCost::total(rules_.weight_duration);
   setup.penalties = penalties(query, field, effort);
   setup.kappa = rules_.samples_per_piece;
   setup.metres_per_eta = knots.metres_per_eta();

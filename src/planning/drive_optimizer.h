@@ -39,7 +39,8 @@ class DriveOptimizer {
   DriveOptimizer(const RobotModel& robot, const PlannerRules& rules, double static_margin_m);
 
   /// `field` are the static obstacles. The result's curve is empty only if nothing finite was
-  /// found.
+  /// found (kNotFinite), or the query is none (kInvalidInput): values that are not finite or beyond
+  /// 1e6, fewer than two points, no length.
   OptimizedTrajectory<2, 3> optimize_drive(const DriveQuery& query, const ObstacleField<2>& field,
                                            const Effort& effort,
                                            const std::function<bool()>& should_stop) const;

@@ -9,7 +9,9 @@
 namespace mocha {
 namespace {
 
-constexpr double kStep_m = 0.05;              // of the sampled path
+constexpr double kStep_m = 0.05;      // of the sampled path
+constexpr double kMostSamples = 2e4;  // very long paths are sampled more coarsely
+constexpr int kMostPieces = 2000;
 constexpr double kShareOfAcceleration = 0.6;  // leaves room for the curve's own shape
 constexpr double kSlowest = 0.05;             // [m/s] of the profile, so that times stay finite
 
@@ -17,11 +19,18 @@ template <int D>
 using Points = std::vector<Eigen::Matrix<double, D, 1>>;
 
 template <int D>
-Points<D> resample(const Points<D>& points) {
+double length_m(const Points<D>& points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  return length;
+}
+
+template <int D>
+Points<D> resample(const Points<D>& points, double step_m) {
   Points<D> samples = {points.front()};
   for (std::size_t i = 1; i < points.size(); ++i) {
     const auto step = points[i] - points[i - 1];
-    const int parts = std::max(1, static_cast<int>(std::ceil(step.norm() / kStep_m)));
+    const int parts = std::max(1, static_cast<int>(std::ceil(step.norm() / step_m)));
     for (int k = 1; k <= parts; ++k) {
       samples.push_back(points[i - 1] + step * (static_cast<double>(k) / parts));
     }
@@ -29,11 +38,10 @@ Points<D> resample(const Points<D>& points) {
   return samples;
 }
 
-/// Moving average of the samples over `window_m`, which narrows towards both ends, as these stay.
+/// Moving average over `widest` samples to both sides, fewer towards the ends, which stay.
 template <int D>
-Points<D> rounded(const Points<D>& samples, double window_m) {
+Points<D> rounded(const Points<D>& samples, int widest) {
   const int last = static_cast<int>(samples.size()) - 1;
-  const int widest = static_cast<int>(0.5 * window_m / kStep_m);
   Points<D> sums = {Eigen::Matrix<double, D, 1>::Zero()};
   for (const auto& sample : samples) sums.push_back(sums.back() + sample);
   Points<D> means;
@@ -44,11 +52,9 @@ Points<D> rounded(const Points<D>& samples, double window_m) {
   return means;
 }
 
-/// Speed allowed by the turn of the path over a window of about `window_m` around each sample.
+/// Speed allowed by the turn of the path over `reach` >= 1 samples to both sides of each.
 template <int D>
-std::vector<double> corner_speeds(const Points<D>& samples, const MotionLimits& limits,
-                                  double window_m) {
-  const int reach = std::max(1, static_cast<int>(0.5 * window_m / kStep_m));
+std::vector<double> corner_speeds(const Points<D>& samples, const MotionLimits& limits, int reach) {
   const int last = static_cast<int>(samples.size()) - 1;
   std::vector<double> speeds(samples.size(), limits.max_speed);
   for (int i = 1; i < last; ++i) {
@@ -100,11 +106,19 @@ double InitialKnots<D>::metres_per_eta() const {
 template <int D>
 SpeedProfile<D>::SpeedProfile(const Points& points, double start_speed, const MotionLimits& limits,
                               double window_m) {
-  if (points.size() < 2) throw std::invalid_argument("SpeedProfile: needs at least two points");
-  samples_ = resample<D>(points);
-  for (int pass = 0; pass < 2; ++pass) samples_ = rounded<D>(samples_, window_m);
-  times_s_ =
-      arrival_times<D>(samples_, corner_speeds<D>(samples_, limits, window_m), start_speed, limits);
+  const double length = length_m<D>(points);
+  if (points.size() < 2 || !std::isfinite(length)) {
+    throw std::invalid_argument("SpeedProfile: needs at least two points, all of them finite");
+  }
+  if (!(limits.max_speed > 0.0) || !(limits.max_acceleration > 0.0) || !(start_speed >= 0.0)) {
+    throw std::invalid_argument("SpeedProfile: limits must be above 0, the first speed at least 0");
+  }
+  const double step_m = std::max(kStep_m, length / kMostSamples);
+  const int half_window = static_cast<int>(std::clamp(0.5 * window_m / step_m, 0.0, kMostSamples));
+  samples_ = resample<D>(points, step_m);
+  for (int pass = 0; pass < 2; ++pass) samples_ = rounded<D>(samples_, half_window);
+  times_s_ = arrival_times<D>(
+      samples_, corner_speeds<D>(samples_, limits, std::max(1, half_window)), start_speed, limits);
 }
 
 template <int D>
@@ -127,8 +141,8 @@ template <int D>
 InitialKnots<D> spread_knots(const Points<D>& points, double start_speed,
                              const MotionLimits& limits, double spacing_m) {
   const SpeedProfile<D> profile(points, start_speed, limits, spacing_m);
-  const double interval_s = spacing_m / limits.max_speed;
-  return profile.knots(std::max(2, static_cast<int>(std::ceil(profile.duration_s() / interval_s))));
+  const double intervals = std::ceil(profile.duration_s() * limits.max_speed / spacing_m);
+  return profile.knots(static_cast<int>(std::clamp<double>(intervals, 2, kMostPieces)));
 }
 
 template struct InitialKnots<2>;

@@ -24,8 +24,8 @@ class SpeedProfile {
  public:
   using Points = std::vector<Eigen::Matrix<double, D, 1>>;
 
-  /// Throws std::invalid_argument for fewer than two points. The path begins at `start_speed`
-  /// [m/s]; corners are rounded over about `window_m`, so that knots do not carry the kinks and the
+  /// Throws std::invalid_argument for fewer than two points, for points that are not finite, and for
+  /// limits that are not above 0. The path begins at `start_speed` >= 0 [m/s]; corners are rounded over about `window_m`, so that knots do not carry the kinks and the
   /// jitter of a searched path into directions in which they cannot move.
   SpeedProfile(const Points& points, double start_speed, const MotionLimits& limits,
                double window_m);
@@ -45,7 +45,8 @@ extern template struct InitialKnots<3>;
 extern template class SpeedProfile<2>;
 extern template class SpeedProfile<3>;
 
-/// Knots of that profile, about `spacing_m` apart at full speed.
+/// Knots of that profile, about `spacing_m` > 0 apart at full speed; farther, where they would be
+/// thousands.
 template <int D>
 InitialKnots<D> spread_knots(const std::vector<Eigen::Matrix<double, D, 1>>& points,
                              double start_speed, const MotionLimits& limits, double spacing_m);

@@ -72,7 +72,7 @@ typename TrajectoryObjective<D, 3>::Setup table_setup(const BenchmarkWorld<D>& w
     setup.knot_map = std::make_shared<WaypointMap<D>>(prey);
   }
   setup.effort_weight = rules.w_e;
-  setup.duration_cost = {rules.w_t};
+  setup.duration_cost = DurationCost::total(rules.w_t);
   setup.kappa = rules.kappa;
   setup.metres_per_eta = knots.metres_per_eta();
   setup.penalties.push_back(std::make_unique<ObstaclePenalty<D>>(

@@ -47,7 +47,7 @@ TrajectoryObjective<2, 3> full_objective(const DistanceField& field, bool camouf
     setup.knot_map = std::make_shared<WaypointMap<2>>(prey);
   }
   setup.effort_weight = 0.01;
-  setup.duration_cost = {1.0};
+  setup.duration_cost = DurationCost::total(1.0);
   setup.kappa = 12;
   const auto peer =
       std::make_shared<PredictedDisc>("peer", 0.0, Vector2(2.0, 0.3), Vector2(0.1, 0.0), 0.3, 0.05);

@@ -58,18 +58,18 @@ Eigen::Matrix<double, D, Eigen::Dynamic> prey_knots(int count, std::mt19937& ran
   return prey;
 }
 
-template <int D>
-typename TrajectoryObjective<D, 3>::Setup basic_setup(std::shared_ptr<const KnotMap<D>> map,
+template <int D, int S = 3>
+typename TrajectoryObjective<D, S>::Setup basic_setup(std::shared_ptr<const KnotMap<D>> map,
                                                       const ObstacleField<D>& field) {
-  typename TrajectoryObjective<D, 3>::Setup setup;
+  typename TrajectoryObjective<D, S>::Setup setup;
   setup.start.setZero();
   setup.end.setZero();
   setup.end(0, 0) = map->knots() + 1.0;
   setup.start(0, 1) = 0.7;
-  setup.start(1, 2) = 0.1;
+  if constexpr (S > 2) setup.start(1, 2) = 0.1;
   setup.knot_map = map;
   setup.effort_weight = 0.1;
-  setup.duration_cost = {2.0};
+  setup.duration_cost = DurationCost::total(2.0);
   setup.kappa = 12;
   setup.penalties.push_back(std::make_unique<DynamicsPenalty<D>>(7.0, 0.9, 0.6));
   setup.penalties.push_back(std::make_unique<ObstaclePenalty<D>>(
@@ -78,8 +78,8 @@ typename TrajectoryObjective<D, 3>::Setup basic_setup(std::shared_ptr<const Knot
   return setup;
 }
 
-template <int D>
-void expect_gradient(TrajectoryObjective<D, 3>& objective, const Eigen::VectorXd& x) {
+template <int D, int S>
+void expect_gradient(TrajectoryObjective<D, S>& objective, const Eigen::VectorXd& x) {
   Eigen::VectorXd gradient(objective.variables());
   Eigen::VectorXd ignored(objective.variables());
   objective.evaluate(x, gradient);
@@ -119,27 +119,85 @@ Eigen::VectorXd random_start(int variables, double size, std::mt19937& random) {
   return x;
 }
 
+template <int Dimension, int Order>
+struct Case {
+  static constexpr int D = Dimension;
+  static constexpr int S = Order;
+};
+
+template <typename Case>
+class Objectives : public testing::Test {};
+using Cases =
+    testing::Types<Case<2, 2>, Case<2, 3>, Case<2, 4>, Case<3, 2>, Case<3, 3>, Case<3, 4>>;
+TYPED_TEST_SUITE(Objectives, Cases);
+
+TYPED_TEST(Objectives, GradientMatchesDifferences) {
+  constexpr int D = TypeParam::D;
+  constexpr int S = TypeParam::S;
+  for (int seed = 1; seed <= 8; ++seed) {
+    std::mt19937 random(seed);
+    const auto prey = prey_knots<D>(5, random);
+    Eigen::Matrix<double, D, Eigen::Dynamic> references = prey;
+    references.row(1).array() -= 3.0;
+    const Balls<D> balls = random_balls<D>(random);
+    auto setup =
+        basic_setup<D, S>(std::make_shared<CamouflageMap<D>>(prey, references, 1.5), balls);
+    setup.metres_per_eta = 0.7;
+    TrajectoryObjective<D, S> reduced(std::move(setup));
+    expect_gradient(reduced, random_start(reduced.variables(), 0.4, random));
+    TrajectoryObjective<D, S> full(
+        basic_setup<D, S>(std::make_shared<WaypointMap<D>>(prey), balls));
+    expect_gradient(full, full.initial(Eigen::VectorXd::Constant(6, 1.2)));
+  }
+}
+
+/// Penalties may only be skipped where they are zero: the same cost as with every sample looked at.
 template <int D>
-void check_dimension(int seed) {
-  std::mt19937 random(seed);
-  const auto prey = prey_knots<D>(5, random);
-  Eigen::Matrix<double, D, Eigen::Dynamic> references = prey;
-  references.row(1).array() -= 3.0;
-  const Balls<D> balls = random_balls<D>(random);
-  const auto camouflage = std::make_shared<CamouflageMap<D>>(prey, references, 1.5);
-  TrajectoryObjective<D, 3> reduced(basic_setup<D>(camouflage, balls));
-  expect_gradient<D>(reduced, random_start(reduced.variables(), 0.4, random));
-  const auto waypoints = std::make_shared<WaypointMap<D>>(prey);
-  TrajectoryObjective<D, 3> full(basic_setup<D>(waypoints, balls));
-  expect_gradient<D>(full, full.initial(Eigen::VectorXd::Constant(6, 1.2)));
-}
+class Unskipped : public Penalty<D> {
+ public:
+  explicit Unskipped(std::unique_ptr<Penalty<D>> inner) : inner_(std::move(inner)) {}
+  const char* name() const override { return inner_->name(); }
+  Derivatives wanted(const PieceBounds<D>&) const override {
+    return kPosition | kVelocity | kAcceleration | kJerk;
+  }
+  void add(const PieceSamples<D>& samples, PenaltyRows<D>& rows) const override {
+    PieceSamples<D> unbounded = samples;
+    unbounded.bounds.max_speed2 = 1e300;
+    unbounded.bounds.max_acceleration2 = 1e300;
+    unbounded.bounds.min_speed2 = 0.0;
+    inner_->add(unbounded, rows);
+  }
 
-TEST(TrajectoryObjective, GradientMatchesDifferencesInThePlane) {
-  for (int seed = 1; seed <= 8; ++seed) check_dimension<2>(seed);
-}
+ private:
+  std::unique_ptr<Penalty<D>> inner_;
+};
 
-TEST(TrajectoryObjective, GradientMatchesDifferencesInSpace) {
-  for (int seed = 1; seed <= 8; ++seed) check_dimension<3>(seed);
+TYPED_TEST(Objectives, SkippingChangesNothing) {
+  constexpr int D = TypeParam::D;
+  constexpr int S = TypeParam::S;
+  int quiet = 0;
+  for (int seed = 1; seed <= 40; ++seed) {
+    std::mt19937 random(seed);
+    const auto prey = prey_knots<D>(5, random);
+    const Balls<D> balls = random_balls<D>(random);
+    const auto setup = [&] {
+      return basic_setup<D, S>(std::make_shared<WaypointMap<D>>(prey), balls);
+    };
+    auto unskipped_setup = setup();
+    for (auto& penalty : unskipped_setup.penalties) {
+      penalty = std::make_unique<Unskipped<D>>(std::move(penalty));
+    }
+    TrajectoryObjective<D, S> skipping(setup());
+    TrajectoryObjective<D, S> unskipped(std::move(unskipped_setup));
+    const Eigen::VectorXd x = skipping.initial(Eigen::VectorXd::Constant(6, 0.8 + 0.05 * seed));
+    Eigen::VectorXd gradient(x.size());
+    Eigen::VectorXd expected(x.size());
+    const double cost = unskipped.evaluate(x, expected);
+    EXPECT_NEAR(skipping.evaluate(x, gradient), cost, 1e-12 * cost);
+    EXPECT_LT((gradient - expected).norm(), 1e-12 * expected.norm());
+    for (const auto& term : skipping.terms()) quiet += term.second == 0.0;
+  }
+  EXPECT_GT(quiet, 5);
 }
 
 TEST(TrajectoryObjective, GradientMatchesDifferencesWithTurningAndMovingTerms) {
@@ -155,7 +213,7 @@ TEST(TrajectoryObjective, GradientMatchesDifferencesWithTurningAndMovingTerms) {
     setup.penalties.push_back(std::make_unique<MovingPenalty>(
         5.0, 10.0, 0.3, 0.4, std::vector<MovingPenalty::Other>{{walker, 1e9}}));
     TrajectoryObjective<2, 3> objective(std::move(setup));
-    expect_gradient<2>(objective, objective.initial(Eigen::VectorXd::Constant(6, 0.9)));
+    expect_gradient(objective, objective.initial(Eigen::VectorXd::Constant(6, 0.9)));
   }
 }
 
@@ -174,7 +232,7 @@ TEST(TrajectoryObjective, GradientMatchesDifferencesWhereADriveStartsAtRest) {
     const Eigen::VectorXd x = objective.initial(Eigen::VectorXd::Constant(6, 0.9));
     objective.evaluate(x, gradient);
     EXPECT_GT(objective.terms().back().second, 0.0);
-    expect_gradient<2>(objective, x);
+    expect_gradient(objective, x);
   }
 }
 

@@ -28,7 +28,7 @@ TrajectoryObjective<2, 3> straight_line(int pieces, double duration_weight,
   setup.end(0, 0) = spacing_m * pieces;
   setup.knot_map = std::make_shared<WaypointMap<2>>(prey);
   setup.effort_weight = 1e-3;
-  setup.duration_cost = {duration_weight};
+  setup.duration_cost = DurationCost::total(duration_weight);
   setup.kappa = 16;
   setup.penalties.push_back(std::make_unique<DynamicsPenalty<2>>(1e4, kMaxSpeed, kMaxAcceleration));
   return TrajectoryObjective<2, 3>(std::move(setup));
@@ -151,7 +151,7 @@ TEST(TrajectoryOptimizer, StaysWhereTheCostIsFinite) {
   setup.end(0, 0) = 4.0;
   setup.knot_map = std::make_shared<CamouflageMap<2>>(prey, references, 2.0);
   setup.effort_weight = 1e-3;
-  setup.duration_cost = {1.0};
+  setup.duration_cost = DurationCost::total(1.0);
   setup.kappa = 8;
   setup.penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
       1e5, cliff, std::vector<ObstaclePenalty<2>::Cover>{{0.0, 1.0}}, 0.05));
