@@ -44,12 +44,16 @@ std::vector<DrivePiece> drive_pieces(const Motion& motion, int phase, double fro
   for (int i = 0; i < drive.path.pieces(); ++i) {
     const double start = phase_start + drive.path.piece_start(i);
     const double tau = drive.path.piece_duration(i);
-    if (start + tau - from_s < kShortest_s) continue;
+    // What is left is a share of tau, not a difference of absolute times, which are coarse: all
+    // speeds would be wrong by the error of the quotient.
+    const double over = std::max(0.0, (from_s - start) / tau);
+    const double left_s = (1.0 - over) * tau;
+    if (over > 0.0 && left_s < kShortest_s) continue;
     DrivePiece piece{start, tau, drive.direction, false, to_bernstein(drive.path.piece(i)), {}, {}};
-    if (from_s > start) {
-      piece.position = split(piece.position, (from_s - start) / tau).second;
+    if (over > 0.0) {
+      piece.position = split(piece.position, over).second;
       piece.start_s = from_s;
-      piece.duration_s = start + tau - from_s;
+      piece.duration_s = left_s;
     }
     const bool last = i + 1 == drive.path.pieces();
     piece.velocity = derivative(piece.position);

@@ -190,6 +190,21 @@ TEST(LimitsProof, ChecksOnlyFromTheGivenTime) {
   EXPECT_FALSE(check_limits(motion, limits, 5.0));
 }
 
+TEST(LimitsProof, CutsAPieceExactlyWhereTimesAreCoarse) {
+  // At 1.7e9 s the clock ticks by 2.4e-7 s: much, against the milliseconds that are left of a
+  // piece.
+  constexpr double kStart_s = 1.7e9;
+  const Motion motion(kStart_s, {DrivePhase{1, path_of({0.0, 0.3}, {}, 0.3)},
+                                 DrivePhase{1, path_of({0.3, 2.0, -1.0}, {}, 2.0)}});
+  for (double left_s = 2e-6; left_s < 0.1; left_s *= 1.3) {
+    const double from = kStart_s + 0.3 - left_s;
+    EXPECT_FALSE(check_limits(motion, {1.0, 1.0, 1.0, 1.0}, from)) << left_s;
+    const Violation violation = check_limits(motion, {1.0 - 1e-5, 1.0, 1.0, 1.0}, from);
+    EXPECT_EQ(violation.term, ViolatedTerm::kSpeed) << left_s;
+    EXPECT_EQ(violation.time_s, from) << left_s;
+  }
+}
+
 TEST(LimitsProof, TurnsInPlace) {
   for (const double change : {0.1, -0.1, 2.5, -2.5}) {  // bound by acceleration, bound by rate
     const double duration = turn_duration_s(change, 1.8, 4.0);
