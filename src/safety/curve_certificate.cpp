@@ -1,7 +1,7 @@
 #include "safety/curve_certificate.h"
 
 #include <functional>
-#include <sstream>
+#include <limits>
 #include <stdexcept>
 
 #include "safety/curve_arc.h"
@@ -34,8 +34,10 @@ CurveCertificate<D, S>::CurveCertificate(const Curve& curve)
 template <int D, int S>
 auto CurveCertificate<D, S>::check_limits(double max_speed, double max_acceleration) const
     -> Violation {
-  for (const auto& piece : pieces_) {
-    const Earliest first = first_excess(piece, max_speed, max_acceleration);
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const auto& piece = pieces_[i];
+    Earliest first = i > 0 ? first_jump(pieces_[i - 1], piece) : Earliest{};
+    if (!first) first = first_excess(piece, max_speed, max_acceleration);
     if (!first) continue;
     const int order = first.term == ViolatedTerm::kSpeed ? 1 : 2;
     const auto value = [&](double t) { return curve_.derivative(t, order).norm(); };
@@ -44,8 +46,9 @@ auto CurveCertificate<D, S>::check_limits(double max_speed, double max_accelerat
     violation.time_s = piece.start_s + first.u * piece.duration_s;
     violation.place = curve_.position(violation.time_s);
     violation.limit = order == 1 ? max_speed : max_acceleration;
-    violation.value =
-        worst_value(value, std::greater<>(), violation.limit, violation.time_s, curve_.duration());
+    violation.value = first.jumps ? std::numeric_limits<double>::infinity()
+                                  : worst_value(value, std::greater<>(), violation.limit,
+                                                violation.time_s, curve_.duration());
     return violation;
   }
   return {};

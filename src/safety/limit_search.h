@@ -15,7 +15,7 @@ constexpr double kLimitSlack = 1.0 + 1e-6;
 struct Earliest {
   ViolatedTerm term = ViolatedTerm::kNothing;
   double u = 2.0;      ///< normalised time
-  bool jumps = false;  ///< what is limited is the rate of something that jumps
+  bool jumps = false;  ///< there is no rate to speak of: what it is the rate of jumps
 
   explicit operator bool() const { return term != ViolatedTerm::kNothing; }
 
@@ -45,6 +45,21 @@ Earliest first_excess(const CurvePiece<D, N>& piece, double max_speed, double ma
       ViolatedTerm::kAcceleration,
       first_above(derivative(piece.velocity), kLimitSlack * max_acceleration * tau * tau));
   return first;
+}
+
+/// Where two pieces do not meet at the knot between them, at the start of the second. As between
+/// the phases of a motion, 1 mm and 0.01 m/s count as meeting.
+template <int D, int N>
+Earliest first_jump(const CurvePiece<D, N>& before, const CurvePiece<D, N>& after) {
+  constexpr double kPlace_m = 1e-3;
+  constexpr double kVelocity = 0.01;  // [m/s]
+  const double apart = (after.position.col(0) - before.position.col(N)).norm();
+  if (!(apart <= kPlace_m)) return {ViolatedTerm::kSpeed, 0.0, true};
+  const double change =
+      (after.velocity.col(0) / after.duration_s - before.velocity.col(N - 1) / before.duration_s)
+          .norm();
+  if (!(change <= kVelocity)) return {ViolatedTerm::kAcceleration, 0.0, true};
+  return {};
 }
 
 }  // namespace mocha

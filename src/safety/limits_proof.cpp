@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kCourseStep_s =
     1e-3;  // a velocity that turns by 90 degrees in less passes through zero
+constexpr double kHeadingJump_rad = 0.01;  // as between the phases of a motion
 
 /// The last or first instants of a drive from or to rest: too little motion for its direction to be
 /// more than rounding.
@@ -43,6 +44,17 @@ std::optional<double> first_swerve(const DrivePiece& piece, int side, double max
     if (j < 8) excess[j] += side * turning[j] * (8 - j) / 8.0;
   }
   return first_positive(excess);
+}
+
+/// Where two pieces do not meet, in place, velocity or heading.
+Earliest first_break(const DrivePiece& before, const DrivePiece& after) {
+  if (const Earliest first = first_jump(before, after)) return first;
+  if (is_standing(before) || is_standing(after)) return {};
+  const Vector2 from = before.course.col(4);
+  const Vector2 to = after.course.col(0);
+  const double aside = std::abs(from.x() * to.y() - from.y() * to.x());
+  if (aside <= kHeadingJump_rad * from.dot(to)) return {};
+  return {ViolatedTerm::kYawRate, 0.0, true};
 }
 
 Earliest first_violation(const DrivePiece& piece, const MotionLimits& limits) {
@@ -127,8 +139,11 @@ Violation check_limits(const Motion& motion, const MotionLimits& limits, double 
       return report(motion, i, limits, first, at);
     }
     if (!std::holds_alternative<DrivePhase>(phase)) continue;
-    for (const DrivePiece& piece : drive_pieces(motion, i, from_s)) {
-      const Earliest first = first_violation(piece, limits);
+    const std::vector<DrivePiece> pieces = drive_pieces(motion, i, from_s);
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const DrivePiece& piece = pieces[k];
+      Earliest first = k > 0 ? first_break(pieces[k - 1], piece) : Earliest{};
+      if (!first) first = first_violation(piece, limits);
       if (!first) continue;
       return report(motion, i, limits, first, piece.start_s + first.u * piece.duration_s);
     }

@@ -148,6 +148,26 @@ TEST(CurveCertificate, FindsASpikeOfMilliseconds) {
   }
 }
 
+TEST(CurveCertificate, RefusesJumpsAtAKnot) {
+  using Piece = Curve<3>::Piece;
+  const auto check = [](const Vector3& from, const Vector3& velocity) {
+    Piece first = Piece::Zero();
+    Piece second = Piece::Zero();
+    first.col(1) = Vector3(1.0, 0.0, 0.0);
+    second.col(0) = from;
+    second.col(1) = velocity;
+    return CurveCertificate<3, 3>(Curve<3>({first, second}, {1.0, 1.0})).check_limits(2.0, 2.0);
+  };
+  EXPECT_FALSE(check({1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}));
+  const auto place = check({1.0, 0.0, 0.5}, {1.0, 0.0, 0.0});
+  EXPECT_EQ(place.term, ViolatedTerm::kSpeed);
+  EXPECT_EQ(place.time_s, 1.0);
+  EXPECT_TRUE(std::isinf(place.value));
+  const auto velocity = check({1.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+  EXPECT_EQ(velocity.term, ViolatedTerm::kAcceleration);
+  EXPECT_EQ(velocity.place, Vector3(1.0, 0.0, 0.0));
+}
+
 template <typename Dimension>
 class CurveCertificates : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
