@@ -56,7 +56,10 @@ Violation check_separation(const Motion& motion, double own_radius_m,
   for (double t = from_s;;) {
     while (bound->until_s <= t) ++bound;
     const double slack = distance_m(t) - clearance_m;
-    if (!(slack >= kResolution_m)) {
+    const double closing = std::max(0.0, bound->speed + obstacle.max_closing_speed(t));
+    const double proved = t + slack / closing;  // infinite where nothing moves
+    // So fast that a step is shorter than the tick of the clock, nothing is proved.
+    if (!(slack >= kResolution_m && proved > t)) {
       const double least =
           worst_value(distance_m, std::less<>(), clearance_m + kResolution_m, t, end);
       return {ViolatedTerm::kSeparation,
@@ -67,8 +70,6 @@ Violation check_separation(const Motion& motion, double own_radius_m,
               obstacle.name()};
     }
     if (t >= end) return {};
-    const double closing = std::max(0.0, bound->speed + obstacle.max_closing_speed(t));
-    const double proved = closing > 0.0 ? t + slack / closing : end;
     t = std::min({proved, bound->until_s, end});
   }
 }
