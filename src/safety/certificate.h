@@ -1,8 +1,8 @@
 #pragma once
 
 #include <limits>
-#include <string>
 
+#include "safety/violation.h"
 #include "trajectory/motion.h"
 #include "world/footprint.h"
 #include "world/moving_obstacle.h"
@@ -10,34 +10,6 @@
 #include "world/robot_model.h"
 
 namespace mocha {
-
-/// What a motion violates.
-enum class ViolatedTerm {
-  kNothing,
-  kClearance,     ///< [m] footprint to static obstacle
-  kSpeed,         ///< [m/s]
-  kAcceleration,  ///< [m/s^2] of the base, or [rad/s^2] of a turn in place
-  kYawRate,       ///< [rad/s]
-  kSeparation,    ///< [m] own disc to a moving obstacle's disc
-  kUnseenSpace,   ///< cannot stop inside space that was seen free
-};
-
-/// The first moment at which a motion breaks a limit; false if there is none.
-struct Violation {
-  ViolatedTerm term = ViolatedTerm::kNothing;
-  double time_s = 0.0;              ///< absolute
-  Vector2 place = Vector2::Zero();  ///< [m] of the base, map frame
-  /// The worst of the stretch that begins at time_s, in the unit of the term; infinite where the
-  /// heading flips because the velocity passes through zero within a drive.
-  double value = 0.0;
-  double limit = 0.0;  ///< in the unit of the term; a minimum for distances, a maximum otherwise
-  std::string peer;    ///< kSeparation: name of the moving obstacle
-
-  explicit operator bool() const { return term != ViolatedTerm::kNothing; }
-};
-
-/// In words: what is violated, where, when and by how much. "no violation" if there is none.
-std::string describe(const Violation& violation);
 
 // Each check proves its property for all times from `from_s` (absolute) on, in continuous time, and
 // returns the first violation; a motion that begins later is checked from its start. What is

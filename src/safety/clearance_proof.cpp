@@ -1,21 +1,19 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "safety/certificate.h"
+#include "safety/curve_arc.h"
 #include "safety/drive_piece.h"
-#include "trajectory/bernstein.h"
+#include "safety/worst_value.h"
 
 namespace mocha {
 namespace {
 
-constexpr double kResolution_m =
-    5e-4;  // an interval that sweeps less is refused rather than halved
-constexpr double kShortest_s = 1e-6;
-constexpr double kReportStep_s = 5e-3;
-constexpr int kReportSteps = 400;
+constexpr double kReportLength_s = 2.0;
 
 /// Bounds on where a robot is during an interval of time: the base within `travel_m` of `place`,
 /// the heading's unit vector within `swing` of `heading` (infinite where the heading is not
@@ -28,26 +26,21 @@ struct Sweep {
 };
 
 /// An interval of a drive.
-struct DriveArc {
-  Bernstein<2, 5> position;
+struct DriveArc : CurveArc<2, 5> {
   Bernstein<2, 4> course;
   int drive_direction;
-  double start_s;
-  double duration_s;
 
   std::pair<DriveArc, DriveArc> halves() const {
-    const auto places = split(position);
+    const auto paths = CurveArc::halves();
     const auto courses = split(course);
-    const double half = 0.5 * duration_s;
-    return {{places.first, courses.first, drive_direction, start_s, half},
-            {places.second, courses.second, drive_direction, start_s + half, half}};
+    return {{paths.first, courses.first, drive_direction},
+            {paths.second, courses.second, drive_direction}};
   }
 
   Sweep sweep(const DriveArc& second_half) const {
-    const Vector2 place = second_half.position.col(0);
+    const auto path = CurveArc::sweep(second_half);
     const Vector2 along = second_half.course.col(0);
-    Sweep sweep{place, drive_direction * along.normalized(), 0.0, 0.0};
-    sweep.travel_m = (position.colwise() - place).colwise().norm().maxCoeff();
+    Sweep sweep{path.place, drive_direction * along.normalized(), path.travel_m, 0.0};
     for (int j = 0; j < course.cols(); ++j) {
       // The courses between lie within the widest angle to a control point; a chord is shorter than
       // the tangent.
@@ -141,17 +134,6 @@ class Keepout {
   double reach_m_ = 0.0;
 };
 
-/// Absolute time of the first interval of an arc that cannot be proved clear.
-template <typename Arc>
-std::optional<double> first_contact(const Arc& arc, const Keepout& keepout) {
-  const auto [before, after] = arc.halves();
-  const Sweep sweep = arc.sweep(after);
-  if (keepout.clear(sweep)) return std::nullopt;
-  if (arc.duration_s < kShortest_s || keepout.sweep_m(sweep) < kResolution_m) return arc.start_s;
-  if (const auto t = first_contact(before, keepout)) return t;
-  return first_contact(after, keepout);
-}
-
 std::optional<double> first_contact(const Motion& motion, int phase, const Keepout& keepout,
                                     double from_s) {
   const double start = motion.phase_start_time(phase);
@@ -159,32 +141,29 @@ std::optional<double> first_contact(const Motion& motion, int phase, const Keepo
   if (const auto* turn = std::get_if<TurnPhase>(&what)) {
     const double u = std::clamp((from_s - start) / turn->duration_s, 0.0, 1.0);
     const double left = (1.0 - u) * turn->duration_s;
-    return first_contact(TurnArc{turn, u, 1.0, start + turn->duration_s - left, left}, keepout);
+    return first_unclear(TurnArc{turn, u, 1.0, start + turn->duration_s - left, left}, keepout);
   }
   if (const auto* stand = std::get_if<StandPhase>(&what)) {
     return keepout.clear(stand->pose) ? std::nullopt : std::make_optional(std::max(start, from_s));
   }
   for (const DrivePiece& piece : drive_pieces(motion, phase, from_s)) {
-    const DriveArc arc{piece.position, piece.course, piece.drive_direction, piece.start_s,
-                       piece.duration_s};
-    if (const auto t = first_contact(arc, keepout)) return t;
+    const DriveArc arc{
+        {piece.position, piece.start_s, piece.duration_s}, piece.course, piece.drive_direction};
+    if (const auto t = first_unclear(arc, keepout)) return t;
   }
   return std::nullopt;
 }
 
 /// The violation that begins at `t`, with the least clearance of the stretch that begins there.
 Violation report(const Motion& motion, const Keepout& keepout, double t) {
+  const auto value = [&](double when) { return keepout.clearance_m(motion.at(when).pose); };
   Violation violation;
   violation.term = ViolatedTerm::kClearance;
   violation.time_s = t;
   violation.place = motion.at(t).pose.position;
   violation.limit = keepout.margin_m();
-  violation.value = keepout.clearance_m(motion.at(t).pose);
-  for (int i = 1; i <= kReportSteps && t + i * kReportStep_s <= motion.end_time(); ++i) {
-    const double value = keepout.clearance_m(motion.at(t + i * kReportStep_s).pose);
-    if (!(value < violation.limit)) break;
-    violation.value = std::min(violation.value, value);
-  }
+  violation.value = worst_value(value, std::less<>(), violation.limit, t,
+                                std::min(t + kReportLength_s, motion.end_time()));
   return violation;
 }
 

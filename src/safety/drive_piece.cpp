@@ -1,13 +1,9 @@
 #include "safety/drive_piece.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace mocha {
 namespace {
 
 constexpr double kNoise = 1e-6;  // share of the largest control point, below which one is zero
-constexpr double kShortest_s = 1e-6;
 
 /// The velocity divided by u^k (1 - u)^l, where k and l are the orders of its zeros at the ends
 /// that are rests.
@@ -38,24 +34,14 @@ Bernstein<2, 4> course_of(const Bernstein<2, 4>& velocity, bool from_rest, bool 
 
 std::vector<DrivePiece> drive_pieces(const Motion& motion, int phase, double from_s) {
   const auto& drive = std::get<DrivePhase>(motion.phases()[phase]);
-  const double phase_start = motion.phase_start_time(phase);
+  const auto path = curve_pieces(drive.path, motion.phase_start_time(phase), from_s);
   std::vector<DrivePiece> pieces;
-  pieces.reserve(drive.path.pieces());
-  for (int i = 0; i < drive.path.pieces(); ++i) {
-    const double start = phase_start + drive.path.piece_start(i);
-    const double tau = drive.path.piece_duration(i);
-    if (start + tau - from_s < kShortest_s) continue;
-    DrivePiece piece{start, tau, drive.direction, false, to_bernstein(drive.path.piece(i)), {}, {}};
-    if (from_s > start) {
-      piece.position = split(piece.position, (from_s - start) / tau).second;
-      piece.start_s = from_s;
-      piece.duration_s = start + tau - from_s;
-    }
-    const bool last = i + 1 == drive.path.pieces();
-    piece.velocity = derivative(piece.position);
-    piece.course = course_of(piece.velocity, pieces.empty(), last);
-    piece.begins_or_ends_drive = pieces.empty() || last;
-    pieces.push_back(piece);
+  pieces.reserve(path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool first = i == 0;
+    const bool last = i + 1 == path.size();
+    pieces.push_back(
+        {path[i], drive.direction, first || last, course_of(path[i].velocity, first, last)});
   }
   return pieces;
 }

@@ -1,33 +1,20 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 
 #include "safety/certificate.h"
 #include "safety/drive_piece.h"
-#include "trajectory/bernstein.h"
+#include "safety/limit_search.h"
+#include "safety/worst_value.h"
 
 namespace mocha {
 namespace {
 
-constexpr double kTolerance = 1e-6;  // relative
 constexpr double kCourseStep_s =
     1e-3;  // a velocity that turns by 90 degrees in less passes through zero
-constexpr double kReportStep_s = 5e-3;
-
-/// The first violation in one piece or turn, the earliest of those considered.
-struct Earliest {
-  ViolatedTerm term = ViolatedTerm::kNothing;
-  double u = 2.0;      ///< normalised time
-  bool flips = false;  ///< the velocity passes through zero, so that the heading has no rate
-
-  void consider(ViolatedTerm candidate, const std::optional<double>& at) {
-    if (at && *at < u) {
-      term = candidate;
-      u = *at;
-    }
-  }
-};
+constexpr double kHeadingJump_rad = 0.01;  // as between the phases of a motion
 
 /// The last or first instants of a drive from or to rest: too little motion for its direction to be
 /// more than rounding.
@@ -59,37 +46,34 @@ std::optional<double> first_swerve(const DrivePiece& piece, int side, double max
   return first_positive(excess);
 }
 
-/// Where a motion's norm exceeds a limit.
-template <int C>
-std::optional<double> first_above(const Eigen::Matrix<double, 2, C>& vector, double limit) {
-  Eigen::Matrix<double, 1, 2 * C - 1> excess = squared_norm(vector);
-  excess.array() -= limit * limit;
-  return first_positive(excess);
+/// Where two pieces do not meet, in place, velocity or heading.
+Earliest first_break(const DrivePiece& before, const DrivePiece& after) {
+  if (const Earliest first = first_jump(before, after)) return first;
+  if (is_standing(before) || is_standing(after)) return {};
+  const Vector2 from = before.course.col(4);
+  const Vector2 to = after.course.col(0);
+  const double aside = std::abs(from.x() * to.y() - from.y() * to.x());
+  if (aside <= kHeadingJump_rad * from.dot(to)) return {};
+  return {ViolatedTerm::kYawRate, 0.0, true};
 }
 
 Earliest first_violation(const DrivePiece& piece, const MotionLimits& limits) {
-  const double tau = piece.duration_s;
-  const double slack = 1.0 + kTolerance;
-  Earliest first;
-  first.consider(ViolatedTerm::kSpeed, first_above(piece.velocity, slack * limits.max_speed * tau));
-  first.consider(
-      ViolatedTerm::kAcceleration,
-      first_above(derivative(piece.velocity), slack * limits.max_acceleration * tau * tau));
+  Earliest first = first_excess(piece, limits.max_speed, limits.max_acceleration);
   if (is_standing(piece)) return first;
   for (const int side : {-1, 1}) {
-    first.consider(ViolatedTerm::kYawRate, first_swerve(piece, side, slack * limits.max_yaw_rate));
+    first.consider(ViolatedTerm::kYawRate,
+                   first_swerve(piece, side, kLimitSlack * limits.max_yaw_rate));
   }
-  const auto stop = first_stop(piece.course, kCourseStep_s / tau);
+  const double step = kCourseStep_s / piece.duration_s;
+  const auto stop = first_stop(piece.course, step);
   first.consider(ViolatedTerm::kYawRate, stop);
-  first.flips =
-      stop && first.term == ViolatedTerm::kYawRate && *stop <= first.u + kCourseStep_s / tau;
+  first.jumps = stop && first.term == ViolatedTerm::kYawRate && *stop <= first.u + step;
   return first;
 }
 
 /// Turns in place: rate and acceleration of the quintic profile are polynomials too. `u` is where
 /// the check begins.
 Earliest first_violation(const TurnPhase& turn, const MotionLimits& limits, double u) {
-  const double slack = 1.0 + kTolerance;
   const double change = std::abs(turn.yaw_change_rad);
   const double tau = turn.duration_s;
   Bernstein<1, 4> rate;
@@ -97,7 +81,7 @@ Earliest first_violation(const TurnPhase& turn, const MotionLimits& limits, doub
   const Bernstein<1, 3> acceleration = derivative(rate);
   Earliest first;
   const auto check = [&](ViolatedTerm term, auto excess, double limit) {
-    excess.array() -= slack * limit;
+    excess.array() -= kLimitSlack * limit;
     first.consider(term, first_positive(split(excess, u).second));
   };
   check(ViolatedTerm::kYawRate, rate, limits.max_yaw_rate * tau);
@@ -135,16 +119,8 @@ Violation report(const Motion& motion, int phase, const MotionLimits& limits, co
                     : term == ViolatedTerm::kYawRate ? limits.max_yaw_rate
                     : turn                           ? limits.max_yaw_acceleration
                                                      : limits.max_acceleration;
-  if (first.flips) {
-    violation.value = std::numeric_limits<double>::infinity();
-    return violation;
-  }
-  violation.value = value_at(t);
-  for (double when = t + kReportStep_s; when < end; when += kReportStep_s) {
-    const double value = value_at(when);
-    if (!(value > violation.limit)) break;
-    violation.value = std::max(violation.value, value);
-  }
+  violation.value = first.jumps ? std::numeric_limits<double>::infinity()
+                                : worst_value(value_at, std::greater<>(), violation.limit, t, end);
   return violation;
 }
 
@@ -158,14 +134,17 @@ Violation check_limits(const Motion& motion, const MotionLimits& limits, double 
     if (const auto* turn = std::get_if<TurnPhase>(&phase)) {
       const double u = std::max(0.0, (from_s - start) / turn->duration_s);
       const Earliest first = first_violation(*turn, limits, u);
-      if (first.term == ViolatedTerm::kNothing) continue;
+      if (!first) continue;
       const double at = start + turn->duration_s * (u + (1.0 - u) * first.u);
       return report(motion, i, limits, first, at);
     }
     if (!std::holds_alternative<DrivePhase>(phase)) continue;
-    for (const DrivePiece& piece : drive_pieces(motion, i, from_s)) {
-      const Earliest first = first_violation(piece, limits);
-      if (first.term == ViolatedTerm::kNothing) continue;
+    const std::vector<DrivePiece> pieces = drive_pieces(motion, i, from_s);
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const DrivePiece& piece = pieces[k];
+      Earliest first = k > 0 ? first_break(pieces[k - 1], piece) : Earliest{};
+      if (!first) first = first_violation(piece, limits);
+      if (!first) continue;
       return report(motion, i, limits, first, piece.start_s + first.u * piece.duration_s);
     }
   }

@@ -139,6 +139,36 @@ TEST(LimitsProof, RefusesAReversalWithinADrive) {
   EXPECT_FALSE(check_limits(phases, {10.0, 10.0, 10.0, 10.0}, 0.0));
 }
 
+TEST(LimitsProof, RefusesJumpsAtAKnotWithinADrive) {
+  const MotionLimits ample{10.0, 10.0, 10.0, 10.0};
+  const auto check = [&](std::vector<double> x, std::vector<double> y, double duration_s = 1.0) {
+    const PlanarPath::Piece first = path_of({0.0, 0.004}, {}, 1.0).piece(0);
+    const PlanarPath::Piece second = path_of(std::move(x), std::move(y), duration_s).piece(0);
+    return check_limits(
+        Motion(0.0, {DrivePhase{1, PlanarPath({first, second}, {1.0, duration_s})}}), ample, 0.0);
+  };
+  EXPECT_FALSE(check({0.004, 0.004, -0.002}, {}));
+  EXPECT_FALSE(check({0.0041, 0.004, -0.002}, {}));  // 0.1 mm: as between phases
+  const Violation place = check({0.104, 0.004, -0.002}, {});
+  EXPECT_EQ(place.term, ViolatedTerm::kSpeed);
+  EXPECT_EQ(place.time_s, 1.0);
+  EXPECT_TRUE(std::isinf(place.value));
+  EXPECT_NE(describe(place).find("place jumps"), std::string::npos);
+  const Violation velocity = check({0.004, 0.104, -0.052}, {});
+  EXPECT_EQ(velocity.term, ViolatedTerm::kAcceleration);
+  EXPECT_TRUE(std::isinf(velocity.value));
+  for (const double turn : {0.5, -1.5, M_PI}) {  // by less than 0.01 m/s
+    const double vx = 0.004 * std::cos(turn);
+    const double vy = 0.004 * std::sin(turn);
+    const Violation heading = check({0.004, vx, -0.5 * vx}, {0.0, vy, -0.5 * vy});
+    EXPECT_EQ(heading.term, ViolatedTerm::kYawRate) << turn;
+    EXPECT_EQ(heading.time_s, 1.0);
+    EXPECT_TRUE(std::isinf(heading.value));
+  }
+  // A piece too short to be sampled is looked at like any other.
+  EXPECT_EQ(check({0.004, 0.1, -0.05}, {}, 1e-7).term, ViolatedTerm::kAcceleration);
+}
+
 TEST(LimitsProof, RefusesACuspPassedNearlyAtRest) {
   // v = (1 - 2u, 1 mm/s): turns by 180 degrees while almost standing.
   const Motion motion(0.0, {DrivePhase{1, path_of({0, 1, -1}, {0, 1e-3}, 1.0)},
@@ -188,6 +218,21 @@ TEST(LimitsProof, ChecksOnlyFromTheGivenTime) {
   EXPECT_EQ(check_limits(motion, limits, 1.0).time_s, 1.0);
   EXPECT_FALSE(check_limits(motion, limits, 1.4));
   EXPECT_FALSE(check_limits(motion, limits, 5.0));
+}
+
+TEST(LimitsProof, CutsAPieceExactlyWhereTimesAreCoarse) {
+  // At 1.7e9 s the clock ticks by 2.4e-7 s: much, against the milliseconds that are left of a
+  // piece.
+  constexpr double kStart_s = 1.7e9;
+  const Motion motion(kStart_s, {DrivePhase{1, path_of({0.0, 0.3}, {}, 0.3)},
+                                 DrivePhase{1, path_of({0.3, 2.0, -1.0}, {}, 2.0)}});
+  for (double left_s = 2e-6; left_s < 0.1; left_s *= 1.3) {
+    const double from = kStart_s + 0.3 - left_s;
+    EXPECT_FALSE(check_limits(motion, {1.0, 1.0, 1.0, 1.0}, from)) << left_s;
+    const Violation violation = check_limits(motion, {1.0 - 1e-5, 1.0, 1.0, 1.0}, from);
+    EXPECT_EQ(violation.term, ViolatedTerm::kSpeed) << left_s;
+    EXPECT_EQ(violation.time_s, from) << left_s;
+  }
 }
 
 TEST(LimitsProof, TurnsInPlace) {

@@ -88,6 +88,18 @@ TEST(SeparationProof, FindsASwiftCrossingBetweenSamples) {
   EXPECT_FALSE(check_separation(stand, 1e-3, beside, 0.0, 0.0, 5.0));
 }
 
+TEST(SeparationProof, EndsWhereStepsFallBelowTheTickOfTheClock) {
+  constexpr double kNow_s = 1.7e9;
+  const Motion stand(kNow_s, {StandPhase{{Vector2::Zero(), 0.0}, 10.0}});
+  for (const double speed : {2e4, 1e9, 1e200}) {
+    const PredictedDisc bullet("bullet", kNow_s + 1.0, {0.0, 3.5e-3}, {speed, 0.0}, 1e-3, 0.0);
+    EXPECT_TRUE(check_separation(stand, 1e-3, bullet, 0.0, kNow_s, kNow_s + 2.0)) << speed;
+  }
+  const PredictedDisc still("still", kNow_s, {0.0, 3.5e-3}, {0.0, 0.0}, 1e-3, 0.0);
+  EXPECT_FALSE(check_separation(stand, 1e-3, still, 0.0, kNow_s, kNow_s + 2.0));
+  EXPECT_TRUE(check_separation(stand, 1e-3, still, 0.0, -kForever, kNow_s));
+}
+
 TEST(SeparationProof, WaitsForTheLaterOfBoth) {
   const Motion own = straight(0.0, {0.0, 0.0}, {1.0, 0.0}, 2.0);
   // The peer sets off after the own motion has ended, and drives into the robot that stands there.

@@ -1,0 +1,60 @@
+#include "safety/violation.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace mocha {
+namespace {
+
+struct Wording {
+  const char* quantity;
+  const char* unit;
+  bool is_minimum;
+  const char* jump;
+};
+
+Wording wording(ViolatedTerm term) {
+  switch (term) {
+    case ViolatedTerm::kClearance:
+      return {"clearance to obstacles", "m", true, ""};
+    case ViolatedTerm::kSpeed:
+      return {"speed", "m/s", false, "place jumps, "};
+    case ViolatedTerm::kAcceleration:
+      return {"acceleration", "m/s^2", false, "velocity jumps, "};
+    case ViolatedTerm::kYawRate:
+      return {"yaw rate", "rad/s", false, "heading flips, "};
+    case ViolatedTerm::kSeparation:
+      return {"distance", "m", true, ""};
+    case ViolatedTerm::kUnseenSpace:
+      return {"clearance to space not seen free", "m", true, ""};
+    case ViolatedTerm::kNothing:
+      break;
+  }
+  return {"nothing", "", false, ""};
+}
+
+template <int D>
+std::string in_words(const BasicViolation<D>& violation) {
+  if (!violation) return "no violation";
+  const Wording words = wording(violation.term);
+  std::string quantity = words.quantity;
+  if (!violation.peer.empty()) quantity += " to " + violation.peer;
+  if (std::isinf(violation.value)) quantity = words.jump + quantity;
+  char text[256];
+  std::snprintf(text, sizeof(text), " %.3f %s, %s %.3f, from t = %.3f s at ", violation.value,
+                words.unit, words.is_minimum ? "needs" : "limit", violation.limit,
+                violation.time_s);
+  std::string sentence = quantity + text;
+  for (int axis = 0; axis < D; ++axis) {
+    std::snprintf(text, sizeof(text), "%s%.2f", axis == 0 ? "(" : ", ", violation.place[axis]);
+    sentence += text;
+  }
+  return sentence + ")";
+}
+
+}  // namespace
+
+std::string describe(const BasicViolation<2>& violation) { return in_words(violation); }
+std::string describe(const BasicViolation<3>& violation) { return in_words(violation); }
+
+}  // namespace mocha
