@@ -25,9 +25,9 @@ struct TableRules {
   double w_t = 1.0;
   double w_o = 100.0;
   double w_d = 100.0;
-  double d_s_m = 1.2;        ///< safety distance of the penalty
-  double clearance_m = 0.5;  ///< what the certificate asks for: the robot as a ball
-  double travel_m = 8.0;     ///< of a knot along its ray
+  double d_s_m = 1.2;     ///< safety distance of the penalty
+  double radius_m = 0.5;  ///< of the ball that the certificate puts around the robot
+  double travel_m = 8.0;  ///< of a knot along its ray
 };
 
 template <int D>
