@@ -83,6 +83,7 @@ class GlobalPlannerNode {
 
   void begin_goal() {
     plan_ = Motion();
+    retreats_ = false;
     goal_is_new_ = true;
     occupied_since_.reset();
   }
@@ -121,7 +122,10 @@ class GlobalPlannerNode {
   bool due() const {
     const double since_s = (now_ - planned_at_).toSec();
     if (goal_is_new_) return true;
-    if (requested_) return since_s >= kSoonest_s;
+    const bool retreat_ends =
+        retreats_ && now_.toSec() > plan_.end_time() - values_.number("planning_time");
+    if (requested_ || retreat_ends) return since_s >= kSoonest_s;
+    if (retreats_) return false;
     const bool has_plan = !plan_.empty() && now_.toSec() < plan_.end_time() + kAfterEnd_s;
     return since_s >= values_.number(has_plan ? "replan_period" : "retry_period");
   }
@@ -137,7 +141,7 @@ class GlobalPlannerNode {
     }
     const PlanQuery query = query_to(goals_.current());
     const PlanResult result = planner_.plan(query, scene(query), [] { return false; });
-    const bool improvement = !goal_is_new_ && !requested_ && !plan_.empty() &&
+    const bool improvement = !goal_is_new_ && !requested_ && !retreats_ && !plan_.empty() &&
                              now_.toSec() < plan_.end_time() + kAfterEnd_s;
     planned_at_ = now_;
     requested_ = false;
@@ -152,7 +156,8 @@ class GlobalPlannerNode {
     goal_is_new_ = false;
     occupied_since_.reset();
     report(result.reason, result.violation, result.message);
-    if (result.reason == PlanReason::kSolved) goals_.move_current(result.goal);
+    retreats_ = result.reason == PlanReason::kBackingOut;
+    if (!retreats_) goals_.move_current(result.goal);
     adopt(result.motion);
   }
 
@@ -278,6 +283,7 @@ class GlobalPlannerNode {
   ros::Time planned_at_;
   bool goal_is_new_ = false;
   bool requested_ = false;
+  bool retreats_ = false;  // plan_ backs out; the way to the goal is to be found from its end
   std::optional<ros::Time> occupied_since_;
   std::string request_;
   int plans_made_ = 0;

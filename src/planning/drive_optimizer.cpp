@@ -20,6 +20,8 @@ namespace {
 constexpr double kShareOfSpeed = 0.97;
 constexpr double kShareOfAcceleration = 0.95;
 constexpr double kShareOfYawRate = 0.92;
+constexpr double kSpacingOfRoom = 1.5;  // knots apart, over the room beside the path
+constexpr double kLeastPieces = 10.0;   // of a drive, for its ramps
 constexpr double kSoftSpeed =
     0.05;  // [m/s] below which heading and turning fade out of the penalties
 
@@ -67,6 +69,26 @@ Effort raised(const Effort& effort, const Violation& violation) {
 
 double DriveOptimizer::rest_acceleration() const { return 0.5 * robot_.limits.max_acceleration; }
 
+double DriveOptimizer::knot_spacing_m(const std::vector<Vector2>& path,
+                                      const ObstacleField<2>& field) const {
+  std::vector<double> room_m;
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vector2 step = path[i] - path[i - 1];
+    const int parts = 1 + static_cast<int>(std::min(step.norm() / rules_.knot_spacing_m, 1e3));
+    for (int k = 0; k < parts; ++k) {
+      room_m.push_back(field.distance_bound(path[i - 1] + step * k / parts));
+    }
+    length_m += step.norm();
+  }
+  // The narrower fifth decides.
+  const auto fifth = room_m.begin() + static_cast<std::ptrdiff_t>(room_m.size() / 5);
+  std::nth_element(room_m.begin(), fifth, room_m.end());
+  const double coarsest = std::max(rules_.knot_spacing_m,
+                                   std::min(rules_.open_knot_spacing_m, length_m / kLeastPieces));
+  return std::clamp(kSpacingOfRoom * *fifth, rules_.knot_spacing_m, coarsest);
+}
+
 std::shared_ptr<const KnotMap<2>> DriveOptimizer::knot_map(const Eigen::Matrix2Xd& path,
                                                            const ObstacleField<2>& field,
                                                            bool camouflage) const {
@@ -113,7 +135,7 @@ OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
   MotionLimits limits = robot_.limits;
   limits.max_speed *= effort.speed;
   const InitialKnots<2> knots = spread_knots<2>(query.path, query.start.col(1).norm(), limits,
-                                                rules_.knot_spacing_m * effort.spacing);
+                                                effort.spacing * knot_spacing_m(query.path, field));
   const double a_max = robot_.limits.max_acceleration;
   TrajectoryObjective<2, 3>::Setup setup;
   setup.start = query.start;

@@ -49,6 +49,10 @@ class DriveOptimizer {
   /// well defined.
   double rest_acceleration() const;
 
+  /// Distance of knots on a path [m]: it follows the room between the obstacles, within the bounds
+  /// that the rules give.
+  double knot_spacing_m(const std::vector<Vector2>& path, const ObstacleField<2>& field) const;
+
  private:
   std::shared_ptr<const KnotMap<2>> knot_map(const Eigen::Matrix2Xd& path,
                                              const ObstacleField<2>& field, bool camouflage) const;

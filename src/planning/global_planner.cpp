@@ -19,7 +19,8 @@ constexpr double kNoTurn_rad = 0.02;       // smaller changes of heading are lef
 constexpr double kStandsFor_s = 0.5;  // a team-mate that rests within this time counts as standing
 constexpr double kFrontEndSlack_m = 0.01;  // over the proved margin, for the optimiser to work in
 constexpr double kSlowest = 4.0;           // times as long as optimised: slower motions are none
-constexpr double kSlowDownSlack = 1.01;
+constexpr double kRepairable = 1.03;       // not worth another optimisation
+constexpr double kSlowDownSlack = 1.001;
 
 Vector2 direction_ahead(const std::vector<Vector2>& path) {
   for (const Vector2& point : path) {
@@ -224,7 +225,8 @@ PlanCandidate GlobalPlanner::drive_to(const PlanQuery& query, const Opening& ope
     prove(query, assemble(query, opening, found.curve), *scene.obstacles, candidate);
     const double slower = slow_down(candidate.violation);
     const bool from_rest = opening.state.col(1).isZero();
-    if (attempt + 1 == kAttempts && from_rest && slower > 1.0 && slower <= kSlowest) {
+    const double most = attempt + 1 == kAttempts ? kSlowest : kRepairable;
+    if (from_rest && slower > 1.0 && slower <= most) {
       prove(query, assemble(query, opening, found.curve.stretched(slower)), *scene.obstacles,
             candidate);
     }

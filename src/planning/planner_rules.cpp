@@ -12,6 +12,7 @@ PlannerRules PlannerRules::from(const ParameterTable& values) {
   rules.weight_moving = values.number("weight_moving");
   rules.samples_per_piece = values.integer("samples_per_piece");
   rules.knot_spacing_m = values.number("knot_spacing");
+  rules.open_knot_spacing_m = values.number("open_knot_spacing");
   rules.knot_travel_m = values.number("knot_travel");
   rules.soft_margin_m = values.number("soft_margin");
   rules.preferred_clearance_m = values.number("preferred_clearance");

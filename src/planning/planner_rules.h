@@ -15,6 +15,7 @@ struct PlannerRules {
   double weight_moving;
   int samples_per_piece;
   double knot_spacing_m;
+  double open_knot_spacing_m;
   double knot_travel_m;
   double soft_margin_m;
   double preferred_clearance_m;

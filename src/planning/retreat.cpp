@@ -5,6 +5,7 @@
 
 #include "planning/speed_profile.h"
 #include "safety/certificate.h"
+#include "trajectory/extrema.h"
 #include "trajectory/minco.h"
 
 namespace mocha {
@@ -12,9 +13,8 @@ namespace {
 
 constexpr double kTrailStep_m = 0.2;  // closer points of the trail are noise of the pose
 constexpr double kKnotSpacing_m = 0.3;
-constexpr double kSlow_mps = 0.4;     // backward, where the lidar may not see
-constexpr double kSlackOfTime = 1.3;  // the curve's own shape asks for more than its profile
-constexpr double kFromBehind = 0.8;   // cosine between the trail and straight back
+constexpr double kSlow_mps = 0.8;    // backward, where the lidar may not see
+constexpr double kFromBehind = 0.8;  // cosine between the trail and straight back
 
 /// The trail from `here` backward, thinned out.
 std::vector<Vector2> way_back(const std::vector<Vector2>& trail, const Vector2& here,
@@ -53,7 +53,9 @@ std::optional<Motion> retreat_along(const std::vector<Vector2>& trail, const Pos
   PlanarMinco minco;
   minco.resize(last);
   minco.solve(from, to, knots.path.middleCols(1, last - 1), knots.durations_s);
-  const Motion motion(start_time_s, {DrivePhase{-1, minco.curve().stretched(kSlackOfTime)}});
+  const PlanarPath curve = minco.curve();
+  const double stretch = stretch_within(curve, slow.max_speed, slow.max_acceleration);
+  const Motion motion(start_time_s, {DrivePhase{-1, curve.stretched(stretch)}});
   if (check_limits(motion, limits, start_time_s)) return std::nullopt;
   return motion;
 }

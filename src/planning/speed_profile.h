@@ -24,9 +24,10 @@ class SpeedProfile {
  public:
   using Points = std::vector<Eigen::Matrix<double, D, 1>>;
 
-  /// Throws std::invalid_argument for fewer than two points, for points that are not finite, and for
-  /// limits that are not above 0. The path begins at `start_speed` >= 0 [m/s]; corners are rounded over about `window_m`, so that knots do not carry the kinks and the
-  /// jitter of a searched path into directions in which they cannot move.
+  /// Throws std::invalid_argument for fewer than two points, for points that are not finite, and
+  /// for limits that are not above 0. The path begins at `start_speed` >= 0 [m/s]; corners are
+  /// rounded over about `window_m`, so that knots do not carry the kinks and the jitter of a
+  /// searched path into directions in which they cannot move.
   SpeedProfile(const Points& points, double start_speed, const MotionLimits& limits,
                double window_m);
 
