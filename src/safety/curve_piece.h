@@ -31,15 +31,15 @@ std::vector<CurvePiece<D, 2 * S - 1>> curve_pieces(const PiecewisePolynomial<D, 
   pieces.reserve(curve.pieces());
   for (int i = 0; i < curve.pieces(); ++i) {
     const double tau = curve.piece_duration(i);
-    const double start = start_s + curve.piece_start(i);
     // What is left is a share of tau, not a difference of absolute times, which are coarse: all
     // speeds would be wrong by the error of the quotient.
-    const double over = std::max(0.0, (from_s - start) / tau);
+    const double over = std::max(0.0, (from_s - start_s - curve.piece_start(i)) / tau);
     const double left_s = (1.0 - over) * tau;
     if (over > 0.0 && left_s < kShortest_s) continue;
     auto position = to_bernstein(curve.piece(i));
     if (over > 0.0) position = split(position, over).second;
-    pieces.push_back({start + over * tau, left_s, position, derivative(position)});
+    pieces.push_back(
+        {start_s + (curve.piece_start(i) + over * tau), left_s, position, derivative(position)});
   }
   return pieces;
 }

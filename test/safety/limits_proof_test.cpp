@@ -235,6 +235,21 @@ TEST(LimitsProof, CutsAPieceExactlyWhereTimesAreCoarse) {
   }
 }
 
+TEST(LimitsProof, BeginsExactlyWhereTheMotionIs) {
+  for (int seed = 0; seed < 50; ++seed) {
+    const Motion motion = within(random_drive(seed, 2 + seed % 5), kPeaks, 1.7e9 + 0.013 * seed);
+    for (const double left_s : {0.02, 0.05, 0.1}) {  // braking: the fastest moment is the first
+      const double from = motion.end_time() - left_s;
+      const double speed = motion.at(from).velocity.norm();
+      const auto limited = [&](double factor) {
+        return check_limits(motion, {factor * speed, 100.0, 1e3, 100.0}, from);
+      };
+      EXPECT_FALSE(limited(1.0)) << seed << " " << left_s;
+      EXPECT_TRUE(limited(1.0 - 2e-6)) << seed << " " << left_s;
+    }
+  }
+}
+
 TEST(LimitsProof, TurnsInPlace) {
   for (const double change : {0.1, -0.1, 2.5, -2.5}) {  // bound by acceleration, bound by rate
     const double duration = turn_duration_s(change, 1.8, 4.0);
