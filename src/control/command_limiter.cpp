@@ -6,9 +6,9 @@
 namespace mocha {
 
 CommandLimiter::CommandLimiter(const RobotModel& robot)
-    : max_wheel_speed_(robot.max_wheel_speed),
+    : max_wheel_speed_(robot.limits.max_wheel_speed),
       max_wheel_acceleration_(robot.max_wheel_acceleration),
-      track_m_(robot.track_m),
+      track_m_(robot.limits.track_m),
       deceleration_(robot.limits.max_acceleration),
       yaw_deceleration_(robot.limits.max_yaw_acceleration) {}
 

@@ -9,6 +9,7 @@
 #include "optimization/dynamics_penalty.h"
 #include "optimization/obstacle_penalty.h"
 #include "optimization/turning_penalty.h"
+#include "optimization/wheel_penalty.h"
 #include "planning/speed_profile.h"
 #include "safety/margin_budget.h"
 
@@ -20,6 +21,7 @@ namespace {
 constexpr double kShareOfSpeed = 0.97;
 constexpr double kShareOfAcceleration = 0.95;
 constexpr double kShareOfYawRate = 0.92;
+constexpr double kShareOfWheelSpeed = 0.97;
 constexpr double kSpacingOfRoom = 1.5;  // knots apart, over the room beside the path
 constexpr double kLeastPieces = 10.0;   // of a drive, for its ramps
 constexpr double kSoftSpeed =
@@ -120,6 +122,12 @@ std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQu
   penalties.push_back(std::make_unique<TurningPenalty>(rules_.weight_turning * effort.limit_weight,
                                                        kShareOfYawRate * limits.max_yaw_rate,
                                                        kSoftSpeed));
+  if (!limits.wheels_are_ample()) {
+    MotionLimits wheels = limits;
+    wheels.max_wheel_speed *= kShareOfWheelSpeed;
+    penalties.push_back(std::make_unique<WheelPenalty>(rules_.weight_dynamics * effort.limit_weight,
+                                                       wheels, kSoftSpeed));
+  }
   if (!query.peers.empty()) {
     penalties.push_back(std::make_unique<MovingPenalty>(
         rules_.weight_moving, query.start_time_s, robot_.footprint.circumscribed_radius_m(),

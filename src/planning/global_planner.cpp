@@ -53,6 +53,7 @@ double slow_down(const Violation& violation) {
   switch (violation.term) {
     case ViolatedTerm::kSpeed:
     case ViolatedTerm::kYawRate:
+    case ViolatedTerm::kWheelSpeed:
       return excess;
     case ViolatedTerm::kAcceleration:
       return std::sqrt(excess);

@@ -65,6 +65,7 @@ std::vector<double> corner_speeds(const Points<D>& samples, const MotionLimits& 
     const double curvature = turn / (0.5 * (in.norm() + out.norm()) + 1e-9);
     if (curvature < 1e-6) continue;
     speeds[i] = std::min({speeds[i], limits.max_yaw_rate / curvature,
+                          limits.max_wheel_speed / (1.0 + 0.5 * limits.track_m * curvature),
                           std::sqrt(kShareOfAcceleration * limits.max_acceleration / curvature)});
   }
   return speeds;

@@ -19,6 +19,7 @@ static_assert(static_cast<int>(PlanReason::kBackingOut) == Status::BACKING_OUT);
 static_assert(static_cast<int>(PlanReason::kPeerConflict) == Status::PEER_CONFLICT);
 static_assert(static_cast<int>(ViolatedTerm::kSeparation) == Status::SEPARATION);
 static_assert(static_cast<int>(ViolatedTerm::kUnseenSpace) == Status::UNSEEN_SPACE);
+static_assert(static_cast<int>(ViolatedTerm::kWheelSpeed) == Status::WHEEL_SPEED);
 
 const char* to_text(PlanReason reason) {
   switch (reason) {

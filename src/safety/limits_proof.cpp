@@ -3,6 +3,8 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "safety/certificate.h"
 #include "safety/drive_piece.h"
@@ -14,6 +16,8 @@ namespace {
 
 constexpr double kCourseStep_s =
     1e-3;  // a velocity that turns by 90 degrees in less passes through zero
+constexpr double kOnlyHulls = 1.0;         // no halving: what the control points say
+constexpr double kWheelResolution = 1e-5;  // of normalised time
 constexpr double kHeadingJump_rad = 0.01;  // as between the phases of a motion
 
 /// The last or first instants of a drive from or to rest: too little motion for its direction to be
@@ -36,14 +40,42 @@ std::optional<double> first_stop(const Bernstein<2, 4>& course, double resolutio
 
 /// With tau the duration, the yaw rate is (c x c') / (tau |c|^2) for the course c, whatever zeros
 /// the velocity has at rests: they cancel. No quotient is formed.
-std::optional<double> first_swerve(const DrivePiece& piece, int side, double max_yaw_rate) {
+std::optional<double> first_swerve(const DrivePiece& piece, int side, double max_yaw_rate,
+                                   double resolution = 1e-7) {
   const Bernstein<1, 7> turning = cross(piece.course, derivative(piece.course));
   Bernstein<1, 8> excess = -max_yaw_rate * piece.duration_s * squared_norm(piece.course);
   for (int j = 0; j <= 8; ++j) {  // elevated to degree 8
     if (j > 0) excess[j] += side * turning[j - 1] * j / 8.0;
     if (j < 8) excess[j] += side * turning[j] * (8 - j) / 8.0;
   }
-  return first_positive(excess);
+  return first_positive(excess, resolution);
+}
+
+std::pair<DrivePiece, DrivePiece> in_halves(const DrivePiece& piece) {
+  std::pair<DrivePiece, DrivePiece> halves(piece, piece);
+  std::tie(halves.first.velocity, halves.second.velocity) = split(piece.velocity);
+  std::tie(halves.first.course, halves.second.course) = split(piece.course);
+  for (DrivePiece* half : {&halves.first, &halves.second}) {
+    half->velocity *= 0.5;  // by a normalised time that now runs twice as fast
+    half->duration_s *= 0.5;
+  }
+  return halves;
+}
+
+/// First u at which the faster wheel exceeds its limit, |v| + track / 2 |omega|: on each part, the
+/// wheel leaves to the yaw rate what the part's highest speed does not need.
+std::optional<double> first_overspin(const DrivePiece& piece, const MotionLimits& limits,
+                                     double resolution) {
+  const double to_spare = kLimitSlack * limits.max_wheel_speed - piece.max_speed();
+  const double yaw_rate = 2.0 * to_spare / limits.track_m;
+  const bool proved = to_spare >= 0.0 && !first_swerve(piece, -1, yaw_rate, kOnlyHulls) &&
+                      !first_swerve(piece, 1, yaw_rate, kOnlyHulls);
+  if (proved) return std::nullopt;
+  if (!(resolution < 1.0)) return 0.0;
+  const auto [before, after] = in_halves(piece);
+  if (const auto u = first_overspin(before, limits, 2.0 * resolution)) return 0.5 * *u;
+  if (const auto u = first_overspin(after, limits, 2.0 * resolution)) return 0.5 + 0.5 * *u;
+  return std::nullopt;
 }
 
 /// Where two pieces do not meet, in place, velocity or heading.
@@ -63,6 +95,9 @@ Earliest first_violation(const DrivePiece& piece, const MotionLimits& limits) {
   for (const int side : {-1, 1}) {
     first.consider(ViolatedTerm::kYawRate,
                    first_swerve(piece, side, kLimitSlack * limits.max_yaw_rate));
+  }
+  if (!limits.wheels_are_ample()) {
+    first.consider(ViolatedTerm::kWheelSpeed, first_overspin(piece, limits, kWheelResolution));
   }
   const double step = kCourseStep_s / piece.duration_s;
   const auto stop = first_stop(piece.course, step);
@@ -108,6 +143,9 @@ Violation report(const Motion& motion, int phase, const MotionLimits& limits, co
     const MotionState state = motion.at(when);
     if (term == ViolatedTerm::kSpeed) return state.velocity.norm();
     if (term == ViolatedTerm::kYawRate) return std::abs(state.yaw_rate);
+    if (term == ViolatedTerm::kWheelSpeed) {
+      return state.velocity.norm() + 0.5 * limits.track_m * std::abs(state.yaw_rate);
+    }
     if (!turn) return state.acceleration.norm();
     return std::abs(yaw_acceleration(*turn, when - motion.phase_start_time(phase)));
   };
@@ -115,10 +153,11 @@ Violation report(const Motion& motion, int phase, const MotionLimits& limits, co
   violation.term = term;
   violation.time_s = t;
   violation.place = motion.at(t).pose.position;
-  violation.limit = term == ViolatedTerm::kSpeed     ? limits.max_speed
-                    : term == ViolatedTerm::kYawRate ? limits.max_yaw_rate
-                    : turn                           ? limits.max_yaw_acceleration
-                                                     : limits.max_acceleration;
+  violation.limit = term == ViolatedTerm::kSpeed        ? limits.max_speed
+                    : term == ViolatedTerm::kYawRate    ? limits.max_yaw_rate
+                    : term == ViolatedTerm::kWheelSpeed ? limits.max_wheel_speed
+                    : turn                              ? limits.max_yaw_acceleration
+                                                        : limits.max_acceleration;
   violation.value = first.jumps ? std::numeric_limits<double>::infinity()
                                 : worst_value(value_at, std::greater<>(), violation.limit, t, end);
   return violation;

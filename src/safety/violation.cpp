@@ -27,6 +27,8 @@ Wording wording(ViolatedTerm term) {
       return {"distance", "m", true, ""};
     case ViolatedTerm::kUnseenSpace:
       return {"clearance to space not seen free", "m", true, ""};
+    case ViolatedTerm::kWheelSpeed:
+      return {"wheel speed", "m/s", false, ""};
     case ViolatedTerm::kNothing:
       break;
   }

@@ -14,6 +14,7 @@ enum class ViolatedTerm {
   kYawRate,       ///< [rad/s]
   kSeparation,    ///< [m] own disc to a moving obstacle's disc
   kUnseenSpace,   ///< cannot stop inside space that was seen free
+  kWheelSpeed,    ///< [m/s] of the faster wheel
 };
 
 /// The first moment at which something that moves in D dimensions breaks a limit; false if there is

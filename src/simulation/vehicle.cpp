@@ -22,9 +22,9 @@ Pose advanced(const Pose& pose, const Arc& arc) {
 }
 
 Vehicle::Vehicle(const RobotModel& model, const Pose& start)
-    : max_wheel_speed_(model.max_wheel_speed),
+    : max_wheel_speed_(model.limits.max_wheel_speed),
       max_wheel_acceleration_(model.max_wheel_acceleration),
-      track_m_(model.track_m),
+      track_m_(model.limits.track_m),
       lag_s_(model.actuator_lag_s),
       command_age_limit_s_(model.command_age_limit_s),
       pose_(start),

@@ -30,12 +30,16 @@ Footprint read_footprint(const ParameterTable& values) {
 }
 
 void check_wheels(const RobotModel& model, const std::string& path) {
-  const double needed = model.limits.max_speed + 0.5 * model.track_m * model.limits.max_yaw_rate;
-  if (needed <= model.max_wheel_speed) return;
-  std::ostringstream message;
-  message << path << ": max_speed and max_yaw_rate together need wheels of " << needed
-          << " m/s, but max_wheel_speed = " << model.max_wheel_speed;
-  throw ParameterError(message.str());
+  const MotionLimits& limits = model.limits;
+  const auto check = [&](const char* name, double needed) {
+    if (needed <= limits.max_wheel_speed) return;
+    std::ostringstream message;
+    message << path << ": " << name << " needs wheels of " << needed
+            << " m/s, but max_wheel_speed = " << limits.max_wheel_speed;
+    throw ParameterError(message.str());
+  };
+  check("max_speed", limits.max_speed);
+  check("max_yaw_rate", 0.5 * limits.track_m * limits.max_yaw_rate);
 }
 
 void check_lidar(const LidarModel& lidar, const std::string& path) {
@@ -61,11 +65,10 @@ RobotModel load_robot_model(const std::string& config_directory, const std::stri
   values.assign_file(path);
   RobotModel robot;
   robot.name = model;
-  robot.limits = {values.number("max_speed"), values.number("max_acceleration"),
-                  values.number("max_yaw_rate"), values.number("max_yaw_acceleration")};
-  robot.max_wheel_speed = values.number("max_wheel_speed");
+  robot.limits = {values.number("max_speed"),       values.number("max_acceleration"),
+                  values.number("max_yaw_rate"),    values.number("max_yaw_acceleration"),
+                  values.number("max_wheel_speed"), values.number("track")};
   robot.max_wheel_acceleration = values.number("max_wheel_acceleration");
-  robot.track_m = values.number("track");
   robot.actuator_lag_s = values.number("actuator_lag");
   robot.command_age_limit_s = values.number("command_age_limit");
   robot.footprint = read_footprint(values);

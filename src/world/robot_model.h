@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "world/footprint.h"
@@ -12,6 +13,15 @@ struct MotionLimits {
   double max_acceleration = 1.0;      ///< [m/s^2] of the base, along and across together
   double max_yaw_rate = 1.5;          ///< [rad/s]
   double max_yaw_acceleration = 4.0;  ///< [rad/s^2] of turns in place
+  /// [m/s] of the faster wheel's rim: |v| + track / 2 |omega|.
+  double max_wheel_speed = std::numeric_limits<double>::infinity();
+  double track_m = 0.0;  ///< distance between left and right wheels
+
+  /// Whether the wheels can do the highest speed and the highest yaw rate together, so that their
+  /// limit needs no attention of its own.
+  bool wheels_are_ample() const {
+    return max_speed + 0.5 * track_m * max_yaw_rate <= max_wheel_speed;
+  }
 };
 
 /// Contributions to the room that is kept around the body.
@@ -39,9 +49,7 @@ struct LidarModel {
 struct RobotModel {
   std::string name;
   MotionLimits limits;
-  double max_wheel_speed;         ///< [m/s] rim
   double max_wheel_acceleration;  ///< [m/s^2] rim
-  double track_m;
   double actuator_lag_s;
   double command_age_limit_s;
   Footprint footprint;
@@ -54,8 +62,8 @@ struct RobotModel {
 };
 
 /// Loads `<config_directory>/robots/<model>.yaml` under the schema `<config_directory>/robot.yaml`.
-/// Throws ParameterError for unknown models and keys, values out of range, limits that the wheels
-/// cannot deliver together, and sweeps that overlap.
+/// Throws ParameterError for unknown models and keys, values out of range, a speed or a yaw rate
+/// that the wheels cannot deliver, and sweeps that overlap.
 RobotModel load_robot_model(const std::string& config_directory, const std::string& model);
 
 }  // namespace mocha

@@ -23,7 +23,7 @@ class SimulatedRobot {
 
   void advance(const UnicycleState& command, double duration) {
     constexpr double kStep_s = 0.001;
-    const WheelSpeeds wanted = wheel_speeds(command, model_.track_m);
+    const WheelSpeeds wanted = wheel_speeds(command, model_.limits.track_m);
     for (int i = 0; i < static_cast<int>(std::lround(duration / kStep_s)); ++i) {
       turn_wheel(wheels_.left, wanted.left, kStep_s);
       turn_wheel(wheels_.right, wanted.right, kStep_s);
@@ -32,11 +32,11 @@ class SimulatedRobot {
   }
 
   const Pose& pose() const { return pose_; }
-  UnicycleState twist() const { return from_wheel_speeds(wheels_, model_.track_m); }
+  UnicycleState twist() const { return from_wheel_speeds(wheels_, model_.limits.track_m); }
 
  private:
   void turn_wheel(double& speed, double wanted, double dt) const {
-    wanted = std::clamp(gain_ * wanted, -model_.max_wheel_speed, model_.max_wheel_speed);
+    wanted = std::clamp(gain_ * wanted, -model_.limits.max_wheel_speed, model_.limits.max_wheel_speed);
     const double limit = model_.max_wheel_acceleration;
     speed += dt * std::clamp((wanted - speed) / model_.actuator_lag_s, -limit, limit);
   }

@@ -75,10 +75,10 @@ TEST(CommandLimiter, KeepsWheelsWithinTheirLimits) {
   WheelSpeeds last{0.0, 0.0};
   for (int i = 0; i < 500; ++i) {
     const UnicycleState command = limiter.limit({speed(random), yaw_rate(random)}, 0.02);
-    const WheelSpeeds wheels = wheel_speeds(command, model.track_m);
+    const WheelSpeeds wheels = wheel_speeds(command, model.limits.track_m);
     for (const auto& [now, before] :
          {std::pair(wheels.left, last.left), std::pair(wheels.right, last.right)}) {
-      EXPECT_LE(std::abs(now), model.max_wheel_speed + 1e-9);
+      EXPECT_LE(std::abs(now), model.limits.max_wheel_speed + 1e-9);
       EXPECT_LE(std::abs(now - before), model.max_wheel_acceleration * 0.02 + 1e-9);
     }
     last = wheels;
@@ -91,7 +91,7 @@ TEST(CommandLimiter, PrefersTheYawRate) {
   UnicycleState command{};
   for (int i = 0; i < 200; ++i) command = limiter.limit({1.4, 2.0}, 0.02);
   EXPECT_NEAR(command.yaw_rate, 2.0, 1e-9);
-  EXPECT_NEAR(command.speed, model.max_wheel_speed - model.track_m, 1e-9);
+  EXPECT_NEAR(command.speed, model.limits.max_wheel_speed - model.limits.track_m, 1e-9);
 }
 
 TEST(CommandLimiter, RampDownKeepsTheCurvature) {

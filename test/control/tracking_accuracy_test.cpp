@@ -82,7 +82,7 @@ TEST(TrackingAccuracy, WrongModelStaysWithinTheErrorBound) {
       const DrivePhase drive = winding(model.limits, 1, random);
       RobotModel real = model;
       real.actuator_lag_s *= 1.5;
-      real.track_m *= 1.05;
+      real.limits.track_m *= 1.05;
       ClosedLoop loop(model, start_of(drive), run);
       loop.robot = SimulatedRobot(real, start_of(drive), 0.97);
       int steps = 0;

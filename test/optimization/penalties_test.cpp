@@ -10,6 +10,7 @@
 #include "optimization/obstacle_penalty.h"
 #include "optimization/one_sample.h"
 #include "optimization/turning_penalty.h"
+#include "optimization/wheel_penalty.h"
 #include "safety/circle_field.h"
 
 namespace mocha {
@@ -146,6 +147,49 @@ TEST(TurningPenalty, GradientMatchesDifferencesAlsoNearStandstill) {
     expect_gradient(penalty, samples.next(1.0), 1e-7, 2e-5);
     expect_gradient(penalty, samples.next(0.05), 1e-8, 1e-4);
   }
+}
+
+MotionLimits narrow_wheels() {
+  MotionLimits limits;
+  limits.max_wheel_speed = 1.0;
+  limits.track_m = 0.4;
+  return limits;
+}
+
+TEST(WheelPenalty, HasTheValuesOfHand) {
+  const double soft = 0.1;
+  const WheelPenalty penalty(5.0, narrow_wheels(), soft);
+  for (const double speed : {0.05, 0.6, 0.99}) {
+    for (const double yaw_rate : {-3.0, -0.2, 0.0, 0.2, 1.9, 2.1, 6.0}) {
+      const double wheel = speed + 0.2 * std::abs(yaw_rate);
+      const double soft2 = speed * speed + soft * soft;
+      const double excess = (wheel * wheel - 1.0) * std::pow(speed, 4) / (soft2 * soft2);
+      const Sample sample = sample_at(kZero, {0.0, speed}, {-speed * yaw_rate, 0.4});
+      EXPECT_NEAR(value_of(penalty, sample), 5.0 * std::pow(std::max(0.0, excess), 3), 1e-9)
+          << speed << " " << yaw_rate;
+    }
+  }
+}
+
+TEST(WheelPenalty, GradientMatchesDifferencesAlsoNearStandstill) {
+  const WheelPenalty penalty(2.0, narrow_wheels(), 0.1);
+  RandomSamples samples;
+  for (int i = 0; i < 200; ++i) {
+    expect_gradient(penalty, samples.next(1.0), 1e-7, 1e-5);
+    expect_gradient(penalty, samples.next(0.05), 1e-8, 1e-4);
+  }
+  EXPECT_EQ(value_of(penalty, sample_at(kZero, kZero, kZero)), 0.0);
+}
+
+TEST(WheelPenalty, IsNotWantedWhereTheWheelsAreFastEnough) {
+  const WheelPenalty penalty(2.0, narrow_wheels(), 0.1);
+  PieceBounds<2> bounds = piece_of(sample_at(kZero, {0.5, 0.0}, {0.0, 0.5})).bounds;
+  EXPECT_EQ(penalty.wanted(bounds), kNone);  // 0.5 + 0.2 * 0.5 / 0.5
+  bounds.max_acceleration2 = 4.0;
+  EXPECT_NE(penalty.wanted(bounds), kNone);
+  bounds.max_acceleration2 = 0.25;
+  bounds.min_speed2 = 0.0;  // may stop: nothing is known of the yaw rate
+  EXPECT_NE(penalty.wanted(bounds), kNone);
 }
 
 TEST(ObstaclePenalty, HasTheValuesOfHand) {  // (30)

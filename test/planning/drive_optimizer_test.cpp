@@ -76,6 +76,31 @@ TEST_F(DriveOptimizerTest, ALongDriveInTheOpenIsNearlyTimeOptimal) {
   EXPECT_LT(motion.end_time(), 1.05 * kinematic_s);
 }
 
+TEST(DriveOptimizerWheels, SlowDownInBendsWhereTheWheelsAskForIt) {
+  RobotModel robot = rover();
+  robot.limits.max_wheel_speed = robot.limits.max_speed;  // none to spare for turning
+  robot.limits.track_m = 0.5;
+  const DriveOptimizer optimizer(robot, default_rules(), MarginBudget::of(robot).static_margin_m());
+  DriveQuery query{{{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}}, PlanarMinco::State::Zero(), 0.0, {}};
+  query.start.col(2) = Vector2(optimizer.rest_acceleration(), 0.0);
+  const CircleField open({});
+  const auto found = optimizer.optimize_drive(query, open, {}, kGoOn);
+  const Motion motion(0.0, {DrivePhase{1, found.curve}});
+  double fastest = 0.0;
+  for (double t = 0.01; t < motion.end_time(); t += 0.01) {
+    const MotionState state = motion.at(t);
+    fastest = std::max(
+        fastest, state.velocity.norm() + 0.5 * robot.limits.track_m * std::abs(state.yaw_rate));
+  }
+  EXPECT_LT(fastest, 1.02 * robot.limits.max_wheel_speed);
+  EXPECT_GT(fastest, 0.9 * robot.limits.max_wheel_speed);
+  const auto violation = check_limits(motion, robot.limits, 0.0);
+  EXPECT_FALSE(violation) << describe(violation);
+  robot.limits.track_m = 0.01;
+  const DriveOptimizer free(robot, default_rules(), MarginBudget::of(robot).static_margin_m());
+  EXPECT_LT(free.optimize_drive(query, open, {}, kGoOn).curve.duration(), found.curve.duration());
+}
+
 TEST_F(DriveOptimizerTest, GoesOnFromTheStateGiven) {
   DriveQuery query = from_rest({{0.0, 0.0}, {6.0, 1.0}});
   query.start.col(1) = Vector2(0.6, -0.1);

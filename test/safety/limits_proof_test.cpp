@@ -45,6 +45,41 @@ TEST(LimitsProof, AcceptsMotionsWithinTheirLimits) {
   }
 }
 
+TEST(LimitsProof, TheFasterWheelIsHeldToItsLimit) {
+  constexpr int kSamples = 20000;
+  int accepted = 0;
+  int refused = 0;
+  for (int seed = 0; seed < 60; ++seed) {
+    const Motion motion = within(random_drive(seed, 3 + seed % 10, seed % 2 ? 1 : -1), kPeaks, 0.0);
+    MotionLimits limits = scaled(1.001);
+    limits.track_m = 0.6;
+    const auto wheel_speed = [&](double t) {
+      const MotionState state = motion.at(t);
+      return state.velocity.norm() + 0.5 * limits.track_m * std::abs(state.yaw_rate);
+    };
+    double fastest = 0.0;
+    for (int i = 1; i < kSamples; ++i) {
+      fastest = std::max(fastest, wheel_speed(motion.end_time() * i / kSamples));
+    }
+    limits.max_wheel_speed = 1.002 * fastest;
+    const Violation between_samples = check_limits(motion, limits, 0.0);
+    accepted += !between_samples;
+    if (between_samples) {
+      EXPECT_GT(between_samples.value, limits.max_wheel_speed) << describe(between_samples);
+    }
+    limits.max_wheel_speed = 0.99 * fastest;
+    const Violation violation = check_limits(motion, limits, 0.0);
+    if (!violation) continue;
+    ++refused;
+    EXPECT_EQ(violation.term, ViolatedTerm::kWheelSpeed);
+    EXPECT_GT(violation.value, limits.max_wheel_speed);
+    EXPECT_LE(violation.value, 1.001 * fastest);
+    EXPECT_GT(wheel_speed(violation.time_s + 2e-3), 0.999 * limits.max_wheel_speed);
+  }
+  EXPECT_GE(accepted, 58);
+  EXPECT_EQ(refused, 60);
+}
+
 TEST(LimitsProof, AgreesWithDenseSampling) {
   constexpr int kSamples = 10000;
   int accepted = 0;

@@ -16,9 +16,9 @@ constexpr double kStep_s = 0.02;
 
 RobotModel model() {
   RobotModel model{};
-  model.max_wheel_speed = 1.4;
+  model.limits.max_wheel_speed = 1.4;
   model.max_wheel_acceleration = 2.0;
-  model.track_m = 0.4;
+  model.limits.track_m = 0.4;
   model.actuator_lag_s = 0.0;
   model.command_age_limit_s = 0.3;
   return model;

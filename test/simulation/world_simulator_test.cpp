@@ -15,9 +15,9 @@ constexpr double kStep_s = 0.02;
 
 RobotModel model(const Footprint& footprint) {
   RobotModel model{};
-  model.max_wheel_speed = 1.4;
+  model.limits.max_wheel_speed = 1.4;
   model.max_wheel_acceleration = 2.5;
-  model.track_m = 0.35;
+  model.limits.track_m = 0.35;
   model.actuator_lag_s = 0.05;
   model.command_age_limit_s = 0.3;
   model.footprint = footprint;

@@ -80,6 +80,8 @@ TEST_F(RobotModelTest, RefusalsNameFileKeyAndValue) {
   const std::string range = refusal("track: -0.3\n");
   EXPECT_NE(range.find("track = -0.3"), std::string::npos) << range;
   EXPECT_NE(refusal("max_speed: 3.0\n").find("max_wheel_speed"), std::string::npos);
+  EXPECT_NE(refusal("max_wheel_speed: 1.0\nmax_yaw_rate: 8.0\n").find("max_yaw_rate needs"),
+            std::string::npos);
   EXPECT_NE(refusal("lidar_min_range: 5.0\nlidar_max_range: 4.0\n").find("lidar_min_range = 5"),
             std::string::npos);
   EXPECT_NE(refusal("lidar_rate: 20.0\n").find("lidar_sweep_time"), std::string::npos);
