@@ -21,6 +21,15 @@ struct CurvePiece {
   double max_speed() const { return velocity.colwise().norm().maxCoeff() / duration_s; }
 };
 
+/// The velocity of a piece by its normalised time: from its own coefficients, not from differences
+/// of positions, whose rounding grows with the distance from the origin.
+template <int D, int C>
+Bernstein<D, C - 2> velocity_of(const Eigen::Matrix<double, D, C>& coefficients) {
+  Eigen::Matrix<double, D, C - 1> rate;
+  for (int k = 1; k < C; ++k) rate.col(k - 1) = k * coefficients.col(k);
+  return to_bernstein(rate);
+}
+
 /// The pieces of a curve that begins at `start_s`, from `from_s` on; a piece under way at `from_s`
 /// is cut there.
 template <int D, int S>
@@ -37,9 +46,12 @@ std::vector<CurvePiece<D, 2 * S - 1>> curve_pieces(const PiecewisePolynomial<D, 
     const double left_s = (1.0 - over) * tau;
     if (over > 0.0 && left_s < kShortest_s) continue;
     auto position = to_bernstein(curve.piece(i));
-    if (over > 0.0) position = split(position, over).second;
-    pieces.push_back(
-        {start_s + (curve.piece_start(i) + over * tau), left_s, position, derivative(position)});
+    auto velocity = velocity_of(curve.piece(i));
+    if (over > 0.0) {
+      position = split(position, over).second;
+      velocity = (1.0 - over) * split(velocity, over).second;
+    }
+    pieces.push_back({start_s + (curve.piece_start(i) + over * tau), left_s, position, velocity});
   }
   return pieces;
 }

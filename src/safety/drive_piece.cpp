@@ -3,7 +3,8 @@
 namespace mocha {
 namespace {
 
-constexpr double kNoise = 1e-6;  // share of the largest control point, below which one is zero
+constexpr double kNoise = 1e-6;       // share of the largest control point, below which one is zero
+constexpr double kStanding_m = 1e-6;  // the direction of less motion is rounding
 
 /// The velocity divided by u^k (1 - u)^l, where k and l are the orders of its zeros at the ends
 /// that are rests.
@@ -30,6 +31,11 @@ Bernstein<2, 4> course_of(const Bernstein<2, 4>& velocity, bool from_rest, bool 
   return course;
 }
 
+/// Everywhere the direction of `along`; ahead without one, as Motion has it.
+Bernstein<2, 4> steady(const Vector2& along) {
+  return (along.isZero(0.0) ? Vector2(1.0, 0.0) : along).rowwise().replicate<5>();
+}
+
 }  // namespace
 
 std::vector<DrivePiece> drive_pieces(const Motion& motion, int phase, double from_s) {
@@ -40,8 +46,11 @@ std::vector<DrivePiece> drive_pieces(const Motion& motion, int phase, double fro
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool first = i == 0;
     const bool last = i + 1 == path.size();
+    const auto& velocity = path[i].velocity;
+    const bool stands = (first || last) && velocity.colwise().norm().maxCoeff() < kStanding_m;
     pieces.push_back(
-        {path[i], drive.direction, first || last, course_of(path[i].velocity, first, last)});
+        {path[i], drive.direction,
+         stands ? steady(velocity.rowwise().sum()) : course_of(velocity, first, last)});
   }
   return pieces;
 }

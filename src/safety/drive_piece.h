@@ -10,9 +10,8 @@ namespace mocha {
 /// One polynomial piece of a drive, its times absolute.
 struct DrivePiece : CurvePiece<2, 5> {
   int drive_direction;  ///< +1 or -1
-  bool begins_or_ends_drive;
   /// Has the direction of the velocity, also at the rests where the drive begins or ends: there the
-  /// velocity's zeros are divided out.
+  /// velocity's zeros are divided out. Constant in a piece that moves less than a micrometre there.
   Bernstein<2, 4> course;
 };
 

@@ -20,12 +20,6 @@ constexpr double kOnlyHulls = 1.0;         // no halving: what the control point
 constexpr double kWheelResolution = 1e-5;  // of normalised time
 constexpr double kHeadingJump_rad = 0.01;  // as between the phases of a motion
 
-/// The last or first instants of a drive from or to rest: too little motion for its direction to be
-/// more than rounding.
-bool is_standing(const DrivePiece& piece) {
-  return piece.begins_or_ends_drive && piece.duration_s < 0.01 && piece.max_speed() < 1e-4;
-}
-
 /// First u at which the velocity may vanish: where halving down to `resolution` finds no half-plane
 /// for its directions.
 std::optional<double> first_stop(const Bernstein<2, 4>& course, double resolution) {
@@ -81,7 +75,6 @@ std::optional<double> first_overspin(const DrivePiece& piece, const MotionLimits
 /// Where two pieces do not meet, in place, velocity or heading.
 Earliest first_break(const DrivePiece& before, const DrivePiece& after) {
   if (const Earliest first = first_jump(before, after)) return first;
-  if (is_standing(before) || is_standing(after)) return {};
   const Vector2 from = before.course.col(4);
   const Vector2 to = after.course.col(0);
   const double aside = std::abs(from.x() * to.y() - from.y() * to.x());
@@ -91,7 +84,6 @@ Earliest first_break(const DrivePiece& before, const DrivePiece& after) {
 
 Earliest first_violation(const DrivePiece& piece, const MotionLimits& limits) {
   Earliest first = first_excess(piece, limits.max_speed, limits.max_acceleration);
-  if (is_standing(piece)) return first;
   for (const int side : {-1, 1}) {
     first.consider(ViolatedTerm::kYawRate,
                    first_swerve(piece, side, kLimitSlack * limits.max_yaw_rate));

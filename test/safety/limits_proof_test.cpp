@@ -213,6 +213,37 @@ TEST(LimitsProof, RefusesACuspPassedNearlyAtRest) {
   EXPECT_NEAR(violation.time_s, 0.5, 0.02);
 }
 
+TEST(LimitsProof, RefusesASwingOfTheHeadingInTheFirstInstants) {
+  // Sideways at 10 um/s, then ahead: 90 degrees within milliseconds, almost at rest.
+  const Motion motion(0.0, {DrivePhase{1, path_of({0, 0, 0, 10, -15, 6}, {0, 2e-5, -1e-5}, 2.0)}});
+  const Violation violation = check_limits(motion, {10.0, 10.0, 10.0, 10.0}, 0.0);
+  EXPECT_EQ(violation.term, ViolatedTerm::kYawRate);
+  EXPECT_LT(violation.time_s, 0.01);
+}
+
+TEST(LimitsProof, LooksAtTheHeadingFromAMicrometreOn) {
+  const auto check = [](double metres) {  // a quarter turn or so from rest to rest, in a second
+    const Motion motion(0.0, {DrivePhase{1, path_of({0, 0, metres, -metres / 3, -metres / 4},
+                                                    {0, 0, 0, 2 * metres, -1.5 * metres}, 1.0)}});
+    return check_limits(motion, {10.0, 10.0, 1.0, 10.0}, 0.0);
+  };
+  EXPECT_EQ(check(1.0).term, ViolatedTerm::kYawRate);
+  EXPECT_EQ(check(1e-5).term, ViolatedTerm::kYawRate);
+  EXPECT_FALSE(check(1e-8));
+  EXPECT_FALSE(
+      check_limits(Motion(0.0, {DrivePhase{-1, path_of({3.0}, {4.0}, 2.0)}}), kLimits, 0.0));
+  // Within a drive even a micrometre must not be driven to and fro.
+  const double v = 1e-4;
+  const double tau = 4e-3;
+  const PlanarPath::Piece before = path_of({0.0, v}, {}, 1.0).piece(0);
+  const PlanarPath::Piece fro =
+      path_of({v, v * tau, -2.5 * v * tau, 5 * v * tau / 3}, {}, tau).piece(0);
+  const PlanarPath::Piece after = path_of({v, v, -v / 2}, {}, 1.0).piece(0);
+  const PlanarPath path({before, fro, after}, {1.0, tau, 1.0});
+  EXPECT_EQ(check_limits(Motion(0.0, {DrivePhase{1, path}}), kLimits, 0.0).term,
+            ViolatedTerm::kYawRate);
+}
+
 TEST(LimitsProof, AcceptsCrawlingStraight) {
   EXPECT_FALSE(check_limits(straight({0, 0, 0, 0.001, -0.0015, 0.0006}, 5.0), kLimits, 0.0));
   EXPECT_FALSE(check_limits(straight({0, 0, 0, 10, -15, 6}, 20.0), kLimits, 0.0));
@@ -228,6 +259,27 @@ TEST(LimitsProof, AcceptsSlicesThatBeginCloseToRest) {
         EXPECT_FALSE(violation) << seed << " " << t << " " << describe(violation);
         EXPECT_FALSE(check_limits(motion, scaled(1.001), t)) << seed << " " << t;
       }
+    }
+  }
+}
+
+TEST(LimitsProof, AcceptsSlicesCloseToRestFarFromTheOrigin) {
+  // In UTM coordinates positions are rounded to a nanometre: much, against what a slow robot moves
+  // near its rests.
+  for (int seed = 0; seed < 20; ++seed) {
+    const PlanarPath near = random_drive(seed, 4).path.stretched(10.0);
+    std::vector<PlanarPath::Piece> pieces;
+    for (int i = 0; i < near.pieces(); ++i) {
+      pieces.push_back(near.piece(i));
+      pieces.back().col(0) += Vector2(5e5, 5e6);
+    }
+    const Motion motion(0.0, {DrivePhase{1, PlanarPath(pieces, near.durations())}});
+    ASSERT_FALSE(check_limits(motion, kLimits, 0.0));
+    for (double left_s = 2e-5; left_s < 0.5; left_s *= 1.4) {
+      const double t = motion.end_time() - left_s;
+      const Motion part(t, motion.phases_between(t, motion.end_time()));
+      const Violation violation = check_limits(part, kLimits, t);
+      EXPECT_FALSE(violation) << seed << " " << left_s << " " << describe(violation);
     }
   }
 }
