@@ -1,4 +1,5 @@
-"""Draws a recorded drive: map with trajectories, speed, acceleration and yaw rate against limits, clearance, separation."""
+"""Draws a recorded drive (map with trajectories, speed, acceleration and yaw rate against limits, clearance, separation), or the paper's
+Figs. 6 and 7 with our own data."""
 import argparse
 import os
 import sys
@@ -6,18 +7,45 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
-def main(arguments):
-    parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
-    what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
-    drive = what.add_parser("drive", help="the plots of scripts/demo, from its rosbag")
+def add_drive(what):
+    drive = what.add_parser("drive", help="the plots of scripts/demo, from its rosbag",
+                            description="Writes map.png, dynamics.png, clearance.png and, for more than one robot, separation.png.")
     drive.add_argument("bag", help="drive.bag of a demo")
     drive.add_argument("--world", default=os.path.join(ROOT, "config/worlds/corridor.yaml"), metavar="FILE",
                        help="world file that was driven (default: the corridor)")
-    drive.add_argument("--out", default=".", metavar="DIR", help="PNG files go there (default: here)")
-    options = parser.parse_args(arguments)
-    from mocha_scripts import drive_plots  # not above: the help needs no matplotlib
-    os.makedirs(options.out, exist_ok=True)
+    drive.set_defaults(draw=draw_drive)
+    return drive
+
+
+def add_table1(what):
+    table1 = what.add_parser("table1", help="trajectories of Table I, as in the paper's Figs. 6 and 7",
+                             description="Plans with MINCO and with motion camouflage in one world of the plane and one of space. Writes "
+                             "fig6.png (the trajectories) and fig7.png (their speed and acceleration over time against the limits).")
+    table1.add_argument("--world", type=int, default=1, metavar="N",
+                        help="seed of both worlds, as scripts/bench table1 numbers them (default 1)")
+    table1.set_defaults(draw=draw_table1)
+    return table1
+
+
+# The imports stand in the functions, as the help needs no matplotlib.
+def draw_drive(options):
+    from mocha_scripts import drive_plots
     drive_plots.draw_drive(options.bag, options.world, options.out)
+
+
+def draw_table1(options):
+    from mocha_scripts import table1_plots
+    table1_plots.draw_table1(options.world, options.out)
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
+    what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
+    for plots in (add_drive(what), add_table1(what)):
+        plots.add_argument("--out", default=".", metavar="DIR", help="PNG files go there (default: here)")
+    options = parser.parse_args(arguments)
+    os.makedirs(options.out, exist_ok=True)
+    options.draw(options)
     return 0
 
 

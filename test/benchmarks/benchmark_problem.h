@@ -49,6 +49,18 @@ InitialKnots<D> knots_on(const std::vector<Eigen::Matrix<double, D, 1>>& path, d
   return profile.knots(static_cast<int>(std::round(length_m<D>(path) / spacing_m)));
 }
 
+/// Where the rays of camouflage start, one reference point a knot.
+template <int D>
+Eigen::Matrix<double, D, Eigen::Dynamic> table_references(const BenchmarkWorld<D>& world,
+                                                          const InitialKnots<D>& knots,
+                                                          const TableRules& rules) {
+  ReferenceRules reference_rules;
+  reference_rules.side_depth_m = rules.travel_m;
+  const auto references = choose_references<D>(knots.path, world.field, reference_rules);
+  if (!references) throw std::runtime_error("table1: no reference points");
+  return *references;
+}
+
 /// J of (14) from rest to rest; with camouflage, or with waypoints as variables.
 template <int D>
 typename TrajectoryObjective<D, 3>::Setup table_setup(const BenchmarkWorld<D>& world,
@@ -63,11 +75,8 @@ typename TrajectoryObjective<D, 3>::Setup table_setup(const BenchmarkWorld<D>& w
   setup.end.col(0) = world.path.back();
   const auto prey = knots.path.middleCols(1, knots.path.cols() - 2);
   if (camouflage) {
-    ReferenceRules reference_rules;
-    reference_rules.side_depth_m = rules.travel_m;
-    const auto references = choose_references<D>(knots.path, world.field, reference_rules);
-    if (!references) throw std::runtime_error("table1: no reference points");
-    setup.knot_map = std::make_shared<CamouflageMap<D>>(prey, *references, rules.travel_m);
+    setup.knot_map = std::make_shared<CamouflageMap<D>>(
+        prey, table_references<D>(world, knots, rules), rules.travel_m);
   } else {
     setup.knot_map = std::make_shared<WaypointMap<D>>(prey);
   }

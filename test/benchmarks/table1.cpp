@@ -3,14 +3,11 @@
 // Prints JSON; the argument is the number of worlds of each kind.
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 
-#include "benchmarks/benchmark_problem.h"
+#include "benchmarks/table_plan.h"
 #include "benchmarks/time_optimal.h"
-#include "optimization/trajectory_optimizer.h"
-#include "safety/curve_certificate.h"
 #include "trajectory/arc_length.h"
 #include "trajectory/extrema.h"
 
@@ -18,41 +15,6 @@ namespace mocha {
 namespace {
 
 constexpr double kSpacings_m[] = {1.0, 5.0, 8.0};
-// Limits are proved, and rounding must not decide.
-constexpr double kSlack = 1.0 + 1e-6;
-
-OptimizerRules stopping_rules() {
-  OptimizerRules rules;
-  rules.max_evaluations = 20000;
-  rules.relative_cost = 1e-5;
-  return rules;
-}
-
-template <int D>
-struct Run {
-  OptimizedTrajectory<D, 3> found;
-  double t_plan_s;
-  PiecewisePolynomial<D, 3> curve;  ///< found, stretched to its limits
-  bool feasible;
-};
-
-/// From the front-end path to a certified trajectory.
-template <int D>
-Run<D> plan(const BenchmarkWorld<D>& world, double spacing_m, bool camouflage,
-            const TableRules& rules) {
-  Run<D> run;
-  const auto begin = std::chrono::steady_clock::now();
-  const InitialKnots<D> knots = knots_on<D>(world.path, spacing_m, rules);
-  TrajectoryObjective<D, 3> objective(table_setup<D>(world, knots, camouflage, rules));
-  run.found = optimize<D, 3>(objective, objective.initial(knots.durations_s), stopping_rules());
-  run.curve = run.found.curve.stretched(
-      kSlack * stretch_within(run.found.curve, rules.max_speed, rules.max_acceleration));
-  const CurveCertificate<D, 3> certificate(run.curve);
-  run.feasible = !certificate.check_limits(rules.max_speed, rules.max_acceleration) &&
-                 !certificate.check_clearance(rules.radius_m, world.field, 0.0);
-  run.t_plan_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return run;
-}
 
 /// The smallest distance between the ball around the robot and an obstacle.
 template <int D>
@@ -71,7 +33,7 @@ class Rows {
   template <int D>
   void add(int world, double spacing_m, bool camouflage, const BenchmarkWorld<D>& where,
            const TableRules& rules) {
-    const Run<D> run = plan<D>(where, spacing_m, camouflage, rules);
+    const TablePlan<D> run = plan<D>(where, spacing_m, camouflage, rules);
     const double length_m = arc_length(run.curve);
     const double total_s = run.curve.duration();
     const double kinematic_s =

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <chrono>
+
+#include "benchmarks/benchmark_problem.h"
+#include "optimization/trajectory_optimizer.h"
+#include "safety/curve_certificate.h"
+#include "trajectory/extrema.h"
+
+namespace mocha {
+
+/// What planning for Table I gives.
+template <int D>
+struct TablePlan {
+  OptimizedTrajectory<D, 3> found;
+  double t_plan_s;
+  PiecewisePolynomial<D, 3> curve;  ///< found, stretched to its limits
+  bool feasible;
+};
+
+/// From the front-end path to a certified trajectory.
+template <int D>
+TablePlan<D> plan(const BenchmarkWorld<D>& world, double spacing_m, bool camouflage,
+                  const TableRules& rules) {
+  // Limits are proved, and rounding must not decide.
+  constexpr double kSlack = 1.0 + 1e-6;
+  OptimizerRules stopping;
+  stopping.max_evaluations = 20000;
+  stopping.relative_cost = 1e-5;
+  TablePlan<D> plan;
+  const auto begin = std::chrono::steady_clock::now();
+  const InitialKnots<D> knots = knots_on<D>(world.path, spacing_m, rules);
+  TrajectoryObjective<D, 3> objective(table_setup<D>(world, knots, camouflage, rules));
+  plan.found = optimize<D, 3>(objective, objective.initial(knots.durations_s), stopping);
+  plan.curve = plan.found.curve.stretched(
+      kSlack * stretch_within(plan.found.curve, rules.max_speed, rules.max_acceleration));
+  const CurveCertificate<D, 3> certificate(plan.curve);
+  plan.feasible = !certificate.check_limits(rules.max_speed, rules.max_acceleration) &&
+                  !certificate.check_clearance(rules.radius_m, world.field, 0.0);
+  plan.t_plan_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return plan;
+}
+
+}  // namespace mocha
