@@ -36,7 +36,8 @@ class SimulatedRobot {
 
  private:
   void turn_wheel(double& speed, double wanted, double dt) const {
-    wanted = std::clamp(gain_ * wanted, -model_.limits.max_wheel_speed, model_.limits.max_wheel_speed);
+    wanted =
+        std::clamp(gain_ * wanted, -model_.limits.max_wheel_speed, model_.limits.max_wheel_speed);
     const double limit = model_.max_wheel_acceleration;
     speed += dt * std::clamp((wanted - speed) / model_.actuator_lag_s, -limit, limit);
   }
