@@ -1,81 +1,114 @@
 #include "trajectory/minco.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <array>
 #include <cassert>
-#include <cmath>
+
+#include "trajectory/hermite.h"
 
 namespace mocha {
 namespace {
 
-double falling_factorial(int n, int k) {
-  double product = 1.0;
-  for (int j = 0; j < k; ++j) product *= n - j;
-  return product;
+// These helpers are always inlined for speed, and because the interprocedural analysis of GCC 12
+// (ipa-modref) overlooks that such a loop reads all columns, and drops the stores before the call.
+
+/// The same column, with a zero below it where that makes the number of rows even.
+template <int Rows, typename Expression>
+EIGEN_ALWAYS_INLINE Eigen::Matrix<double, Rows, 1> padded(const Expression& column) {
+  Eigen::Matrix<double, Rows, 1> result;
+  result.template head<Expression::RowsAtCompileTime>() = column;
+  if (Rows > Expression::RowsAtCompileTime) result[Rows - 1] = 0.0;
+  return result;
 }
 
-/// Matrices that depend on S alone, for one piece in normalised time.
-template <int S>
-struct Constants {
-  using Matrix = Eigen::Matrix<double, 2 * S, 2 * S>;
-  Matrix hermite;      ///< end derivatives (start 0..S-1, end 0..S-1) -> coefficients
-  Matrix effort;       ///< coefficients -> effort (27)
-  Matrix ends_effort;  ///< end derivatives -> effort
+/// Column c of the result is the sum of columns r times table(r, c). Unlike Eigen's products, which
+/// fuse multiplication and addition where the processor can, it gives the same bits everywhere.
+template <int R, int C, typename Table>
+EIGEN_ALWAYS_INLINE Eigen::Matrix<double, R, C> times(const Eigen::Matrix<double, R, C>& columns,
+                                                      const Table& table) {
+  Eigen::Matrix<double, R, C> result;
+  for (int c = 0; c < C; ++c) {
+    result.col(c) = table(0, c) * columns.col(0);
+    for (int r = 1; r < C; ++r) result.col(c) += table(r, c) * columns.col(r);
+  }
+  return result;
+}
 
-  Constants() {
-    Matrix evaluate = Matrix::Zero();
-    effort.setZero();
-    for (int k = 0; k < S; ++k) {
-      evaluate(k, k) = falling_factorial(k, k);
-      for (int j = k; j < 2 * S; ++j) evaluate(S + k, j) = falling_factorial(j, k);
-    }
-    for (int a = S; a < 2 * S; ++a) {
-      for (int b = S; b < 2 * S; ++b) {
-        effort(a, b) = falling_factorial(a, S) * falling_factorial(b, S) / (a + b - 2 * S + 1);
+/// The sum of the rows, in the same order everywhere.
+template <int R>
+EIGEN_ALWAYS_INLINE double total(const Eigen::Matrix<double, R, 1>& column) {
+  double sum = column[0] + column[1];
+  for (int r = 2; r < R; ++r) sum += column[r];
+  return sum;
+}
+
+/// Derivatives by time become derivatives by normalised time; gradients by the latter become
+/// gradients by the former.
+template <int R, int S>
+EIGEN_ALWAYS_INLINE Eigen::Matrix<double, R, S> scaled(Eigen::Matrix<double, R, S> derivatives,
+                                                       double tau) {
+  double power = tau;
+  for (int k = 1; k < S; ++k, power *= tau) derivatives.col(k) *= power;
+  return derivatives;
+}
+
+/// By how much the end misses the Taylor expansion about the start.
+template <int R, int S>
+EIGEN_ALWAYS_INLINE Eigen::Matrix<double, R, S> gap(const Eigen::Matrix<double, R, S>& start,
+                                                    const Eigen::Matrix<double, R, S>& end) {
+  Eigen::Matrix<double, R, S> gap = end - start;
+  for (int k = 0; k < S; ++k) {
+    for (int l = k + 1; l < S; ++l) gap.col(k) -= taylor_weight(k, l) * start.col(l);
+  }
+  return gap;
+}
+
+/// rate^(2S-1): the effort of a piece that lasts 1 / rate, by that of the same in normalised time.
+template <int S>
+double effort_scale(double rate) {
+  double power = rate;
+  for (int j = 1; j < S; ++j) power *= rate * rate;
+  return power;
+}
+
+/// Half the effort's second derivatives by the free derivatives at the ends of a piece, and by its
+/// displacement.
+template <int S>
+struct Stiffness {
+  Eigen::Matrix<double, S - 1, S - 1> end;    ///< both at the end
+  Eigen::Matrix<double, S - 1, S - 1> cross;  ///< row at the end, column at the start
+  Eigen::Matrix<double, S - 1, 1> pull;       ///< end by displacement
+
+  explicit Stiffness(double rate) {
+    static constexpr auto kByGap = forces_by_gap<S>();
+    static constexpr auto kByStart = forces_by_start<S>();
+    std::array<double, 2 * S - 1> power;  // by the sum of the orders of two derivatives
+    power[2 * S - 2] = rate;
+    for (int order = 2 * S - 2; order > 0; --order) power[order - 1] = power[order] * rate;
+    for (int k = 1; k < S; ++k) {
+      pull[k - 1] = kByGap(k, 0) * power[k];
+      for (int l = 1; l < S; ++l) {
+        end(k - 1, l - 1) = kByGap(k, l) * power[k + l];
+        cross(k - 1, l - 1) = kByStart(k, l) * power[k + l];
       }
     }
-    hermite = evaluate.inverse();
-    ends_effort = hermite.transpose() * effort * hermite;
   }
 };
-
-template <int S>
-const Constants<S>& constants() {
-  static const Constants<S> instance;
-  return instance;
-}
-
-/// tau^0 .. tau^(S-1), repeated for both ends: scales derivatives by time to normalised ones.
-template <int S>
-Eigen::Matrix<double, 2 * S, 1> end_scales(double tau) {
-  Eigen::Matrix<double, 2 * S, 1> scales;
-  double power = 1.0;
-  for (int k = 0; k < S; ++k, power *= tau) scales[k] = scales[S + k] = power;
-  return scales;
-}
 
 }  // namespace
 
 template <int D, int S>
 void Minco<D, S>::resize(int pieces) {
   assert(pieces >= 1);
-  states_.resize(pieces + 1);
+  states_.assign(pieces + 1, Derivatives::Zero());
   pieces_.resize(pieces);
   tau_.resize(pieces);
-  energy_.resize(pieces);
-  by_ends_.resize(pieces);
-  diagonal_.resize(pieces - 1);
-  below_.resize(pieces - 1);
-  work_.resize(pieces - 1);
-}
-
-template <int D, int S>
-auto Minco<D, S>::ends(int i) const -> Ends {
-  Ends ends;
-  ends.template topRows<S>() = states_[i].transpose();
-  ends.template bottomRows<S>() = states_[i + 1].transpose();
-  return ends;
+  rate_.resize(pieces);
+  forces_.resize(pieces);
+  efforts_.resize(pieces);
+  inverse_.assign(pieces, Block::Zero());
+  below_.assign(pieces, Block::Zero());
+  adjoint_.assign(pieces, Free::Zero());
 }
 
 template <int D, int S>
@@ -83,61 +116,74 @@ void Minco<D, S>::solve(const State& start, const State& end, const Knots& knots
                         const Eigen::VectorXd& durations_s) {
   const int m = pieces();
   assert(durations_s.size() == m && knots.cols() == m - 1);
-  const auto& constant = constants<S>();
-  states_.front() = start;
-  states_.back() = end;
-  for (int k = 1; k < m; ++k) {
-    states_[k].setZero();
-    states_[k].col(0) = knots.col(k - 1);
-  }
+  states_.front().template topRows<D>() = start;
+  states_.back().template topRows<D>() = end;
   for (int i = 0; i < m; ++i) {
     tau_[i] = durations_s[i];
-    const auto scales = end_scales<S>(tau_[i]);
-    energy_[i] = std::pow(tau_[i], 1 - 2 * S) *
-                 (scales.asDiagonal() * constant.ends_effort * scales.asDiagonal());
+    rate_[i] = 1.0 / durations_s[i];
+    if (i > 0) states_[i].col(0).template head<D>() = knots.col(i - 1);
   }
-  factor();
-  // With the unknown derivatives still zero, the effort's gradient is minus the right-hand side.
-  for (int k = 0; k + 1 < m; ++k) {
-    work_[k] = -(energy_[k].template bottomRows<kFree>() * ends(k) +
-                 energy_[k + 1].template middleRows<kFree>(1) * ends(k + 1));
+  eliminate();
+  Free free = states_[m].template rightCols<kFree>();
+  for (int i = m - 1; i > 0; --i) {
+    const Free right = states_[i].template rightCols<kFree>();
+    free = times(right, inverse_[i]) - times(free, below_[i]);
+    states_[i].template rightCols<kFree>() = free;
+    shape(i);
   }
-  substitute(work_);
-  for (int k = 1; k < m; ++k) {
-    states_[k].template rightCols<kFree>() = work_[k - 1].transpose();
-  }
-  for (int i = 0; i < m; ++i) {
-    pieces_[i].noalias() =
-        (constant.hermite * (end_scales<S>(tau_[i]).asDiagonal() * ends(i))).transpose();
-  }
+  shape(0);
 }
 
+/// Factors the conditions on the free derivatives and leaves the eliminated right-hand side in
+/// their place.
 template <int D, int S>
-void Minco<D, S>::factor() {
-  for (int k = 0; k + 1 < pieces(); ++k) {
-    Block block = energy_[k].template bottomRightCorner<kFree, kFree>() +
-                  energy_[k + 1].template block<kFree, kFree>(1, 1);
-    if (k > 0) {
-      below_[k] = energy_[k].template block<kFree, kFree>(S + 1, 1) * diagonal_[k - 1].transpose();
-      block.noalias() -= below_[k] * below_[k].transpose();
+void Minco<D, S>::eliminate() {
+  Block block = Block::Zero();
+  Free right = Free::Zero();
+  for (int i = 0; i < pieces(); ++i) {
+    const Stiffness<S> stiffness(rate_[i]);
+    const Column displacement = states_[i + 1].col(0) - states_[i].col(0);
+    if (i == 0) {
+      const Free start = states_[0].template rightCols<kFree>();
+      block = stiffness.end;
+      right = -times(start, stiffness.cross.transpose());
+    } else {
+      // The start of a piece is its end in a mirror: odd derivatives change sign.
+      for (int k = 0; k < kFree; ++k) {
+        right.col(k) -= (k % 2 == 0 ? 1 : -1) * stiffness.pull[k] * displacement;
+        for (int l = 0; l < kFree; ++l) {
+          block(k, l) += ((k + l) % 2 == 0 ? 1 : -1) * stiffness.end(k, l);
+        }
+      }
+      const Block inverse = block.inverse();
+      const Block below = times(stiffness.cross, inverse);
+      states_[i].template rightCols<kFree>() = right;
+      inverse_[i] = inverse;
+      below_[i] = below;
+      block = stiffness.end - times(below, stiffness.cross.transpose());
+      right = -times(right, below.transpose());
     }
-    const Eigen::LLT<Block> cholesky(block);
-    diagonal_[k].setIdentity();
-    cholesky.matrixL().solveInPlace(diagonal_[k]);
+    for (int k = 0; k < kFree; ++k) right.col(k) -= stiffness.pull[k] * displacement;
   }
 }
 
+/// Coefficients, forces and effort of a piece whose ends are known.
 template <int D, int S>
-void Minco<D, S>::substitute(std::vector<Rows>& rhs) const {
-  const int n = static_cast<int>(rhs.size());
-  for (int k = 0; k < n; ++k) {
-    if (k > 0) rhs[k].noalias() -= below_[k] * rhs[k - 1];
-    rhs[k] = (diagonal_[k] * rhs[k]).eval();
+void Minco<D, S>::shape(int i) {
+  static constexpr auto kCoefficients = coefficients_by_gap<S>();
+  static constexpr auto kForces = forces_by_gap<S>();
+  const Derivatives start = scaled(states_[i], tau_[i]);
+  const Derivatives missed = gap(start, scaled(states_[i + 1], tau_[i]));
+  const Derivatives bend = times(missed, kCoefficients);
+  const Derivatives forces = times(missed, kForces);
+  for (int k = 0; k < S; ++k) {
+    pieces_[i].col(k) = taylor_weight(0, k) * start.col(k).template head<D>();
+    pieces_[i].col(S + k) = bend.col(k).template head<D>();
   }
-  for (int k = n - 1; k >= 0; --k) {
-    if (k + 1 < n) rhs[k].noalias() -= below_[k + 1].transpose() * rhs[k + 1];
-    rhs[k] = (diagonal_[k].transpose() * rhs[k]).eval();
-  }
+  Column sum = missed.col(0).cwiseProduct(forces.col(0));
+  for (int k = 1; k < S; ++k) sum += missed.col(k).cwiseProduct(forces.col(k));
+  forces_[i] = forces;
+  efforts_[i] = effort_scale<S>(rate_[i]) * total(sum);
 }
 
 template <int D, int S>
@@ -148,10 +194,7 @@ auto Minco<D, S>::curve() const -> Curve {
 template <int D, int S>
 double Minco<D, S>::effort() const {
   double sum = 0.0;
-  for (int i = 0; i < pieces(); ++i) {
-    sum += std::pow(tau_[i], 1 - 2 * S) *
-           (pieces_[i] * constants<S>().effort).cwiseProduct(pieces_[i]).sum();
-  }
+  for (const double effort : efforts_) sum += effort;
   return sum;
 }
 
@@ -159,50 +202,76 @@ template <int D, int S>
 void Minco<D, S>::add_effort_gradient(double weight, std::vector<Piece>& by_piece,
                                       Eigen::VectorXd& by_duration) const {
   for (int i = 0; i < pieces(); ++i) {
-    const Piece half = weight * std::pow(tau_[i], 1 - 2 * S) * pieces_[i] * constants<S>().effort;
-    by_piece[i] += 2.0 * half;
-    by_duration[i] += (1 - 2 * S) / tau_[i] * half.cwiseProduct(pieces_[i]).sum();
+    const Derivatives by_gap = 2.0 * weight * effort_scale<S>(rate_[i]) * forces_[i];
+    for (int j = S; j < 2 * S; ++j) {
+      Column sum = by_gap.col(0);
+      for (int k = 1; k < S; ++k) sum += falling_factorial(j, k) * by_gap.col(k);
+      by_piece[i].col(j) += sum.template head<D>();
+    }
+    by_duration[i] += (1 - 2 * S) * weight * rate_[i] * efforts_[i];
   }
 }
 
 template <int D, int S>
 void Minco<D, S>::propagate(const std::vector<Piece>& by_piece, Eigen::VectorXd& by_duration,
                             Knots& by_knot) {
-  const int m = pieces();
-  const auto& constant = constants<S>();
-  for (int i = 0; i < m; ++i) {
-    const auto scales = end_scales<S>(tau_[i]);
-    const Ends by_scaled = constant.hermite.transpose() * by_piece[i].transpose();
-    by_ends_[i] = scales.asDiagonal() * by_scaled;
-    const Ends end_data = ends(i);
-    for (int a = 0; a < 2 * S; ++a) {
-      by_duration[i] += (a % S) / tau_[i] * by_ends_[i].row(a).dot(end_data.row(a));
+  static constexpr auto kForces = forces_by_gap<S>();
+  pull_back(by_piece, by_duration, by_knot);
+  // The adjoint: how J feels the conditions on the free derivatives.
+  Free free = Free::Zero();
+  Derivatives start = Derivatives::Zero();
+  for (int i = pieces() - 1; i >= 0; --i) {
+    const Derivatives end = scaled(start, tau_[i]);
+    free = times(adjoint_[i], inverse_[i]) - times(free, below_[i]);
+    start.template rightCols<kFree>() = free;
+    const Derivatives reaction = times(gap(scaled(start, tau_[i]), end), kForces);
+    const double scale = effort_scale<S>(rate_[i]);
+    const Eigen::Matrix<double, D, 1> force = scale * reaction.col(0).template head<D>();
+    if (i + 1 < pieces()) by_knot.col(i) -= force;
+    if (i > 0) by_knot.col(i - 1) += force;
+    // Let the piece last longer: its end moves on along it, and the forces there change.
+    const Derivatives now = scaled(states_[i + 1], tau_[i]);
+    Column sum = reaction.col(S - 1).cwiseProduct(forces_[i].col(S - 1));
+    for (int k = 1; k < S; ++k) {
+      sum += end.col(k).cwiseProduct(forces_[i].col(k - 1)) +
+             reaction.col(k - 1).cwiseProduct(now.col(k));
     }
+    by_duration[i] += scale * rate_[i] * total(sum);
   }
-  for (int k = 0; k + 1 < m; ++k) {
-    work_[k] =
-        by_ends_[k].template bottomRows<kFree>() + by_ends_[k + 1].template middleRows<kFree>(1);
-  }
-  substitute(
-      work_);  // the adjoint: how J feels the optimality conditions of the unknown derivatives
-  for (int k = 0; k + 1 < m; ++k) {
-    by_knot.col(k) = (by_ends_[k].row(S) + by_ends_[k + 1].row(0)).transpose();
-  }
-  for (int i = 0; i < m; ++i) {
-    Ends adjoint = Ends::Zero();
-    if (i > 0) adjoint.template middleRows<kFree>(1) = work_[i - 1];
-    if (i + 1 < m) adjoint.template bottomRows<kFree>() = work_[i];
-    const Ends force = energy_[i] * adjoint;
-    if (i > 0) by_knot.col(i - 1) -= force.row(0).transpose();
-    if (i + 1 < m) by_knot.col(i) -= force.row(S).transpose();
-    const Ends end_data = ends(i);
-    const Ends response = energy_[i] * end_data;
-    for (int a = 0; a < 2 * S; ++a) {
-      // d(energy)_ab/d(tau) = (d_a + d_b + 1 - 2S) / tau * energy_ab, with d the derivative order
-      // of the entry.
-      by_duration[i] -= ((a % S) + 0.5 * (1 - 2 * S)) / tau_[i] *
-                        (adjoint.row(a).dot(response.row(a)) + force.row(a).dot(end_data.row(a)));
+}
+
+/// Gradients by pieces become gradients by states and durations. Those by positions are left in
+/// `by_knot`; those by free derivatives in `adjoint_`, eliminated as a right-hand side.
+template <int D, int S>
+void Minco<D, S>::pull_back(const std::vector<Piece>& by_piece, Eigen::VectorXd& by_duration,
+                            Knots& by_knot) {
+  static constexpr auto kCoefficients = coefficients_by_gap<S>();
+  Derivatives by_state = Derivatives::Zero();
+  for (int i = 0; i < pieces(); ++i) {
+    Derivatives by_start;
+    Derivatives by_end = Derivatives::Zero();
+    for (int j = 0; j < S; ++j) {
+      by_start.col(j) = taylor_weight(0, j) * padded<kRows>(by_piece[i].col(j));
+      const Column by_bend = padded<kRows>(by_piece[i].col(S + j));
+      for (int k = 0; k < S; ++k) by_end.col(k) += kCoefficients(k, j) * by_bend;
     }
+    for (int l = 0; l < S; ++l) {
+      for (int k = 0; k <= l; ++k) by_start.col(l) -= taylor_weight(k, l) * by_end.col(k);
+    }
+    by_start = scaled(by_start, tau_[i]);
+    by_end = scaled(by_end, tau_[i]);
+    Column sum = Column::Zero();
+    for (int k = 1; k < S; ++k) {
+      sum += k * (by_start.col(k).cwiseProduct(states_[i].col(k)) +
+                  by_end.col(k).cwiseProduct(states_[i + 1].col(k)));
+    }
+    by_duration[i] += rate_[i] * total(sum);
+    by_state += by_start;
+    if (i > 0) by_knot.col(i - 1) = by_state.col(0).template head<D>();
+    const Free free = by_state.template rightCols<kFree>();
+    adjoint_[i] = free;
+    by_state = by_end;
+    by_state.template rightCols<kFree>() -= times(free, below_[i].transpose());
   }
 }
 

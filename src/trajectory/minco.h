@@ -12,10 +12,11 @@ namespace mocha {
 ///
 /// The unknowns are the derivatives 1 .. S-1 at the interior knots. The effort is a quadratic form
 /// in them whose matrix is block-tridiagonal and positive definite (the banded system (6)(10) after
-/// eliminating the coefficients), so one Cholesky sweep gives the curve and the same factors give
-/// the adjoint, both in O(M) and without pivoting.
+/// eliminating the coefficients), so one elimination gives the curve and the same factors give the
+/// adjoint, both in O(M) and without pivoting.
 ///
-/// All storage is sized by resize(); after it, nothing allocates.
+/// All storage is sized by resize(); after it, nothing allocates. The arithmetic has a fixed order
+/// and fuses nothing, so that every machine gets the same bits from the same numbers.
 template <int D, int S>
 class Minco {
  public:
@@ -51,23 +52,27 @@ class Minco {
   void propagate(const std::vector<Piece>& by_piece, Eigen::VectorXd& by_duration, Knots& by_knot);
 
  private:
+  static constexpr int kRows = D + D % 2;  // whole SIMD packets; an odd last row stays zero
   using Block = Eigen::Matrix<double, kFree, kFree>;
-  using Rows = Eigen::Matrix<double, kFree, D>;
-  using Quadratic = Eigen::Matrix<double, 2 * S, 2 * S>;
-  using Ends = Eigen::Matrix<double, 2 * S, D>;  ///< derivatives 0..S-1 at both ends of a piece
+  using Column = Eigen::Matrix<double, kRows, 1>;
+  using Free = Eigen::Matrix<double, kRows, kFree>;     // columns: derivatives 1 .. S-1
+  using Derivatives = Eigen::Matrix<double, kRows, S>;  // columns: derivatives 0 .. S-1
 
-  void factor();
-  void substitute(std::vector<Rows>& right_hand_side) const;
-  Ends ends(int i) const;
+  void eliminate();
+  void shape(int i);
+  void pull_back(const std::vector<Piece>& by_piece, Eigen::VectorXd& by_duration, Knots& by_knot);
 
-  std::vector<State> states_;      // M+1 knots
-  std::vector<Piece> pieces_;      // M
-  std::vector<double> tau_;        // M
-  std::vector<Quadratic> energy_;  // M, in unscaled derivatives
-  std::vector<Block> diagonal_;    // M-1: inverse of the Cholesky factor's diagonal blocks
-  std::vector<Block> below_;       // M-2: blocks below the diagonal of the factor
-  std::vector<Rows> work_;         // M-1
-  std::vector<Ends> by_ends_;      // M
+  std::vector<Derivatives> states_;  // M+1 knots
+  std::vector<Piece> pieces_;        // M
+  std::vector<double> tau_;          // M
+  std::vector<double> rate_;         // M: 1 / tau
+  std::vector<Derivatives> forces_;  // M: half the effort's derivative by a piece's normalised end
+  std::vector<double> efforts_;      // M
+  // The factor at each knot: the inverse of its diagonal block, and the block below that, times it.
+  // Both are zero at the first knot, where nothing is free.
+  std::vector<Block> inverse_;  // M
+  std::vector<Block> below_;    // M
+  std::vector<Free> adjoint_;   // M
 };
 
 extern template class Minco<2, 2>;

@@ -44,7 +44,9 @@ auto PiecewisePolynomial<D, S>::derivative(const Location& at, int order) const 
     for (int j = 0; j < order; ++j) falling *= k - j;
     sum = sum * at.u + falling * c.col(k);
   }
-  return sum / std::pow(durations_[at.piece], order);
+  double scale = 1.0;
+  for (int j = 0; j < order; ++j) scale *= durations_[at.piece];
+  return sum / scale;
 }
 
 template <int D, int S>
@@ -73,7 +75,8 @@ PiecewisePolynomial<D, S> PiecewisePolynomial<D, S>::slice(double t0, double t1)
     for (int j = 0; j < kCoefficients; ++j) {
       for (int k = kCoefficients - 2; k >= j; --k) shifted.col(k) += u0 * shifted.col(k + 1);
     }
-    for (int k = 0; k < kCoefficients; ++k) shifted.col(k) *= std::pow(u1 - u0, k);
+    double power = 1.0;
+    for (int k = 1; k < kCoefficients; ++k) shifted.col(k) *= power *= u1 - u0;
     pieces.push_back(shifted);
     durations.push_back((u1 - u0) * tau);
   }
