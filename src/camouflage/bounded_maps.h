@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 
 namespace mocha {
 
@@ -9,12 +10,11 @@ inline double duration_of(double eta) {
   return eta > 0.0 ? (0.5 * eta + 1.0) * eta + 1.0 : 1.0 / ((0.5 * eta - 1.0) * eta + 1.0);
 }
 
-/// Its derivative (20).
-inline double duration_slope(double eta) {
-  if (eta > 0.0) return eta + 1.0;
-  const double denominator = 0.5 * eta * eta - eta + 1.0;
-  return (1.0 - eta) / (denominator * denominator);
+/// Its derivative (20), where the duration itself is known already.
+inline double duration_slope(double eta, double duration_s) {
+  return eta > 0.0 ? eta + 1.0 : (1.0 - eta) * duration_s * duration_s;
 }
+inline double duration_slope(double eta) { return duration_slope(eta, duration_of(eta)); }
 
 /// Inverse of duration_of() for a positive duration [s].
 inline double eta_of(double duration_s) {
@@ -33,9 +33,10 @@ struct LogisticMap {
   double scale;
 
   double value(double xi) const { return low + (high - low) * sigma(xi); }
-  double slope(double xi) const {
+  double slope(double xi) const { return value_and_slope(xi).second; }
+  std::pair<double, double> value_and_slope(double xi) const {
     const double s = sigma(xi);
-    return (high - low) * scale * s * (1.0 - s);
+    return {low + (high - low) * s, (high - low) * scale * s * (1.0 - s)};
   }
   /// Requires low < value < high.
   double inverse(double value) const { return std::log((value - low) / (high - value)) / scale; }

@@ -13,8 +13,9 @@ CamouflageMap<D>::CamouflageMap(const Knots& prey, const Knots& references, doub
   if (!(travel_m > 0.0) || !prey.allFinite() || !references.allFinite()) {
     throw std::invalid_argument("CamouflageMap: travel is not positive or a point is not finite");
   }
+  rays_ = prey - references;
   for (int k = 0; k < knots(); ++k) {
-    const double leverage_m = (prey_.col(k) - references_.col(k)).norm();
+    const double leverage_m = rays_.col(k).norm();
     if (!(leverage_m > 1e-6)) {
       throw std::invalid_argument("CamouflageMap: a reference point lies on the prey path");
     }
@@ -31,16 +32,19 @@ Eigen::VectorXd CamouflageMap<D>::initial() const {
 }
 
 template <int D>
-void CamouflageMap<D>::place(const double* xi, Knots& knots) const {
+void CamouflageMap<D>::place(const double* xi, Knots& knots, Eigen::VectorXd& slopes) const {
   for (int k = 0; k < this->knots(); ++k) {
-    knots.col(k) = references_.col(k) + maps_[k].value(xi[k]) * (prey_.col(k) - references_.col(k));
+    const auto [lambda, slope] = maps_[k].value_and_slope(xi[k]);
+    knots.col(k) = references_.col(k) + lambda * rays_.col(k);
+    slopes[k] = slope;
   }
 }
 
 template <int D>
-void CamouflageMap<D>::pull_back(const double* xi, const Knots& by_knot, double* by_xi) const {
+void CamouflageMap<D>::pull_back(const Eigen::VectorXd& slopes, const Knots& by_knot,
+                                 double* by_xi) const {
   for (int k = 0; k < knots(); ++k) {
-    by_xi[k] = by_knot.col(k).dot(prey_.col(k) - references_.col(k)) * maps_[k].slope(xi[k]);
+    by_xi[k] = by_knot.col(k).dot(rays_.col(k)) * slopes[k];
   }
 }
 

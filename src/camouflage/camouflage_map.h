@@ -23,14 +23,15 @@ class CamouflageMap : public KnotMap<D> {
   int knots() const override { return static_cast<int>(prey_.cols()); }
   int variables() const override { return knots(); }
   Eigen::VectorXd initial() const override;
-  void place(const double* xi, Knots& knots) const override;
-  void pull_back(const double* xi, const Knots& by_knot, double* by_xi) const override;
+  void place(const double* xi, Knots& knots, Eigen::VectorXd& slopes) const override;
+  void pull_back(const Eigen::VectorXd& slopes, const Knots& by_knot, double* by_xi) const override;
 
   double lambda(int knot, double xi) const { return maps_[knot].value(xi); }
 
  private:
   Knots prey_;
   Knots references_;
+  Knots rays_;  // from the references to the prey
   std::vector<LogisticMap> maps_;
 };
 

@@ -19,12 +19,14 @@ class KnotMap {
   /// The variables that put every knot on the prey path.
   virtual Eigen::VectorXd initial() const = 0;
 
-  /// Knots [m] of `variables()` values starting at `x`. `knots` has the right size; nothing is
-  /// allocated.
-  virtual void place(const double* x, Knots& knots) const = 0;
+  /// Knots [m] of `variables()` values starting at `x`; in `slopes`, of that size, it leaves what
+  /// pull_back() needs. `knots` has the right size, too; nothing is allocated.
+  virtual void place(const double* x, Knots& knots, Eigen::VectorXd& slopes) const = 0;
 
-  /// Chain rule: gradient by knots to gradient by variables, written from `by_x` on.
-  virtual void pull_back(const double* x, const Knots& by_knot, double* by_x) const = 0;
+  /// Chain rule at the last place(): gradient by knots to gradient by variables, written from
+  /// `by_x` on.
+  virtual void pull_back(const Eigen::VectorXd& slopes, const Knots& by_knot,
+                         double* by_x) const = 0;
 };
 
 /// The knots' coordinates themselves are the variables (plain MINCO).
@@ -39,10 +41,10 @@ class WaypointMap : public KnotMap<D> {
   Eigen::VectorXd initial() const override {
     return Eigen::Map<const Eigen::VectorXd>(prey_.data(), prey_.size());
   }
-  void place(const double* x, Knots& knots) const override {
+  void place(const double* x, Knots& knots, Eigen::VectorXd&) const override {
     knots = Eigen::Map<const Knots>(x, D, prey_.cols());
   }
-  void pull_back(const double*, const Knots& by_knot, double* by_x) const override {
+  void pull_back(const Eigen::VectorXd&, const Knots& by_knot, double* by_x) const override {
     Eigen::Map<Knots>(by_x, D, prey_.cols()) = by_knot;
   }
 

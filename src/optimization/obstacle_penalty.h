@@ -48,12 +48,13 @@ class ObstaclePenalty : public Penalty<D> {
   }
 
   void add(const PieceSamples<D>& samples, PenaltyRows<D>& rows) const override {
-    const double inverse_step =
-        (samples.size() - 1) / (std::sqrt(samples.bounds.max_speed2) * samples.bounds.duration_s);
+    const double step_m = std::sqrt(samples.bounds.max_speed2) * samples.bounds.duration_s /
+                          std::max(1, samples.size() - 1);
     for (int j = 0; j < samples.size();) {
       const double room_m = field_.room(samples.position().row(j), reach_m_);
       if (room_m > 0.0) {
-        j += 1 + static_cast<int>(std::min(room_m * inverse_step, 1.0 * samples.size()));
+        const bool to_the_end = !(room_m < step_m * samples.size());
+        j += to_the_end ? samples.size() : 1 + static_cast<int>(room_m / step_m);
         continue;
       }
       for (const Cover& cover : cover_) {

@@ -2,8 +2,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 
-#include "trajectory/piecewise_polynomial.h"
+#include "trajectory/bernstein.h"
 
 namespace mocha {
 
@@ -18,9 +19,28 @@ struct PieceBounds {
   double duration_s;
 };
 
-/// Bounds of a piece in normalised time that lasts `duration_s` > 0.
-template <int D, int S>
-PieceBounds<D> bounds_of(const Eigen::Matrix<double, D, 2 * S>& piece, double start_s,
-                         double duration_s);
+/// Bounds of a piece of C coefficients in normalised time that lasts `duration_s` > 0.
+template <int D, int C>
+PieceBounds<D> bounds_of(const Eigen::Matrix<double, D, C>& piece, double start_s,
+                         double duration_s) {
+  const Bernstein<D, C - 1> position = to_bernstein(piece);
+  const Bernstein<D, C - 2> course = derivative(position);
+  const Bernstein<D, C - 3> bend = derivative(course);
+  const Eigen::Matrix<double, D, 1> ahead = position.col(C - 1) - position.col(0);
+  const double least_ahead = std::max(0.0, (ahead.transpose() * course).minCoeff());
+  // One division for both quotients; kTiny keeps it finite where there is no way ahead.
+  constexpr double kTiny = 1e-100;
+  const double ahead2 = std::max(ahead.squaredNorm(), kTiny);
+  const double quotient = 1.0 / (duration_s * duration_s * ahead2);
+  const double inverse2 = quotient * ahead2;
+  PieceBounds<D> bounds;
+  bounds.box = {position.rowwise().minCoeff(), position.rowwise().maxCoeff()};
+  bounds.min_speed2 = least_ahead * least_ahead * quotient;
+  bounds.max_speed2 = course.colwise().squaredNorm().maxCoeff() * inverse2;
+  bounds.max_acceleration2 = bend.colwise().squaredNorm().maxCoeff() * inverse2 * inverse2;
+  bounds.start_s = start_s;
+  bounds.duration_s = duration_s;
+  return bounds;
+}
 
 }  // namespace mocha

@@ -106,7 +106,7 @@ double TimeQuadrature<D, S>::add(const Minco<D, S>& curve, const Penalties& pena
   for (int i = 0; i < curve.pieces(); ++i) {
     const double tau = curve.piece_duration(i);
     by_time_[i] = 0.0;
-    samples_.bounds = bounds_of<D, S>(curve.piece(i), start_s, tau);
+    samples_.bounds = bounds_of(curve.piece(i), start_s, tau);
     start_s += tau;
     const Derivatives wanted = choose(penalties);
     if (wanted == kNone) continue;

@@ -13,6 +13,7 @@ TrajectoryObjective<D, S>::TrajectoryObjective(Setup setup)
       quadrature_(setup_.kappa, pieces(), setup_.penalties.size()),
       knots_(D, pieces() - 1),
       by_knot_(D, pieces() - 1),
+      slopes_(setup_.knot_map->variables()),
       durations_(pieces()),
       by_duration_(pieces()),
       by_piece_(pieces()),
@@ -33,8 +34,9 @@ Eigen::VectorXd TrajectoryObjective<D, S>::initial(const Eigen::VectorXd& durati
 template <int D, int S>
 double TrajectoryObjective<D, S>::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {
   const KnotMap<D>& map = *setup_.knot_map;
-  const auto eta = x.tail(pieces()) / setup_.metres_per_eta;
-  map.place(x.data(), knots_);
+  const double eta_per_metre = 1.0 / setup_.metres_per_eta;
+  const auto eta = eta_per_metre * x.tail(pieces());
+  map.place(x.data(), knots_, slopes_);
   for (int i = 0; i < pieces(); ++i) durations_[i] = duration_of(eta[i]);
   minco_.solve(setup_.start, setup_.end, knots_, durations_);
 
@@ -49,10 +51,10 @@ double TrajectoryObjective<D, S>::evaluate(const Eigen::VectorXd& x, Eigen::Vect
       quadrature_.add(minco_, setup_.penalties, by_piece_, by_duration_, shares_);
   minco_.propagate(by_piece_, by_duration_, by_knot_);
 
-  map.pull_back(x.data(), by_knot_, gradient.data());
+  map.pull_back(slopes_, by_knot_, gradient.data());
   for (int i = 0; i < pieces(); ++i) {
     gradient[map.variables() + i] =
-        by_duration_[i] * duration_slope(eta[i]) / setup_.metres_per_eta;
+        eta_per_metre * by_duration_[i] * duration_slope(eta[i], durations_[i]);
   }
   return effort_ + duration_ + penalty;
 }

@@ -60,6 +60,7 @@ class TrajectoryObjective {
   TimeQuadrature<D, S> quadrature_;
   Knots knots_;
   Knots by_knot_;
+  Eigen::VectorXd slopes_;  // of the knot map
   Eigen::VectorXd durations_;
   Eigen::VectorXd by_duration_;
   std::vector<Piece> by_piece_;

@@ -57,6 +57,7 @@ template <int D>
 bool PrimitiveField<D>::fill(const Eigen::AlignedBox2d& ground, double cell_m) {
   origin_ = ground.min();
   cell_m_ = cell_m;
+  cells_per_m_ = 1.0 / cell_m;
   columns_ = 1 + static_cast<int>(ground.sizes().x() / cell_m);
   rows_ = 1 + static_cast<int>(ground.sizes().y() / cell_m);
   struct Listing {
@@ -104,8 +105,8 @@ auto PrimitiveField<D>::cell_box(int column, int row) const -> Box {
 
 template <int D>
 auto PrimitiveField<D>::listed(const Vector& p) const -> List {
-  const double x = (p.x() - origin_.x()) / cell_m_;
-  const double y = (p.y() - origin_.y()) / cell_m_;
+  const double x = (p.x() - origin_.x()) * cells_per_m_;
+  const double y = (p.y() - origin_.y()) * cells_per_m_;
   if (!(x >= 0.0 && x < columns_ && y >= 0.0 && y < rows_)) return {nullptr, nullptr};
   const int* start = &starts_[static_cast<int>(y) * columns_ + static_cast<int>(x)];
   return {entries_.data() + start[0], entries_.data() + start[1]};
@@ -170,7 +171,8 @@ bool PrimitiveField<D>::clear(const Box& box, double radius_m) const {
     const double distance = distance_m(primitive, box);
     return distance > 0.0 && distance >= radius_m;
   };
-  const double from_centre_m = radius_m + 0.5 * box.diagonal().norm();
+  // Along the axes instead of across: at least as much, and without a root.
+  const double from_centre_m = radius_m + 0.5 * box.diagonal().template lpNorm<1>();
   if (from_centre_m <= listed_m_) {
     for (const Entry& entry : listed(box.center())) {
       if (entry.bound_m > from_centre_m) return true;

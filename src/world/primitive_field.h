@@ -60,6 +60,7 @@ class PrimitiveField : public ObstacleField<D> {
   double listed_m_;
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
   double cell_m_ = 1.0;
+  double cells_per_m_ = 1.0;
   int columns_ = 0;
   int rows_ = 0;
   std::vector<int> starts_;  // of each cell's entries, and the end of the last

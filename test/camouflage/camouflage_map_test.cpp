@@ -30,7 +30,8 @@ struct Example {
 template <int D>
 Knots<D> placed(const KnotMap<D>& map, const Eigen::VectorXd& xi) {
   Knots<D> knots(D, map.knots());
-  map.place(xi.data(), knots);
+  Eigen::VectorXd slopes(xi.size());
+  map.place(xi.data(), knots, slopes);
   return knots;
 }
 
@@ -94,7 +95,10 @@ template <int D>
 void expect_pull_back(const KnotMap<D>& map, const Eigen::VectorXd& x) {
   Knots<D> by_knot = Knots<D>::Random(D, map.knots());
   Eigen::VectorXd by_x(map.variables());
-  map.pull_back(x.data(), by_knot, by_x.data());
+  Knots<D> knots(D, map.knots());
+  Eigen::VectorXd slopes(map.variables());
+  map.place(x.data(), knots, slopes);
+  map.pull_back(slopes, by_knot, by_x.data());
   constexpr double kStep = 1e-6;
   for (int i = 0; i < x.size(); ++i) {
     Eigen::VectorXd plus = x;
