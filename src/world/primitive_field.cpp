@@ -171,11 +171,16 @@ bool PrimitiveField<D>::clear(const Box& box, double radius_m) const {
     const double distance = distance_m(primitive, box);
     return distance > 0.0 && distance >= radius_m;
   };
-  // Along the axes instead of across: at least as much, and without a root.
-  const double from_centre_m = radius_m + 0.5 * box.diagonal().template lpNorm<1>();
-  if (from_centre_m <= listed_m_) {
+  // Who is farther from the centre than the radius and half the diagonal is out of reach. Compared
+  // by squares, as this is asked of every piece of a trajectory at every evaluation.
+  const double half_diagonal2 = 0.25 * box.diagonal().squaredNorm();
+  const auto out_of_reach = [&](double from_centre_m) {
+    const double gap_m = from_centre_m - radius_m;
+    return gap_m > 0.0 && gap_m * gap_m > half_diagonal2;
+  };
+  if (out_of_reach(listed_m_)) {
     for (const Entry& entry : listed(box.center())) {
-      if (entry.bound_m > from_centre_m) return true;
+      if (out_of_reach(entry.bound_m)) return true;
       if (!is_clear(primitives_[entry.primitive])) return false;
     }
     return true;
