@@ -10,7 +10,13 @@ class DynamicsPenalty : public Penalty<D> {
  public:
   /// Limits in m/s and m/s^2, positive.
   DynamicsPenalty(double weight, double max_speed, double max_acceleration)
-      : weight_(weight),
+      : DynamicsPenalty(weight, max_speed, weight, max_acceleration) {}
+
+  /// With a weight for each.
+  DynamicsPenalty(double speed_weight, double max_speed, double acceleration_weight,
+                  double max_acceleration)
+      : speed_weight_(speed_weight),
+        acceleration_weight_(acceleration_weight),
         inverse_v2_(1.0 / (max_speed * max_speed)),
         inverse_a2_(1.0 / (max_acceleration * max_acceleration)) {}
 
@@ -23,27 +29,30 @@ class DynamicsPenalty : public Penalty<D> {
 
   void add(const PieceSamples<D>& samples, PenaltyRows<D>& rows) const override {
     const Derivatives which = wanted(samples.bounds);
-    if (which & kVelocity)
-      add_excess(samples.velocity(), inverse_v2_, rows.value, rows.by_velocity());
+    if (which & kVelocity) {
+      add_excess(samples.velocity(), speed_weight_, inverse_v2_, rows.value, rows.by_velocity());
+    }
     if (which & kAcceleration) {
-      add_excess(samples.acceleration(), inverse_a2_, rows.value, rows.by_acceleration());
+      add_excess(samples.acceleration(), acceleration_weight_, inverse_a2_, rows.value,
+                 rows.by_acceleration());
     }
   }
 
  private:
   using Rows = typename PieceSamples<D>::Rows;
 
-  void add_excess(const Rows& entries, double inverse_limit2, Eigen::VectorXd& value,
-                  Rows& gradient) const {
+  static void add_excess(const Rows& entries, double weight, double inverse_limit2,
+                         Eigen::VectorXd& value, Rows& gradient) {
     for (int j = 0; j < entries.rows(); ++j) {
       const Cubic excess = cubic(entries.row(j).squaredNorm() * inverse_limit2 - 1.0);
       if (excess.value == 0.0) continue;
-      value[j] += weight_ * excess.value;
-      gradient.row(j) += (2.0 * weight_ * excess.slope * inverse_limit2) * entries.row(j);
+      value[j] += weight * excess.value;
+      gradient.row(j) += (2.0 * weight * excess.slope * inverse_limit2) * entries.row(j);
     }
   }
 
-  double weight_;
+  double speed_weight_;
+  double acceleration_weight_;
   double inverse_v2_;
   double inverse_a2_;
 };

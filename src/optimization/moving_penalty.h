@@ -35,7 +35,7 @@ class MovingPenalty : public Penalty<2> {
       const MovingObstacle::Disc disc = other.obstacle->at(begin_s + half_s);
       const double reach_m =
           reach_m_ + disc.radius_m + other.obstacle->max_closing_speed(begin_s) * half_s;
-      if (!(piece.box.exteriorDistance(disc.centre) > reach_m)) return kPosition;
+      if (!(piece.box.exteriorDistance(disc.centre) > reach_m)) return kPosition | kTime;
     }
     return kNone;
   }

@@ -18,7 +18,7 @@ inline Cubic cubic(double x) {
   return {x * x * x, 3.0 * x * x};
 }
 
-/// A set of derivatives of a trajectory, as bits: 1 << order.
+/// A set of derivatives of a trajectory, as bits: 1 << order; and its time.
 using Derivatives = unsigned;
 constexpr int kOrders = 4;
 constexpr Derivatives kNone = 0;
@@ -26,9 +26,10 @@ constexpr Derivatives kPosition = 1;
 constexpr Derivatives kVelocity = 2;
 constexpr Derivatives kAcceleration = 4;
 constexpr Derivatives kJerk = 8;
+constexpr Derivatives kTime = 16;
 
-/// One piece of a trajectory at kappa + 1 uniform times, a row each: what penalties see.
-/// Derivatives that no penalty wants hold nothing of use.
+/// One piece of a trajectory at kappa + 1 uniform times, a row each: what penalties see. What no
+/// penalty wants holds nothing of use.
 template <int D>
 struct PieceSamples {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, D>;

@@ -59,9 +59,11 @@ void TimeQuadrature<D, S>::sample(const Piece& coefficients, Derivatives wanted)
     samples_.derivative[order].noalias() = basis_[order].lazyProduct(scaled.transpose());
     rows_.by_derivative[order].setZero();
   }
-  samples_.time_s =
-      (samples_.bounds.start_s + samples_.bounds.duration_s * alpha_.array()).matrix();
-  rows_.by_time.setZero();
+  if (wanted & kTime) {
+    samples_.time_s =
+        (samples_.bounds.start_s + samples_.bounds.duration_s * alpha_.array()).matrix();
+    rows_.by_time.setZero();
+  }
 }
 
 /// The integral over the piece; zero only if every sample's penalty is.
@@ -106,7 +108,7 @@ double TimeQuadrature<D, S>::add(const Minco<D, S>& curve, const Penalties& pena
   for (int i = 0; i < curve.pieces(); ++i) {
     const double tau = curve.piece_duration(i);
     by_time_[i] = 0.0;
-    samples_.bounds = bounds_of(curve.piece(i), start_s, tau);
+    set_bounds(curve.piece(i), start_s, tau, samples_.bounds);
     start_s += tau;
     const Derivatives wanted = choose(penalties);
     if (wanted == kNone) continue;
@@ -114,10 +116,11 @@ double TimeQuadrature<D, S>::add(const Minco<D, S>& curve, const Penalties& pena
     const double integral = penalise(penalties, shares);
     if (integral == 0.0) continue;
     total += integral;
+    by_duration[i] += integral / tau + propagate(wanted, by_piece[i]);
+    if (!(wanted & kTime)) continue;
     const auto by_time = rows_.by_time.cwiseProduct(omega_);
     by_time_[i] = tau / kappa_ * by_time.sum();
-    by_duration[i] +=
-        integral / tau + propagate(wanted, by_piece[i]) + tau / kappa_ * by_time.dot(alpha_);
+    by_duration[i] += tau / kappa_ * by_time.dot(alpha_);
   }
   // (26): a longer piece moves every later sample in absolute time.
   double by_later = 0.0;

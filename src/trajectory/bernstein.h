@@ -46,7 +46,8 @@ Eigen::Matrix<double, D, C> to_bernstein(const Eigen::Matrix<double, D, C>& mono
 
 /// The derivative by u.
 template <int D, int C>
-Eigen::Matrix<double, D, C - 1> derivative(const Eigen::Matrix<double, D, C>& control) {
+EIGEN_STRONG_INLINE Eigen::Matrix<double, D, C - 1> derivative(
+    const Eigen::Matrix<double, D, C>& control) {
   return (C - 1) * (control.template rightCols<C - 1>() - control.template leftCols<C - 1>());
 }
 

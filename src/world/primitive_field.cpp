@@ -104,15 +104,6 @@ auto PrimitiveField<D>::cell_box(int column, int row) const -> Box {
 }
 
 template <int D>
-auto PrimitiveField<D>::listed(const Vector& p) const -> List {
-  const double x = (p.x() - origin_.x()) * cells_per_m_;
-  const double y = (p.y() - origin_.y()) * cells_per_m_;
-  if (!(x >= 0.0 && x < columns_ && y >= 0.0 && y < rows_)) return {nullptr, nullptr};
-  const int* start = &starts_[static_cast<int>(y) * columns_ + static_cast<int>(x)];
-  return {entries_.data() + start[0], entries_.data() + start[1]};
-}
-
-template <int D>
 auto PrimitiveField<D>::sample(const Vector& p) const -> Sample {
   if (!p.allFinite()) return {kNan, Vector::Constant(kNan)};
   Sample nearest{kInfinity, Vector::Zero()};

@@ -54,7 +54,13 @@ class PrimitiveField : public ObstacleField<D> {
   Box cell_box(int column, int row) const;
   /// What is within listed_m_ of the cell that holds p, nearest to the cell first; nothing for a p
   /// outside of the grid, which is farther than that from everything.
-  List listed(const Vector& p) const;
+  List listed(const Vector& p) const {
+    const double x = (p.x() - origin_.x()) * cells_per_m_;
+    const double y = (p.y() - origin_.y()) * cells_per_m_;
+    if (!(x >= 0.0 && x < columns_ && y >= 0.0 && y < rows_)) return {nullptr, nullptr};
+    const int* start = &starts_[static_cast<int>(y) * columns_ + static_cast<int>(x)];
+    return {entries_.data() + start[0], entries_.data() + start[1]};
+  }
 
   std::vector<Primitive> primitives_;
   double listed_m_;

@@ -66,7 +66,6 @@ template <int D>
 typename TrajectoryObjective<D, 3>::Setup table_setup(const BenchmarkWorld<D>& world,
                                                       const InitialKnots<D>& knots, bool camouflage,
                                                       const TableRules& rules) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
   const auto to_sixth = [](double limit) { return std::pow(limit, 6); };
   typename TrajectoryObjective<D, 3>::Setup setup;
   setup.start.setZero();
@@ -88,9 +87,8 @@ typename TrajectoryObjective<D, 3>::Setup table_setup(const BenchmarkWorld<D>& w
       rules.w_o * to_sixth(rules.d_s_m), world.field,
       std::vector<typename ObstaclePenalty<D>::Cover>{{0.0, rules.d_s_m}}, 1.0));
   setup.penalties.push_back(std::make_unique<DynamicsPenalty<D>>(
-      rules.w_d * to_sixth(rules.max_speed), rules.max_speed, kNever));
-  setup.penalties.push_back(std::make_unique<DynamicsPenalty<D>>(
-      rules.w_d * to_sixth(rules.max_acceleration), kNever, rules.max_acceleration));
+      rules.w_d * to_sixth(rules.max_speed), rules.max_speed,
+      rules.w_d * to_sixth(rules.max_acceleration), rules.max_acceleration));
   return setup;
 }
 

@@ -85,6 +85,11 @@ TEST(DynamicsPenalty, HasTheValuesOfHand) {  // (32)
   EXPECT_NEAR(value_of(penalty, sample_at(kZero, {4.0, 0.0}, {3.0, 3.0})), 280.0, 1e-9);
 }
 
+TEST(DynamicsPenalty, MayWeighSpeedAndAccelerationDifferently) {
+  const DynamicsPenalty<2> penalty(10.0, 2.0, 1000.0, 3.0);
+  EXPECT_NEAR(value_of(penalty, sample_at(kZero, {4.0, 0.0}, {3.0, 3.0})), 270.0 + 1000.0, 1e-9);
+}
+
 TEST(DynamicsPenalty, GradientMatchesDifferences) {
   const DynamicsPenalty<2> penalty(2.0, 0.8, 0.7);
   RandomSamples samples;

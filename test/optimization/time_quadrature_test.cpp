@@ -15,7 +15,7 @@ class SmoothPenalty : public Penalty<2> {
  public:
   const char* name() const override { return "smooth"; }
   Derivatives wanted(const PieceBounds<2>&) const override {
-    return kPosition | kVelocity | kAcceleration | kJerk;
+    return kPosition | kVelocity | kAcceleration | kJerk | kTime;
   }
   void add(const PieceSamples<2>& s, PenaltyRows<2>& rows) const override {
     for (int j = 0; j < s.size(); ++j) {

@@ -161,7 +161,7 @@ class Unskipped : public Penalty<D> {
   explicit Unskipped(std::unique_ptr<Penalty<D>> inner) : inner_(std::move(inner)) {}
   const char* name() const override { return inner_->name(); }
   Derivatives wanted(const PieceBounds<D>&) const override {
-    return kPosition | kVelocity | kAcceleration | kJerk;
+    return kPosition | kVelocity | kAcceleration | kJerk | kTime;
   }
   void add(const PieceSamples<D>& samples, PenaltyRows<D>& rows) const override {
     PieceSamples<D> unbounded = samples;
