@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1e-9;  // relative, of squares: half of what is promised
-constexpr double kRest = 1e-9;  // share of the largest velocity, below which a velocity is none
+constexpr double kRest = 1e-9;       // share of the largest velocity, below which there is none
 constexpr double kRounding = 1e-13;  // of control points, as a share of the largest
 
 template <int D, int C>
@@ -176,12 +176,12 @@ int divide_rest_out(Control<D, C>& velocity) {
   return zeros;
 }
 
-/// Divides by u^zeros what is of the given size, if that goes.
+/// Divides the turning of a course of size 1 by u^zeros, if that goes.
 template <int D, int C>
-bool divide(Control<D, C>& control, int zeros, double size) {
+bool divide(Control<D, C>& turning, int zeros) {
   for (; zeros > 0; --zeros) {
-    if (control.col(0).norm() > kRest * size) return false;
-    control = divided_at_start(control);
+    if (turning.col(0).norm() > kRest) return false;
+    turning = divided_at_start(turning);
   }
   return true;
 }
@@ -217,10 +217,9 @@ Extremum max_curvature(const PiecewisePolynomial<D, S>& curve) {
     if (scale == 0.0) return {kInfinity, curve.piece_start(i)};
     course /= scale;
     auto turning = cross(course, derivative(course));
-    const double size = largest(derivative(course));
-    if (!divide(turning, zeros_at_start, size)) return {kInfinity, 0.0};
+    if (!divide(turning, zeros_at_start)) return {kInfinity, 0.0};
     mirror(turning);
-    if (!divide(turning, zeros_at_end, size)) return {kInfinity, curve.duration()};
+    if (!divide(turning, zeros_at_end)) return {kInfinity, curve.duration()};
     mirror(turning);
     maximum.add({course, turning / scale}, curve.piece_start(i), curve.piece_duration(i));
   }

@@ -118,6 +118,21 @@ TEST(Extrema, ARestAtAnEndCountsByItsLimit) {
   expect_maximum(max_curvature(flat), 1e-3, 1.0, [&](double t) { return curvature(flat, t); });
 }
 
+TEST(Extrema, AStraightDriveFromRestToRestDoesNotBend) {
+  for (int seed = 0; seed < 50; ++seed) {
+    test::Problem<2, 3> problem(1 + seed % 4, seed);
+    const Vector2 along(std::cos(seed), std::sin(seed));
+    problem.start.setZero();
+    problem.end << 5.0 * along, Vector2::Zero(), Vector2::Zero();
+    double t = 0.0;
+    for (int k = 1; k < problem.pieces(); ++k) {  // where minimum jerk passes anyway
+      const double u = (t += problem.durations[k - 1]) / problem.durations.sum();
+      problem.knots.col(k - 1) = 5.0 * u * u * u * (10.0 - 15.0 * u + 6.0 * u * u) * along;
+    }
+    EXPECT_LT(max_curvature(problem.solved().curve()).value, 1e-9) << seed;
+  }
+}
+
 TEST(Extrema, ADepartureThatTurnsAtOnceIsInfinitelySharp) {
   const PlanarPath by_acceleration = path_of({0, 0, 1}, {0, 0, 0, 1});  // y = x^1.5
   EXPECT_EQ(max_curvature(by_acceleration).value, kInfinity);
