@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "trajectory/bernstein.h"
+#include "trajectory/piece_hull.h"
 
 namespace mocha {
 
@@ -24,20 +24,14 @@ struct PieceBounds {
 template <int D, int C>
 void set_bounds(const Eigen::Matrix<double, D, C>& piece, double start_s, double duration_s,
                 PieceBounds<D>& bounds) {
-  const Bernstein<D, C - 1> position = to_bernstein(piece);
-  const Bernstein<D, C - 2> course = derivative(position);
-  const Bernstein<D, C - 3> bend = derivative(course);
-  const Eigen::Matrix<double, D, 1> ahead = position.col(C - 1) - position.col(0);
-  const double least_ahead = std::max(0.0, (ahead.transpose() * course).minCoeff());
-  // One division for both quotients; kTiny keeps it finite where there is no way ahead.
-  constexpr double kTiny = 1e-100;
-  const double ahead2 = std::max(ahead.squaredNorm(), kTiny);
-  const double quotient = 1.0 / (duration_s * duration_s * ahead2);
-  const double inverse2 = quotient * ahead2;
-  bounds.box = {position.rowwise().minCoeff(), position.rowwise().maxCoeff()};
-  bounds.min_speed2 = least_ahead * least_ahead * quotient;
-  bounds.max_speed2 = course.colwise().squaredNorm().maxCoeff() * inverse2;
-  bounds.max_acceleration2 = bend.colwise().squaredNorm().maxCoeff() * inverse2 * inverse2;
+  const PieceHull<D, C> hull = piece_hull(piece, duration_s);
+  const Eigen::Matrix<double, D, 1> ahead = hull.position.col(C - 1) - hull.position.col(0);
+  const double least_ahead = std::max(0.0, (ahead.transpose() * hull.velocity).minCoeff());
+  constexpr double kTiny = 1e-100;  // keeps the quotient finite where there is no way ahead
+  bounds.box = {hull.position.rowwise().minCoeff(), hull.position.rowwise().maxCoeff()};
+  bounds.min_speed2 = least_ahead * least_ahead / std::max(ahead.squaredNorm(), kTiny);
+  bounds.max_speed2 = hull.velocity.colwise().squaredNorm().maxCoeff();
+  bounds.max_acceleration2 = hull.acceleration.colwise().squaredNorm().maxCoeff();
   bounds.start_s = start_s;
   bounds.duration_s = duration_s;
 }

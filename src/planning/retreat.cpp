@@ -5,16 +5,17 @@
 
 #include "planning/speed_profile.h"
 #include "safety/certificate.h"
-#include "trajectory/extrema.h"
 #include "trajectory/minco.h"
+#include "trajectory/time_scaling.h"
 
 namespace mocha {
 namespace {
 
 constexpr double kTrailStep_m = 0.2;  // closer points of the trail are noise of the pose
 constexpr double kKnotSpacing_m = 0.3;
-constexpr double kSlow_mps = 0.8;    // backward, where the lidar may not see
-constexpr double kFromBehind = 0.8;  // cosine between the trail and straight back
+constexpr double kSlow_mps = 0.8;         // backward, where the lidar may not see
+constexpr double kLongestStretch = 10.0;  // of the time that the profile asks for
+constexpr double kFromBehind = 0.8;       // cosine between the trail and straight back
 
 /// The trail from `here` backward, thinned out.
 std::vector<Vector2> way_back(const std::vector<Vector2>& trail, const Vector2& here,
@@ -54,8 +55,10 @@ std::optional<Motion> retreat_along(const std::vector<Vector2>& trail, const Pos
   minco.resize(last);
   minco.solve(from, to, knots.path.middleCols(1, last - 1), knots.durations_s);
   const PlanarPath curve = minco.curve();
-  const double stretch = stretch_within(curve, slow.max_speed, slow.max_acceleration);
-  const Motion motion(start_time_s, {DrivePhase{-1, curve.stretched(stretch)}});
+  const auto stretch =
+      smallest_stretch(curve, {slow.max_speed, slow.max_acceleration, kLongestStretch});
+  if (!stretch) return std::nullopt;
+  const Motion motion(start_time_s, {DrivePhase{-1, curve.stretched(*stretch)}});
   if (check_limits(motion, limits, start_time_s)) return std::nullopt;
   return motion;
 }

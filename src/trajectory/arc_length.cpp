@@ -1,63 +1,105 @@
 #include "trajectory/arc_length.h"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace mocha {
 namespace {
 
-constexpr double kTolerance = 1e-10;  // relative, of each half
-constexpr int kDeepest = 30;
-
-/// Integral of |dp/du| over [u0, u1] of a piece, by Gauss-Legendre with five points.
+/// The speed along a part of one piece, by normalised time [m].
 template <int D, int S>
-double gauss(const typename PiecewisePolynomial<D, S>::Piece& piece, double u0, double u1) {
-  constexpr double kNodes[] = {0.0, 0.5384693101056831, 0.9061798459386640};
-  constexpr double kWeights[] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
-  const double middle = 0.5 * (u0 + u1);
-  const double half = 0.5 * (u1 - u0);
-  const auto speed = [&](double u) {
-    Eigen::Matrix<double, D, 1> course = Eigen::Matrix<double, D, 1>::Zero();
-    for (int k = 2 * S - 1; k >= 1; --k) course = course * u + k * piece.col(k);
-    return course.norm();
-  };
-  double sum = kWeights[0] * speed(middle);
-  for (int i = 1; i < 3; ++i) {
-    sum += kWeights[i] * (speed(middle - half * kNodes[i]) + speed(middle + half * kNodes[i]));
-  }
-  return half * sum;
-}
+struct Part {
+  Eigen::Matrix<double, D, 2 * S - 1> velocity;  ///< column k: coefficient of u^k
+  double from;
+  double to;
 
-/// Halves until both halves add up to the whole; a cusp of the curve is only approached.
-template <int D, int S>
-double adaptive(const typename PiecewisePolynomial<D, S>::Piece& piece, double u0, double u1,
-                double whole, int depth) {
-  const double middle = 0.5 * (u0 + u1);
-  const double left = gauss<D, S>(piece, u0, middle);
-  const double right = gauss<D, S>(piece, middle, u1);
-  if (depth == kDeepest || std::abs(left + right - whole) <= kTolerance * whole) {
-    return left + right;
+  Part(const PiecewisePolynomial<D, S>& curve, int piece, double t0, double t1) {
+    for (int k = 1; k < 2 * S; ++k) velocity.col(k - 1) = k * curve.piece(piece).col(k);
+    const double start = curve.piece_start(piece);
+    from = std::clamp((t0 - start) / curve.piece_duration(piece), 0.0, 1.0);
+    to = std::clamp((t1 - start) / curve.piece_duration(piece), 0.0, 1.0);
   }
-  return adaptive<D, S>(piece, u0, middle, left, depth + 1) +
-         adaptive<D, S>(piece, middle, u1, right, depth + 1);
-}
+
+  double speed(double u) const {
+    Eigen::Matrix<double, D, 1> sum = velocity.col(2 * S - 2);
+    for (int k = 2 * S - 3; k >= 0; --k) sum = sum * u + velocity.col(k);
+    return sum.norm();
+  }
+
+  /// Gauss-Legendre with five nodes between a and b.
+  double quadrature(double a, double b) const {
+    constexpr double kNodes[] = {0.538469310105683091036, 0.906179845938663992798};
+    constexpr double kWeights[] = {0.478628670499366468041, 0.236926885056189087514};
+    const double middle = 0.5 * (a + b);
+    const double reach = 0.5 * (b - a);
+    double sum = 128.0 / 225.0 * speed(middle);
+    for (int n = 0; n < 2; ++n) {
+      sum += kWeights[n] * (speed(middle - reach * kNodes[n]) + speed(middle + reach * kNodes[n]));
+    }
+    return reach * sum;
+  }
+
+  /// Halves until the error is within `error_rate` per unit of u, which suffices where the speed
+  /// vanishes, or relatively within `tolerance`.
+  double length(double a, double b, double whole, double error_rate, double tolerance) const {
+    const double middle = 0.5 * (a + b);
+    const double before = quadrature(a, middle);
+    const double after = quadrature(middle, b);
+    const double error = std::abs(before + after - whole);
+    if (error <= std::max(error_rate * (b - a), tolerance * whole)) return before + after;
+    return length(a, middle, before, error_rate, tolerance) +
+           length(middle, b, after, error_rate, tolerance);
+  }
+};
 
 }  // namespace
 
 template <int D, int S>
-double arc_length(const PiecewisePolynomial<D, S>& curve) {
-  double sum = 0.0;
-  for (int i = 0; i < curve.pieces(); ++i) {
-    const auto& piece = curve.piece(i);
-    sum += adaptive<D, S>(piece, 0.0, 1.0, gauss<D, S>(piece, 0.0, 1.0), 0);
+double arc_length(const PiecewisePolynomial<D, S>& curve, double t0, double t1,
+                  double relative_tolerance) {
+  if (!(relative_tolerance >= 1e-12 && relative_tolerance <= 0.1)) {
+    throw std::invalid_argument("arc_length: relative_tolerance = " +
+                                std::to_string(relative_tolerance) + " is not in [1e-12, 0.1]");
   }
-  return sum;
+  if (!(t0 <= t1)) throw std::invalid_argument("arc_length: needs t0 <= t1");
+  std::vector<Part<D, S>> parts;
+  std::vector<double> estimates;
+  double estimate = 0.0;
+  for (int i = 0; i < curve.pieces(); ++i) {
+    const Part<D, S> part(curve, i, t0, t1);
+    if (!(part.from < part.to)) continue;
+    parts.push_back(part);
+    estimates.push_back(part.quadrature(part.from, part.to));
+    estimate += estimates.back();
+  }
+  const double tolerance = 0.5 * relative_tolerance;
+  double length = 0.0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const double error_rate = tolerance * estimate / parts.size();
+    length += parts[i].length(parts[i].from, parts[i].to, estimates[i], error_rate, tolerance);
+  }
+  return length;
 }
 
-template double arc_length(const PiecewisePolynomial<2, 2>&);
-template double arc_length(const PiecewisePolynomial<2, 3>&);
-template double arc_length(const PiecewisePolynomial<2, 4>&);
-template double arc_length(const PiecewisePolynomial<3, 2>&);
-template double arc_length(const PiecewisePolynomial<3, 3>&);
-template double arc_length(const PiecewisePolynomial<3, 4>&);
+template <int D, int S>
+double arc_length(const PiecewisePolynomial<D, S>& curve, double relative_tolerance) {
+  return arc_length(curve, 0.0, curve.duration(), relative_tolerance);
+}
+
+template double arc_length(const PiecewisePolynomial<2, 2>&, double);
+template double arc_length(const PiecewisePolynomial<2, 3>&, double);
+template double arc_length(const PiecewisePolynomial<2, 4>&, double);
+template double arc_length(const PiecewisePolynomial<3, 2>&, double);
+template double arc_length(const PiecewisePolynomial<3, 3>&, double);
+template double arc_length(const PiecewisePolynomial<3, 4>&, double);
+template double arc_length(const PiecewisePolynomial<2, 2>&, double, double, double);
+template double arc_length(const PiecewisePolynomial<2, 3>&, double, double, double);
+template double arc_length(const PiecewisePolynomial<2, 4>&, double, double, double);
+template double arc_length(const PiecewisePolynomial<3, 2>&, double, double, double);
+template double arc_length(const PiecewisePolynomial<3, 3>&, double, double, double);
+template double arc_length(const PiecewisePolynomial<3, 4>&, double, double, double);
 
 }  // namespace mocha

@@ -83,11 +83,43 @@ Eigen::Matrix<double, 1, 2 * C - 1> squared_norm(const Eigen::Matrix<double, D, 
   return multiply(a, a, [](const auto& x, const auto& y) { return x.dot(y); });
 }
 
+/// The same polynomial in a form whose degree is higher by `Raise`.
+template <int Raise, int C>
+Eigen::Matrix<double, 1, C + Raise> elevate(const Eigen::Matrix<double, 1, C>& control) {
+  const Eigen::Matrix<double, 1, Raise + 1> one = Eigen::Matrix<double, 1, Raise + 1>::Ones();
+  return multiply(control, one, [](const auto& x, const auto& y) { return x[0] * y[0]; });
+}
+
+/// The polynomial divided by u, given that it vanishes at u = 0, in a form of the same degree.
+template <int D, int C>
+Eigen::Matrix<double, D, C> divided_at_start(const Eigen::Matrix<double, D, C>& control) {
+  Eigen::Matrix<double, D, C> quotient = control;
+  quotient.col(0).setZero();
+  for (int j = 0; j + 1 < C; ++j) {
+    quotient.col(j) += static_cast<double>(C - 1 - j) / (j + 1) * control.col(j + 1);
+  }
+  return quotient;
+}
+
 /// x of a times y of b minus the reverse.
 template <int A, int B>
 Eigen::Matrix<double, 1, A + B - 1> cross(const Eigen::Matrix<double, 2, A>& a,
                                           const Eigen::Matrix<double, 2, B>& b) {
   return multiply(a, b, [](const auto& x, const auto& y) { return x[0] * y[1] - x[1] * y[0]; });
+}
+
+/// The cross product, component by component.
+template <int A, int B>
+Eigen::Matrix<double, 3, A + B - 1> cross(const Eigen::Matrix<double, 3, A>& a,
+                                          const Eigen::Matrix<double, 3, B>& b) {
+  Eigen::Matrix<double, 3, A + B - 1> control;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int next = (axis + 1) % 3;
+    const int last = (axis + 2) % 3;
+    control.row(axis) = multiply(
+        a, b, [=](const auto& x, const auto& y) { return x[next] * y[last] - x[last] * y[next]; });
+  }
+  return control;
 }
 
 /// The first u at which a polynomial exceeds zero, to `resolution`; none is a proof that it does

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "trajectory/arc_length.h"
 #include "trajectory/unicycle.h"
 
 namespace mocha {
@@ -157,18 +158,9 @@ MotionState Motion::at(double t) const {
 Pose Motion::end_pose() const { return at(end_time()).pose; }
 
 double Motion::length_m() const {
-  constexpr double kStep_s = 0.02;
   double length = 0.0;
   for (const Phase& phase : phases_) {
-    const auto* drive = std::get_if<DrivePhase>(&phase);
-    if (drive == nullptr) continue;
-    const int steps = 1 + static_cast<int>(drive->path.duration() / kStep_s);
-    Vector2 last = drive->path.position(0.0);
-    for (int i = 1; i <= steps; ++i) {
-      const Vector2 next = drive->path.position(drive->path.duration() * i / steps);
-      length += (next - last).norm();
-      last = next;
-    }
+    if (const auto* drive = std::get_if<DrivePhase>(&phase)) length += arc_length(drive->path);
   }
   return length;
 }

@@ -5,7 +5,7 @@
 #include "benchmarks/benchmark_problem.h"
 #include "optimization/trajectory_optimizer.h"
 #include "safety/curve_certificate.h"
-#include "trajectory/extrema.h"
+#include "trajectory/time_scaling.h"
 
 namespace mocha {
 
@@ -22,8 +22,7 @@ struct TablePlan {
 template <int D>
 TablePlan<D> plan(const BenchmarkWorld<D>& world, double spacing_m, bool camouflage,
                   const TableRules& rules) {
-  // Limits are proved, and rounding must not decide.
-  constexpr double kSlack = 1.0 + 1e-6;
+  constexpr double kLongestStretch = 1.5;
   OptimizerRules stopping;
   stopping.max_evaluations = 20000;
   stopping.relative_cost = 1e-5;
@@ -32,8 +31,9 @@ TablePlan<D> plan(const BenchmarkWorld<D>& world, double spacing_m, bool camoufl
   const InitialKnots<D> knots = knots_on<D>(world.path, spacing_m, rules);
   TrajectoryObjective<D, 3> objective(table_setup<D>(world, knots, camouflage, rules));
   plan.found = optimize<D, 3>(objective, objective.initial(knots.durations_s), stopping);
-  plan.curve = plan.found.curve.stretched(
-      kSlack * stretch_within(plan.found.curve, rules.max_speed, rules.max_acceleration));
+  const auto stretch = smallest_stretch(plan.found.curve,
+                                        {rules.max_speed, rules.max_acceleration, kLongestStretch});
+  plan.curve = plan.found.curve.stretched(stretch.value_or(1.0));
   const CurveCertificate<D, 3> certificate(plan.curve);
   plan.feasible = !certificate.check_limits(rules.max_speed, rules.max_acceleration) &&
                   !certificate.check_clearance(rules.radius_m, world.field, 0.0);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <random>
 
 namespace mocha {
@@ -45,6 +46,24 @@ TEST(Bernstein, SplitsDerivesAndMultiplies) {
     EXPECT_NEAR(at(cross(a, b), u)[0], x.x() * y.y() - x.y() * y.x(), 1e-12);
     const double h = 1e-5;
     EXPECT_LT((at(slope, u) - (at(a, u + h) - at(a, u - h)) / (2 * h)).norm(), 1e-8);
+  }
+}
+
+TEST(Bernstein, ElevatesAndDividesByZeros) {
+  const auto a = random_polynomial<1, 4>(4);
+  auto b = random_polynomial<2, 5>(5);
+  b.col(0).setZero();
+  for (double u = 0.1; u <= 1.0; u += 0.1) {
+    EXPECT_NEAR(at(elevate<3>(a), u)[0], at(a, u)[0], 1e-12);
+    EXPECT_LT((at(divided_at_start(b), u) - at(b, u) / u).norm(), 1e-12);
+  }
+}
+
+TEST(Bernstein, CrossesInThreeDimensions) {
+  const auto a = random_polynomial<3, 4>(6);
+  const auto b = random_polynomial<3, 6>(7);
+  for (double u = 0.0; u <= 1.0; u += 0.1) {
+    EXPECT_LT((at(cross(a, b), u) - Eigen::Vector3d(at(a, u)).cross(at(b, u))).norm(), 1e-12);
   }
 }
 
