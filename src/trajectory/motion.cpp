@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "trajectory/arc_length.h"
+#include "trajectory/piece_hull.h"
 #include "trajectory/unicycle.h"
 
 namespace mocha {
@@ -17,6 +18,7 @@ constexpr double kLeastSpeed =
     1e-6;  // [m/s] below, the direction of the velocity is rounding noise
 constexpr double kRestAcceleration = 1e-3;  // [m/s^2] likewise
 constexpr double kRestJerk = 1e-3;          // [m/s^3] likewise
+constexpr double kLargest = 1e12;           // [m], [m/s^2] beyond, squares soon overflow
 constexpr double kShortestPhase_s = 1e-5;   // shorter parts of a phase are dropped when cutting
 
 /// Progress of a quintic turn and its rate, u in [0, 1].
@@ -71,6 +73,19 @@ bool finite(const MotionState& state) {
          state.velocity.allFinite() && state.acceleration.allFinite();
 }
 
+bool finite(const PlanarPath& path) {
+  for (int i = 0; i < path.pieces(); ++i) {
+    const auto hull = piece_hull(path.piece(i), path.piece_duration(i));
+    for (int j = 0; j < hull.position.cols(); ++j) {
+      if (!(hull.position.col(j).norm() < kLargest)) return false;
+    }
+    for (int j = 0; j < hull.acceleration.cols(); ++j) {
+      if (!(hull.acceleration.col(j).norm() < kLargest)) return false;
+    }
+  }
+  return true;
+}
+
 void require(bool condition, const std::string& what) {
   if (!condition) throw std::invalid_argument("Motion: " + what);
 }
@@ -120,6 +135,7 @@ Motion::Motion(double start_time_s, std::vector<Phase> phases)
     if (const auto* drive = std::get_if<DrivePhase>(&phase)) {
       require(drive->direction == 1 || drive->direction == -1,
               "a drive's direction is not +1 or -1");
+      require(finite(drive->path), "a drive is not finite, or beyond 1e12 m or m/s^2");
     }
     require(std::isfinite(duration) && duration >= 0.0, "a duration is negative or not finite");
     require(finite(state_in(phase, 0.0)) && finite(state_in(phase, duration)),

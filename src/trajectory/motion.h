@@ -52,8 +52,9 @@ struct MotionState {
 class Motion {
  public:
   Motion() = default;
-  /// Throws std::invalid_argument without phases, with values that are not finite, with a jump
-  /// between phases (more than 1 mm, 0.01 rad or 0.01 m/s), or if the motion does not end at rest.
+  /// Throws std::invalid_argument without phases, with values that are not finite (or positions and
+  /// accelerations of a drive beyond 1e12), with a jump between phases (more than 1 mm, 0.01 rad or
+  /// 0.01 m/s), or if the motion does not end at rest.
   Motion(double start_time_s, std::vector<Phase> phases);
 
   bool empty() const { return phases_.empty(); }

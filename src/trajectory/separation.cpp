@@ -143,8 +143,11 @@ ClosestApproach closest_approach(const Motion& a, const Motion& b, double t0, do
 
 std::optional<double> first_time_closer_than(const Motion& a, const Motion& b, double distance_m,
                                              double t0, double t1) {
+  if (std::isnan(distance_m) || std::isnan(t0) || std::isnan(t1)) {
+    throw std::invalid_argument("first_time_closer_than: a distance or time is not a number");
+  }
   std::optional<double> first;
-  if (!(t0 <= t1) || !(distance_m >= 0.0)) return first;
+  if (t0 > t1 || distance_m < 0.0) return first;
   advance(a, b, t0, t1, [&](double t, double distance) {
     if (distance >= distance_m + kSlack_m) return distance_m;
     first = t;

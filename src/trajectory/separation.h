@@ -24,7 +24,8 @@ ClosestApproach closest_approach(const Motion& a, const Motion& b, double t0, do
                                  double tolerance_m = 1e-3);
 
 /// The first time in [t0, t1] at which the centres are closer than `distance_m` (or within 0.5 mm
-/// of it). Proved: without an answer there is no such time.
+/// of it). Proved: without an answer there is no such time. Throws std::invalid_argument for what
+/// is not a number.
 std::optional<double> first_time_closer_than(const Motion& a, const Motion& b, double distance_m,
                                              double t0,
                                              double t1 = std::numeric_limits<double>::infinity());

@@ -87,6 +87,9 @@ TEST_F(BadDescriptor, IsRefused) {
   bad = good;
   bad.start_time_s = std::nan("");
   expect_refused();
+  bad = good;
+  phase().points[2].x() = 1e200;  // finite, but squares of it are not
+  expect_refused();
 }
 
 TEST_F(BadDescriptor, TurnsAndStandsAreCheckedToo) {

@@ -170,6 +170,26 @@ TEST(Motion, RefusesWhatCannotBeDriven) {
   EXPECT_THROW(Motion().at(0.0), std::invalid_argument);
 }
 
+TEST(Motion, RefusesDrivesThatAreNotFiniteAnywhere) {
+  const PlanarPath path = random_drive(1, 5).path;
+  for (const double bad : {std::nan(""), static_cast<double>(INFINITY), 1e13}) {
+    std::vector<PlanarPath::Piece> pieces;
+    for (int i = 0; i < path.pieces(); ++i) pieces.push_back(path.piece(i));
+    pieces[2](1, 4) = bad;  // the phase's ends do not show it
+    EXPECT_THROW(Motion(0.0, {DrivePhase{1, PlanarPath(pieces, path.durations())}}),
+                 std::invalid_argument);
+  }
+  PlanarPath::Piece far = PlanarPath::Piece::Zero();
+  far(0, 0) = 1e13;
+  EXPECT_THROW(Motion(0.0, {DrivePhase{1, PlanarPath({far}, {1.0})}}), std::invalid_argument);
+  std::vector<double> durations = path.durations();
+  durations[2] = 1e-9;  // 1e18 m/s^2
+  EXPECT_THROW(Motion(0.0, {DrivePhase{1, PlanarPath({path.piece(0), path.piece(1), path.piece(2),
+                                                      path.piece(3), path.piece(4)},
+                                                     durations)}}),
+               std::invalid_argument);
+}
+
 TEST(Motion, RefusesDirectionsThatAreNone) {
   const DrivePhase drive = random_drive(1, 3);
   EXPECT_THROW(Motion(0.0, {DrivePhase{0, drive.path}}), std::invalid_argument);

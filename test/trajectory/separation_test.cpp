@@ -106,6 +106,12 @@ TEST(Separation, RefusesEmptyMotionsAndBadRanges) {
   const Motion a = test::stand(0.0, {0.0, 0.0});
   EXPECT_THROW(closest_approach(a, Motion(), 0.0, 1.0), std::invalid_argument);
   EXPECT_THROW(closest_approach(a, a, 1.0, 0.0), std::invalid_argument);
+  const double nan = std::nan("");
+  EXPECT_THROW(first_time_closer_than(a, a, nan, 0.0, 1.0), std::invalid_argument);
+  EXPECT_THROW(first_time_closer_than(a, a, 1.0, nan, 1.0), std::invalid_argument);
+  EXPECT_THROW(first_time_closer_than(a, a, 1.0, 0.0, nan), std::invalid_argument);
+  EXPECT_FALSE(first_time_closer_than(a, a, 1.0, 1.0, 0.0));
+  EXPECT_FALSE(first_time_closer_than(a, a, -1.0, 0.0, 1.0));
 }
 
 }  // namespace
