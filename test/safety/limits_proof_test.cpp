@@ -201,7 +201,7 @@ TEST(LimitsProof, RefusesJumpsAtAKnotWithinADrive) {
     EXPECT_TRUE(std::isinf(heading.value));
   }
   // A piece too short to be sampled is looked at like any other.
-  EXPECT_EQ(check({0.004, 0.1, -0.05}, {}, 1e-7).term, ViolatedTerm::kAcceleration);
+  EXPECT_EQ(check({0.004, 0.1, -0.05}, {}, 5e-7).term, ViolatedTerm::kAcceleration);
 }
 
 TEST(LimitsProof, RefusesACuspPassedNearlyAtRest) {
