@@ -15,7 +15,8 @@ constexpr double kTrailStep_m = 0.2;  // closer points of the trail are noise of
 constexpr double kKnotSpacing_m = 0.3;
 constexpr double kSlow_mps = 0.8;         // backward, where the lidar may not see
 constexpr double kLongestStretch = 10.0;  // of the time that the profile asks for
-constexpr double kFromBehind = 0.8;       // cosine between the trail and straight back
+constexpr double kSlower = 1.2;
+constexpr double kFromBehind = 0.8;  // cosine between the trail and straight back
 
 /// The trail from `here` backward, thinned out.
 std::vector<Vector2> way_back(const std::vector<Vector2>& trail, const Vector2& here,
@@ -58,9 +59,12 @@ std::optional<Motion> retreat_along(const std::vector<Vector2>& trail, const Pos
   const auto stretch =
       smallest_stretch(curve, {slow.max_speed, slow.max_acceleration, kLongestStretch});
   if (!stretch) return std::nullopt;
-  const Motion motion(start_time_s, {DrivePhase{-1, curve.stretched(*stretch)}});
-  if (check_limits(motion, limits, start_time_s)) return std::nullopt;
-  return motion;
+  // A wavering trail may ask for more yaw rate than there is: drive it more slowly.
+  for (double slower = *stretch; slower <= kLongestStretch; slower *= kSlower) {
+    Motion motion(start_time_s, {DrivePhase{-1, curve.stretched(slower)}});
+    if (!check_limits(motion, limits, start_time_s)) return motion;
+  }
+  return std::nullopt;
 }
 
 }  // namespace mocha

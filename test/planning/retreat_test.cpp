@@ -43,6 +43,22 @@ TEST(Retreat, FollowsABentTrailWithinTheLimits) {
   }
 }
 
+TEST(Retreat, DrivesAWaveringTrailMoreSlowly) {
+  std::vector<Vector2> trail;
+  for (double x = -3.0; x <= 0.0; x += 0.2) {
+    trail.push_back({x, std::lround(x / 0.2) % 2 == 0 ? 0.01 : -0.01});
+  }
+  const Pose pose{{0.1, 0.0}, 0.0};
+  MotionLimits limits = kLimits;
+  limits.max_yaw_rate = 0.2;
+  const auto motion = retreat_along(trail, pose, 0.0, 1.0, limits);
+  ASSERT_TRUE(motion);
+  EXPECT_FALSE(check_limits(*motion, limits, 0.0));
+  const auto brisk = retreat_along(trail, pose, 0.0, 1.0, kLimits);
+  ASSERT_TRUE(brisk);
+  EXPECT_GT(motion->end_time(), 1.1 * brisk->end_time());
+}
+
 TEST(Retreat, IsNothingWithoutATrailOrWhereTheRobotDidNotComeFromBehind) {
   const auto trail = straight_trail(3.0);
   EXPECT_FALSE(retreat_along({}, {{0.0, 0.0}, 0.0}, 0.0, 1.0, kLimits));
