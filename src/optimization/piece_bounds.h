@@ -20,7 +20,7 @@ struct PieceBounds {
 };
 
 /// Sets the bounds of a piece of C coefficients in normalised time that lasts `duration_s` > 0. In
-/// place, as copying them would take a third as long again.
+/// place: a copy just after the entries were written stalls, and this is asked of every piece.
 template <int D, int C>
 void set_bounds(const Eigen::Matrix<double, D, C>& piece, double start_s, double duration_s,
                 PieceBounds<D>& bounds) {
