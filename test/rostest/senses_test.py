@@ -73,6 +73,7 @@ class SensesTest(unittest.TestCase):
                                  "global_planner: .*no transform map -> ugv1/odom",
                                  "trajectory_tracker: .*no transform map -> ugv1/odom")
         self.scan.open = False
+        self.robot.run(2.0)  # no scan is under way or waits for its transforms any more
         self.transforms.open = True
         self.check_does_not_move("perception: .*no scan on /through/scan for", "global_planner: .*no map on /ugv1/map yet",
                                  "local_replanner: .*map: none on /ugv1/map yet")
