@@ -11,7 +11,9 @@ namespace mocha {
 struct ObstacleGroup {
   /// A point of the solid matter itself. Never a centroid, which may lie in free space.
   Vector2 representative = Vector2::Zero();
-  /// Circles that together cover the solid matter; map frame, metres.
+  /// Circles that stand for the rim of the solid matter where ways are searched (not where they are
+  /// proved): exact for circles, else points or small circles so close together that the robot does
+  /// not fit between them. Map frame, metres.
   std::vector<Circle> cover;
 };
 

@@ -1,0 +1,181 @@
+#include "topology/class_search.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <stdexcept>
+#include <string>
+#include <unordered_set>
+#include <utility>
+
+namespace mocha {
+namespace {
+
+constexpr int kNone = -1;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// One direction of an edge, without its shape.
+struct Arc {
+  int to;
+  int edge;
+  double length_m;
+  SignatureKey key;
+};
+using Arcs = std::vector<std::vector<Arc>>;  // of each node
+
+template <int D>
+SignatureKey key_along(const Cuts<D>& cuts, const Roadmap<D>& roadmap,
+                       const typename Roadmap<D>::Edge& edge) {
+  SignatureKey key = 0;
+  typename Roadmap<D>::Point last = roadmap.nodes[edge.from].position;
+  for (const auto& point : edge.between) {
+    key += key_of<D>(cuts, last, point);
+    last = point;
+  }
+  return key + key_of<D>(cuts, last, roadmap.nodes[edge.to].position);
+}
+
+template <int D>
+Arcs arcs_of(const Roadmap<D>& roadmap, const Cuts<D>& cuts) {
+  Arcs arcs(roadmap.nodes.size());
+  for (std::size_t i = 0; i < roadmap.edges.size(); ++i) {
+    const auto& edge = roadmap.edges[i];
+    const SignatureKey key = key_along(cuts, roadmap, edge);
+    arcs[edge.from].push_back({edge.to, static_cast<int>(i), edge.length_m, key});
+    arcs[edge.to].push_back({edge.from, static_cast<int>(i), edge.length_m, SignatureKey(0) - key});
+  }
+  return arcs;
+}
+
+/// Shortest distance of every node to `goal`.
+std::vector<double> distances_to(int goal, const Arcs& arcs) {
+  std::vector<double> distance_m(arcs.size(), kInfinity);
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+  distance_m[goal] = 0.0;
+  queue.push({0.0, goal});
+  while (!queue.empty()) {
+    const auto [reached_m, node] = queue.top();
+    queue.pop();
+    if (reached_m > distance_m[node]) continue;
+    for (const Arc& arc : arcs[node]) {
+      const double next_m = reached_m + arc.length_m;
+      if (next_m >= distance_m[arc.to]) continue;
+      distance_m[arc.to] = next_m;
+      queue.push({next_m, arc.to});
+    }
+  }
+  return distance_m;
+}
+
+/// The augmented search. Steps form a tree; a path is named by its last step.
+class Search {
+ public:
+  struct Step {
+    int node;
+    int before;  // step
+    int edge;
+    SignatureKey key;
+    double length_m;
+  };
+
+  Search(const Arcs& arcs, std::vector<double> to_goal_m, const ClassSearchRules& rules)
+      : arcs_(arcs),
+        to_goal_m_(std::move(to_goal_m)),
+        rules_(rules),
+        longest_m_(rules.longest_ratio * to_goal_m_[Roadmap<2>::kStart]),
+        seen_(arcs.size()) {}
+
+  /// The last steps of the paths found.
+  std::vector<int> run() {
+    std::vector<int> found;
+    if (to_goal_m_[Roadmap<2>::kStart] == kInfinity) return found;
+    push({Roadmap<2>::kStart, kNone, kNone, 0, 0.0});
+    while (!queue_.empty() && static_cast<int>(found.size()) < rules_.classes) {
+      const int current = queue_.top().second;
+      queue_.pop();
+      const Step step = steps_[current];
+      if (!seen_[step.node].insert(step.key).second) continue;
+      if (step.node == Roadmap<2>::kGoal) {
+        found.push_back(current);
+        continue;
+      }
+      for (const Arc& arc : arcs_[step.node]) {
+        if (visits(current, arc.to)) continue;
+        push({arc.to, current, arc.edge, step.key + arc.key, step.length_m + arc.length_m});
+      }
+    }
+    return found;
+  }
+
+  const Step& step(int index) const { return steps_[index]; }
+
+ private:
+  void push(const Step& step) {
+    const double bound_m = step.length_m + to_goal_m_[step.node];
+    if (bound_m > longest_m_ || seen_[step.node].count(step.key) > 0) return;
+    queue_.push({bound_m, static_cast<int>(steps_.size())});
+    steps_.push_back(step);
+  }
+
+  bool visits(int last, int node) const {
+    for (int i = last; i != kNone; i = steps_[i].before) {
+      if (steps_[i].node == node) return true;
+    }
+    return false;
+  }
+
+  const Arcs& arcs_;
+  const std::vector<double> to_goal_m_;
+  const ClassSearchRules rules_;
+  const double longest_m_;
+  std::vector<Step> steps_;
+  std::vector<std::unordered_set<SignatureKey>> seen_;  // of each node
+  using Entry = std::pair<double, int>;                 // bound and step; ties in order of age
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue_;
+};
+
+template <int D>
+ClassPath<D> trace(const Search& search, int last, const Roadmap<D>& roadmap) {
+  ClassPath<D> path{{}, search.step(last).length_m};
+  for (int i = last; i != kNone; i = search.step(i).before) {
+    const Search::Step& step = search.step(i);
+    path.points.push_back(roadmap.nodes[step.node].position);
+    if (step.edge == kNone) continue;
+    const auto& edge = roadmap.edges[step.edge];
+    if (edge.to == step.node) {
+      path.points.insert(path.points.end(), edge.between.rbegin(), edge.between.rend());
+    } else {
+      path.points.insert(path.points.end(), edge.between.begin(), edge.between.end());
+    }
+  }
+  std::reverse(path.points.begin(), path.points.end());
+  return path;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<ClassPath<D>> shortest_classes(const Roadmap<D>& roadmap, const Cuts<D>& cuts,
+                                           const ClassSearchRules& rules) {
+  if (rules.classes < 1) {
+    throw std::invalid_argument("classes = " + std::to_string(rules.classes) + ", at least 1");
+  }
+  if (!(rules.longest_ratio >= 1.0)) {
+    throw std::invalid_argument("longest_ratio = " + std::to_string(rules.longest_ratio) +
+                                ", at least 1");
+  }
+  const Arcs arcs = arcs_of(roadmap, cuts);
+  Search search(arcs, distances_to(Roadmap<D>::kGoal, arcs), rules);
+  std::vector<ClassPath<D>> paths;
+  for (const int last : search.run()) paths.push_back(trace(search, last, roadmap));
+  return paths;
+}
+
+template std::vector<ClassPath<2>> shortest_classes(const Roadmap<2>&, const Cuts<2>&,
+                                                    const ClassSearchRules&);
+template std::vector<ClassPath<3>> shortest_classes(const Roadmap<3>&, const Cuts<3>&,
+                                                    const ClassSearchRules&);
+
+}  // namespace mocha

@@ -1,0 +1,65 @@
+#include "topology/length_bound.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mocha {
+namespace {
+
+using Vector2 = Eigen::Vector2d;
+
+double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+struct Ray {
+  Vector2 origin;
+  Vector2 direction;  // unit
+
+  double side_m(const Vector2& p) const { return cross(direction, p - origin); }
+  double along_m(const Vector2& p) const { return direction.dot(p - origin); }
+};
+
+/// How often the path crosses the ray from right to left, minus how often from left to right.
+int net_crossings(const std::vector<Vector2>& path, const Ray& ray) {
+  int crossings = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double before = ray.side_m(path[i - 1]);
+    const double after = ray.side_m(path[i]);
+    if ((before >= 0.0) == (after >= 0.0)) continue;
+    const Vector2 place = path[i - 1] + (path[i] - path[i - 1]) * (before / (before - after));
+    if (ray.along_m(place) >= 0.0) crossings += after >= 0.0 ? 1 : -1;
+  }
+  return crossings;
+}
+
+/// Length of the shortest way from a to b by way of the ray.
+double by_way_of(const Ray& ray, const Vector2& a, const Vector2& b) {
+  const double a_off = std::abs(ray.side_m(a));
+  const double b_off = std::abs(ray.side_m(b));
+  const double a_along = ray.along_m(a);
+  const double b_along = ray.along_m(b);
+  // Straight after folding both ends to opposite sides; convex along the ray, so a best place
+  // before its origin is replaced by the origin.
+  const double total = a_off + b_off;
+  const double best =
+      total > 0.0 ? a_along + (b_along - a_along) * a_off / total : std::max(a_along, b_along);
+  const Vector2 place = ray.origin + std::max(0.0, best) * ray.direction;
+  return (a - place).norm() + (b - place).norm();
+}
+
+}  // namespace
+
+double least_length_m(const std::vector<Vector2>& path, const ObstacleField<2>& field) {
+  const Vector2& start = path.front();
+  const Vector2& goal = path.back();
+  double least_m = (goal - start).norm();
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+    const auto nearest = field.sample(path[i]);
+    if (!(nearest.distance_m > 0.0) || !std::isfinite(nearest.distance_m)) continue;
+    const Ray ray{path[i] - nearest.distance_m * nearest.gradient, nearest.gradient.normalized()};
+    if (net_crossings(path, ray) == 0) continue;
+    least_m = std::max(least_m, by_way_of(ray, start, goal));
+  }
+  return least_m;
+}
+
+}  // namespace mocha

@@ -1,0 +1,95 @@
+#include "topology/map_terrain.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace mocha {
+namespace {
+
+constexpr double kTile_m = 0.15;   // circles of at most this size, so that narrow ways stay open
+constexpr double kRimCells = 1.5;  // matter deeper inside is hidden by that of the rim
+constexpr int kNone = -1;
+
+/// Numbers the components of a map's blocked corners that contain solid matter.
+class Components {
+ public:
+  Components(const DistanceField& field, double blocked_m)
+      : field_(field), blocked_m_(blocked_m), number_(field.columns() * field.rows(), kNone) {
+    for (int y = 0; y < field.rows(); ++y) {
+      for (int x = 0; x < field.columns(); ++x) {
+        if (field.at_corner(x, y) <= 0.0 && number_[index(x, y)] == kNone) spread(x, y);
+      }
+    }
+  }
+
+  /// Of a solid corner.
+  int at(int x, int y) const { return number_[index(x, y)]; }
+  /// A solid corner of each component.
+  const std::vector<Vector2>& representatives() const { return representatives_; }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * field_.columns() + x;
+  }
+
+  void spread(int x, int y) {
+    const int number = static_cast<int>(representatives_.size());
+    representatives_.push_back(field_.corner(x, y));
+    number_[index(x, y)] = number;
+    front_.assign(1, {x, y});
+    while (!front_.empty()) {
+      const auto [cx, cy] = front_.back();
+      front_.pop_back();
+      for (int ny = std::max(0, cy - 1); ny <= std::min(field_.rows() - 1, cy + 1); ++ny) {
+        for (int nx = std::max(0, cx - 1); nx <= std::min(field_.columns() - 1, cx + 1); ++nx) {
+          if (number_[index(nx, ny)] != kNone || field_.at_corner(nx, ny) >= blocked_m_) continue;
+          number_[index(nx, ny)] = number;
+          front_.push_back({nx, ny});
+        }
+      }
+    }
+  }
+
+  const DistanceField& field_;
+  double blocked_m_;
+  std::vector<int> number_;
+  std::vector<std::pair<int, int>> front_;
+  std::vector<Vector2> representatives_;
+};
+
+}  // namespace
+
+MapTerrain::MapTerrain(std::shared_ptr<const DistanceField> field)
+    : field_(std::move(field)),
+      bounds_(field_->origin(), field_->corner(field_->columns() - 1, field_->rows() - 1)) {}
+
+std::vector<ObstacleGroup> MapTerrain::groups(double clearance_m) const {
+  const DistanceField& field = *field_;
+  // Who passes between two neighbouring blocked corners is within 0.71 cells of one of them.
+  const double cell_m = field.resolution_m();
+  const Components components(field, std::max(0.5 * cell_m, clearance_m - 0.75 * cell_m));
+  std::vector<ObstacleGroup> groups(components.representatives().size());
+  for (std::size_t r = 0; r < groups.size(); ++r)
+    groups[r].representative = components.representatives()[r];
+  const int tile = std::max(1, static_cast<int>(kTile_m / cell_m));
+  std::map<int, Eigen::AlignedBox2d> parts;  // of the tile, by component
+  for (int y = 0; y < field.rows(); y += tile) {
+    for (int x = 0; x < field.columns(); x += tile) {
+      parts.clear();
+      for (int cy = y; cy < std::min(y + tile, field.rows()); ++cy) {
+        for (int cx = x; cx < std::min(x + tile, field.columns()); ++cx) {
+          const double distance_m = field.at_corner(cx, cy);
+          if (distance_m > 0.0 || distance_m < -kRimCells * cell_m) continue;
+          parts[components.at(cx, cy)].extend(field.corner(cx, cy));
+        }
+      }
+      for (const auto& [component, box] : parts) {
+        groups[component].cover.push_back({box.center(), 0.5 * box.diagonal().norm()});
+      }
+    }
+  }
+  return groups;
+}
+
+}  // namespace mocha

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+
+#include "topology/terrain.h"
+#include "world/distance_field.h"
+
+namespace mocha {
+
+/// A map. Its groups are the components of the solid cells, inflated by what the robot cannot pass;
+/// their circles cover the rims of solid matter to within half a cell.
+class MapTerrain : public Terrain {
+ public:
+  explicit MapTerrain(std::shared_ptr<const DistanceField> field);
+
+  const DistanceField& field() const override { return *field_; }
+  const Eigen::AlignedBox2d& bounds() const override { return bounds_; }
+  double detail_m() const override { return 0.5 * field_->resolution_m(); }
+  std::vector<ObstacleGroup> groups(double clearance_m) const override;
+
+ private:
+  std::shared_ptr<const DistanceField> field_;
+  Eigen::AlignedBox2d bounds_;
+};
+
+}  // namespace mocha

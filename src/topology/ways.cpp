@@ -1,0 +1,164 @@
+#include "topology/ways.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "topology/apollonius_roadmap.h"
+#include "topology/class_search.h"
+#include "topology/length_bound.h"
+#include "topology/path_shortening.h"
+#include "topology/visibility_prm.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kCircleError_m = 0.1;  // of the circles that stand for solid matter, at most
+constexpr int kPushes = 3;              // of a point off the obstacles
+constexpr double kPushed_m = 0.02;      // beyond the clearance that is required
+
+/// Obstacles and their cuts as seen by one robot.
+struct Scenery {
+  std::vector<ObstacleGroup> groups;
+  Cuts<2> cuts;
+};
+
+Scenery scenery_of(const Terrain& terrain, const TravelCost& cost) {
+  const double required_m = cost.rules().required_clearance_m;
+  std::vector<ObstacleGroup> groups = terrain.groups(required_m);
+  for (const BlockedDisc& disc : cost.blocked()) {
+    const double radius_m =
+        std::min(disc.radius_m, (cost.start() - disc.centre).norm()) - required_m;
+    groups.push_back({disc.centre, {{disc.centre, std::max(0.0, radius_m)}}});
+  }
+  std::vector<Vector2> representatives;
+  for (const ObstacleGroup& group : groups) representatives.push_back(group.representative);
+  return {std::move(groups), Cuts<2>(representatives)};
+}
+
+Roadmap<2> roadmap_of(const Terrain& terrain, const Scenery& scenery, const Vector2& start,
+                      const Vector2& goal, const WayRules& rules) {
+  const double required_m = rules.travel.required_clearance_m;
+  if (rules.roadmap == RoadmapKind::kApollonius) {
+    const double relaxed_m = std::max(0.5 * required_m, required_m - kCircleError_m);
+    return apollonius_roadmap(scenery.groups, terrain.bounds(), start, goal, relaxed_m);
+  }
+  VisibilityPrmRules prm;
+  prm.samples = rules.prm_samples;
+  prm.required_clearance_m = required_m;
+  return visibility_prm<2>(terrain.field(), scenery.cuts, terrain.bounds(), start, goal, prm);
+}
+
+/// Off what is too close, if a few steps suffice.
+Vector2 pushed_off(Vector2 p, const ObstacleField<2>& field, double clearance_m) {
+  for (int i = 0; i < kPushes; ++i) {
+    const auto nearest = field.sample(p);
+    if (!(nearest.distance_m < clearance_m)) break;
+    p += (clearance_m - nearest.distance_m) * nearest.gradient;
+  }
+  return p;
+}
+
+/// Gives edges their true cost instead of their length, and leaves out those that are impossible:
+/// circles only stand for the field.
+void price(Roadmap<2>& roadmap, const TravelCost& cost) {
+  const ObstacleField<2>& field = cost.terrain().field();
+  const double clearance_m = cost.rules().required_clearance_m + kPushed_m;
+  for (std::size_t i = Roadmap<2>::kGoal + 1; i < roadmap.nodes.size(); ++i) {
+    roadmap.nodes[i].position = pushed_off(roadmap.nodes[i].position, field, clearance_m);
+  }
+  for (auto& edge : roadmap.edges) {
+    std::vector<Vector2> line = {roadmap.nodes[edge.from].position};
+    for (Vector2& point : edge.between) {
+      point = pushed_off(point, field, clearance_m);
+      line.push_back(point);
+    }
+    line.push_back(roadmap.nodes[edge.to].position);
+    edge.length_m = cost_of(line, cost);
+  }
+  const auto impossible = [](const auto& edge) { return !std::isfinite(edge.length_m); };
+  roadmap.edges.erase(std::remove_if(roadmap.edges.begin(), roadmap.edges.end(), impossible),
+                      roadmap.edges.end());
+}
+
+/// From the start that `cost` knows.
+std::vector<std::vector<Vector2>> paths_of_classes(const Terrain& terrain, const TravelCost& cost,
+                                                   const Scenery& scenery, const Vector2& goal,
+                                                   const WayRules& rules) {
+  Roadmap<2> roadmap = roadmap_of(terrain, scenery, cost.start(), goal, rules);
+  price(roadmap, cost);
+  std::vector<std::vector<Vector2>> paths;
+  for (auto& path : shortest_classes(roadmap, scenery.cuts, {rules.classes, rules.longest_ratio}))
+    paths.push_back(std::move(path.points));
+  if (!paths.empty()) return paths;
+  // Too narrow for the roadmap's circles, perhaps; the lattice is slower, but misses nothing.
+  GridPath path = find_grid_path(terrain, cost.start(), goal, cost, rules.lattice_step_m);
+  if (path.outcome == GridPath::Outcome::kFound) paths.push_back(std::move(path.points));
+  return paths;
+}
+
+/// Makes a way of each path, as cheap as its class allows.
+std::vector<Way> ways_along(const std::vector<std::vector<Vector2>>& paths, const TravelCost& cost,
+                            const Cuts<2>& cuts, const std::vector<Vector2>& lead_in) {
+  const Signature before = signature_of<2>(cuts, lead_in);
+  std::vector<Way> ways(paths.size());
+  tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
+    Way& way = ways[i];
+    way.points = shortened(paths[i], cost, cuts);
+    way.cost_m = cost_of(way.points, cost);
+    way.signature = signature_of<2>(cuts, way.points);
+    std::transform(before.begin(), before.end(), way.signature.begin(), way.signature.begin(),
+                   std::plus<int>());
+    way.least_length_m = least_length_m(way.points, cost.terrain().field());
+  });
+  return ways;
+}
+
+/// Of each class the cheapest, cheapest first; the one that is driven, and `most` of the others.
+void keep_best(std::vector<Way>& ways, const WayRules& rules) {
+  std::stable_sort(ways.begin(), ways.end(),
+                   [](const Way& a, const Way& b) { return a.cost_m < b.cost_m; });
+  std::vector<Way> kept;
+  for (Way& way : ways) {
+    const auto twin = std::find_if(kept.begin(), kept.end(), [&](const Way& other) {
+      return other.signature == way.signature;
+    });
+    if (twin != kept.end()) continue;
+    const bool good = static_cast<int>(kept.size()) < rules.classes &&
+                      way.cost_m <= rules.longest_ratio * ways.front().cost_m;
+    if (good || way.driven) kept.push_back(std::move(way));
+  }
+  ways = std::move(kept);
+}
+
+}  // namespace
+
+Ways find_ways(const Terrain& terrain, const WayQuery& query, const WayRules& rules) {
+  const Vector2& start = query.start();
+  const TravelCost cost(terrain, start, query.blocked, rules.travel);
+  Ways result;
+  result.outcome = GridPath::Outcome::kStartBlocked;
+  if (!terrain.bounds().contains(start) || cost.at(start) == TravelCost::kInfinity) return result;
+  result.outcome = GridPath::Outcome::kGoalBlocked;
+  if (!terrain.bounds().contains(query.goal) || cost.at(query.goal) == TravelCost::kInfinity)
+    return result;
+  const Scenery scenery = scenery_of(terrain, cost);
+  std::vector<std::vector<Vector2>> paths =
+      paths_of_classes(terrain, cost, scenery, query.goal, rules);
+  const bool drivable = query.lead_in.size() == 1 && query.driven.size() >= 2 &&
+                        std::isfinite(cost_of(query.driven, cost));
+  if (drivable) paths.push_back(query.driven);
+  result.ways = ways_along(paths, cost, scenery.cuts, query.lead_in);
+  if (!query.driven.empty()) {
+    const Signature driven = signature_of<2>(scenery.cuts, query.driven);
+    for (Way& way : result.ways) way.driven = way.signature == driven;
+  }
+  keep_best(result.ways, rules);
+  result.outcome = result.ways.empty() ? GridPath::Outcome::kNoPath : GridPath::Outcome::kFound;
+  return result;
+}
+
+}  // namespace mocha

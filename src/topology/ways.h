@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "topology/grid_path.h"
+#include "topology/h_signature.h"
+#include "topology/travel_cost.h"
+
+namespace mocha {
+
+enum class RoadmapKind { kApollonius, kVisibilityPrm };
+
+struct WayRules {
+  TravelRules travel;
+  RoadmapKind roadmap = RoadmapKind::kApollonius;
+  int classes = 6;             ///< at most this many ways
+  double longest_ratio = 2.0;  ///< a way that costs more than the cheapest by this is none
+  int prm_samples = 1000;      ///< of the visibility roadmap
+  double lattice_step_m = 0.05;
+};
+
+/// A way from start to goal of one class.
+struct Way {
+  std::vector<Vector2> points;  ///< straight between them
+  double cost_m = 0.0;          ///< length, longer where it is narrow
+  double least_length_m = 0.0;  ///< of any path of this class, proved
+  Signature signature;          ///< lead-in included
+  bool driven = false;          ///< of the class that is being driven
+};
+
+struct Ways {
+  GridPath::Outcome outcome = GridPath::Outcome::kNoPath;
+  std::vector<Way> ways;  ///< of pairwise different classes, cheapest first; empty unless found
+};
+
+/// From where to where.
+struct WayQuery {
+  /// What is driven before the ways begin, in any case: from where the robot is to their start. It
+  /// counts for their classes. At least one point.
+  std::vector<Vector2> lead_in;
+  Vector2 goal = Vector2::Zero();
+  /// Obstacles besides the terrain, to be passed on either side.
+  std::vector<BlockedDisc> blocked;
+  /// The path that is being driven to the same goal, from the front of `lead_in` on; or empty.
+  std::vector<Vector2> driven;
+
+  const Vector2& start() const { return lead_in.back(); }
+};
+
+/// The cheapest ways of pairwise different classes (IV-E). The path that is being driven is
+/// classified anew among the obstacles of now; if it is still possible, and there is no lead-in,
+/// its class is among the ways even where it is not among the cheapest.
+Ways find_ways(const Terrain& terrain, const WayQuery& query, const WayRules& rules);
+
+}  // namespace mocha
