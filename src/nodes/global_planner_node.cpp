@@ -23,6 +23,7 @@
 #include "ros/run_node.h"
 #include "ros/status_conversions.h"
 #include "ros/step_loop.h"
+#include "topology/map_terrain.h"
 #include "trajectory/stopping.h"
 
 namespace mocha {
@@ -139,7 +140,8 @@ class GlobalPlannerNode {
       report(PlanReason::kNoPose, {}, "nothing is committed yet that a plan could start from");
       return;
     }
-    const PlanQuery query = query_to(goals_.current());
+    PlanQuery query = query_to(goals_.current());
+    if (!goal_is_new_ && !retreats_) query.driven = plan_;
     const PlanResult result = planner_.plan(query, scene(query), [] { return false; });
     const bool improvement = !goal_is_new_ && !requested_ && !retreats_ && !plan_.empty() &&
                              now_.toSec() < plan_.end_time() + kAfterEnd_s;
@@ -156,6 +158,7 @@ class GlobalPlannerNode {
     goal_is_new_ = false;
     occupied_since_.reset();
     report(result.reason, result.violation, result.message);
+    class_switches_ += result.switches_class;
     retreats_ = result.reason == PlanReason::kBackingOut;
     if (!retreats_) goals_.move_current(result.goal);
     adopt(result.motion);
@@ -164,8 +167,8 @@ class GlobalPlannerNode {
   PlanningScene scene(const PlanQuery& query) {
     PlanningScene scene;
     const Vector2 start = query.committed.at(query.start_time_s).pose.position;
-    scene.obstacles =
-        map_.field(DistanceField::Solid::kOccupied, {start, query.goal}, kMapBorder_m);
+    scene.terrain = std::make_shared<MapTerrain>(
+        map_.field(DistanceField::Solid::kOccupied, {start, query.goal}, kMapBorder_m));
     scene.peers = peers_.obstacles();
     return scene;
   }
@@ -262,6 +265,7 @@ class GlobalPlannerNode {
         goals_.empty() ? "no goal" : to_text(outputs_.reason()) + (": " + outputs_.text()));
     status.add("plans made", plans_made_);
     status.add("plans adopted", outputs_.adopted());
+    status.add("switches to another class of ways", class_switches_);
     status.add("last request", request_);
     status.add("messages refused", refused_messages_ + inputs_.refused() + map_.refused() +
                                        peers_.refused() + pose_.refused());
@@ -287,6 +291,7 @@ class GlobalPlannerNode {
   std::optional<ros::Time> occupied_since_;
   std::string request_;
   int plans_made_ = 0;
+  int class_switches_ = 0;
   int refused_messages_ = 0;
   ros::Subscriber commitments_;
   ros::Subscriber requests_;

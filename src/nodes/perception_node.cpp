@@ -28,6 +28,7 @@
 #include "ros/sensor_conversions.h"
 #include "ros/step_loop.h"
 #include "world/robot_model.h"
+#include "world/world_file.h"
 
 namespace mocha {
 namespace {
@@ -71,6 +72,8 @@ class PerceptionNode {
                   node.advertiseService("clear_map", &PerceptionNode::on_clear, this)},
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
     if (!values.text("map_file").empty()) map_.load(values.text("map_file"));
+    if (!values.text("keep_out_file").empty())
+      keep_out_ = load_world(values.text("keep_out_file"), config_path("")).keep_out;
     diagnostics_.setHardwareID(robot_.name);
     diagnostics_.add("sensors", this, &PerceptionNode::diagnose_sensors);
     diagnostics_.add("map", this, &PerceptionNode::diagnose_map);
@@ -172,10 +175,19 @@ class PerceptionNode {
     map_stamp_ = stamp_.isZero() ? now_ : stamp_;
     message.header.stamp = message.info.map_load_time = map_stamp_;
     message.header.frame_id = robot_.map_frame;
-    to_message(map_.slice(values_.number("map_border")), message);
+    to_message(with_keep_out(map_.slice(values_.number("map_border"))), message);
     maps_.publish(message);
     published_ = now_;
     published_version_ = map_.version();
+  }
+
+  /// Zones that are not to be entered look occupied, seen or not.
+  OccupancyGrid with_keep_out(OccupancyGrid slice) const {
+    for (const Polygon& zone : keep_out_) {
+      slice = grown_to_hold(slice, zone.corners, 0.0);
+      fill_polygon(slice, zone, OccupancyGrid::kOccupied);
+    }
+    return slice;
   }
 
   void publish_cells() {
@@ -250,6 +262,7 @@ class PerceptionNode {
   const ParameterTable values_;
   const RobotIdentity robot_;
   OccupancyMap map_;
+  std::vector<Polygon> keep_out_;
   PeerTracks peers_;
   const double timeout_s_;
 

@@ -5,6 +5,7 @@
 
 #include "optimization/trajectory_objective.h"
 #include "safety/certificate.h"
+#include "topology/h_signature.h"
 #include "trajectory/motion.h"
 
 namespace mocha {
@@ -23,18 +24,20 @@ enum class PlanReason {
   kBudgetExhausted = 9,
   kPeerConflict = 10,
   kBraking = 11,
-  kBackingOut = 12
+  kBackingOut = 12,
+  kCannotWin = 13
 };
 
 /// One way to the goal that was optimised, certified or not.
 struct PlanCandidate {
-  std::vector<int> signature;
+  Signature signature;
   PlanReason reason = PlanReason::kNotCertified;
   Violation violation;  ///< where `reason` is kNotCertified
-  double cost = 0.0;
-  CostTerms terms;
+  double cost = 0.0;    ///< J (14), and the time of what comes before and after the drive
+  CostTerms terms;      ///< sum up to the cost
   int evaluations = 0;
   Motion motion;
+  bool driven = false;  ///< of the class of the plan that is being driven
   bool selected = false;
 };
 
@@ -45,7 +48,9 @@ struct PlanResult {
   Motion motion;  ///< certified; empty unless solved or backing out
   Vector2 goal =
       Vector2::Zero();  ///< where it leads: the goal, or the nearest free place; valid where solved
-  std::vector<PlanCandidate> candidates;
+  /// The motion is of another class than the plan that is being driven.
+  bool switches_class = false;
+  std::vector<PlanCandidate> candidates;  ///< one of each class
 };
 
 }  // namespace mocha

@@ -22,6 +22,12 @@ PlannerRules PlannerRules::from(const ParameterTable& values) {
   rules.goal_search_radius_m = values.number("goal_search_radius");
   rules.peer_soft_margin_m = values.number("peer_soft_margin");
   rules.back_out_m = values.number("back_out");
+  rules.roadmap = roadmap_kind(values.text("roadmap"));
+  rules.prm_samples = values.integer("prm_samples");
+  rules.classes = values.integer("classes");
+  rules.longest_ratio = values.number("longest_ratio");
+  rules.switch_margin = values.number("switch_margin");
+  rules.threads = values.integer("planning_threads");
   return rules;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "config/parameter_table.h"
+#include "topology/ways.h"
 
 namespace mocha {
 
@@ -25,6 +26,12 @@ struct PlannerRules {
   double goal_search_radius_m;
   double peer_soft_margin_m;
   double back_out_m;
+  RoadmapKind roadmap;
+  int prm_samples;
+  int classes;
+  double longest_ratio;
+  double switch_margin;
+  int threads;
 
   static PlannerRules from(const ParameterTable& values);
 };

@@ -16,6 +16,7 @@ ros::Time ros_time(double t) {
 // The enumerations are sent as their numbers.
 using Status = mocha_ugv::PlannerStatus;
 static_assert(static_cast<int>(PlanReason::kBackingOut) == Status::BACKING_OUT);
+static_assert(static_cast<int>(PlanReason::kCannotWin) == Status::CANNOT_WIN);
 static_assert(static_cast<int>(PlanReason::kPeerConflict) == Status::PEER_CONFLICT);
 static_assert(static_cast<int>(ViolatedTerm::kSeparation) == Status::SEPARATION);
 static_assert(static_cast<int>(ViolatedTerm::kUnseenSpace) == Status::UNSEEN_SPACE);
@@ -49,6 +50,8 @@ const char* to_text(PlanReason reason) {
       return "braking";
     case PlanReason::kBackingOut:
       return "backing out";
+    case PlanReason::kCannotWin:
+      return "cannot win";
   }
   return "unknown";
 }

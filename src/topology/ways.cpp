@@ -117,8 +117,9 @@ std::vector<Way> ways_along(const std::vector<std::vector<Vector2>>& paths, cons
   return ways;
 }
 
-/// Of each class the cheapest, cheapest first; the one that is driven, and `most` of the others.
-void keep_best(std::vector<Way>& ways, const WayRules& rules) {
+/// Of each class the cheapest, cheapest first; what is driven stays in any case.
+void keep_best(std::vector<Way>& ways, const std::optional<Signature>& driven,
+               const WayRules& rules) {
   std::stable_sort(ways.begin(), ways.end(),
                    [](const Way& a, const Way& b) { return a.cost_m < b.cost_m; });
   std::vector<Way> kept;
@@ -129,7 +130,7 @@ void keep_best(std::vector<Way>& ways, const WayRules& rules) {
     if (twin != kept.end()) continue;
     const bool good = static_cast<int>(kept.size()) < rules.classes &&
                       way.cost_m <= rules.longest_ratio * ways.front().cost_m;
-    if (good || way.driven) kept.push_back(std::move(way));
+    if (good || way.signature == driven) kept.push_back(std::move(way));
   }
   ways = std::move(kept);
 }
@@ -152,11 +153,9 @@ Ways find_ways(const Terrain& terrain, const WayQuery& query, const WayRules& ru
                         std::isfinite(cost_of(query.driven, cost));
   if (drivable) paths.push_back(query.driven);
   result.ways = ways_along(paths, cost, scenery.cuts, query.lead_in);
-  if (!query.driven.empty()) {
-    const Signature driven = signature_of<2>(scenery.cuts, query.driven);
-    for (Way& way : result.ways) way.driven = way.signature == driven;
-  }
-  keep_best(result.ways, rules);
+  if (!query.driven.empty()) result.driven = signature_of<2>(scenery.cuts, query.driven);
+  keep_best(result.ways, result.driven, rules);
+  result.cuts = scenery.cuts;
   result.outcome = result.ways.empty() ? GridPath::Outcome::kNoPath : GridPath::Outcome::kFound;
   return result;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "topology/grid_path.h"
@@ -9,6 +11,10 @@
 namespace mocha {
 
 enum class RoadmapKind { kApollonius, kVisibilityPrm };
+
+/// By its name: `apollonius`, `visibility_prm`, or `best` for the former where it was built. Throws
+/// std::invalid_argument for other names, and for `apollonius` where it was not built.
+RoadmapKind roadmap_kind(const std::string& name);
 
 struct WayRules {
   TravelRules travel;
@@ -31,6 +37,8 @@ struct Way {
 struct Ways {
   GridPath::Outcome outcome = GridPath::Outcome::kNoPath;
   std::vector<Way> ways;  ///< of pairwise different classes, cheapest first; empty unless found
+  Cuts<2> cuts{{}};       ///< that tell the classes apart
+  std::optional<Signature> driven;  ///< class of the path that is being driven
 };
 
 /// From where to where.

@@ -46,4 +46,23 @@ void fill_disc(OccupancyGrid& grid, const Vector2& centre, double radius_m, int8
   }
 }
 
+void fill_polygon(OccupancyGrid& grid, const Polygon& polygon, int8_t value) {
+  Eigen::AlignedBox2d box;
+  for (const Vector2& corner : polygon.corners)
+    box.extend((corner - grid.origin) / grid.resolution_m);
+  const int x0 = std::max(0, static_cast<int>(std::floor(box.min().x())));
+  const int x1 = std::min(grid.width - 1, static_cast<int>(std::floor(box.max().x())));
+  const int y0 = std::max(0, static_cast<int>(std::floor(box.min().y())));
+  const int y1 = std::min(grid.height - 1, static_cast<int>(std::floor(box.max().y())));
+  const Vector2 half = Vector2::Constant(0.5 * grid.resolution_m);
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      const Vector2 centre = grid.cell_centre(x, y);
+      const Polygon cell{{centre - half, centre + Vector2(half.x(), -half.y()), centre + half,
+                          centre + Vector2(-half.x(), half.y())}};
+      if (gap(Obstacle(cell), Obstacle(polygon)).distance_m <= 0.0) grid.at(x, y) = value;
+    }
+  }
+}
+
 }  // namespace mocha

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "trajectory/motion.h"
+#include "world/obstacle.h"
 
 namespace mocha {
 
@@ -34,5 +34,8 @@ OccupancyGrid grown_to_hold(const OccupancyGrid& grid, const std::vector<Vector2
 
 /// Sets every cell whose centre is within `radius_m` of `centre`.
 void fill_disc(OccupancyGrid& grid, const Vector2& centre, double radius_m, int8_t value);
+
+/// Sets every cell that the polygon touches, as far as the grid holds it.
+void fill_polygon(OccupancyGrid& grid, const Polygon& polygon, int8_t value);
 
 }  // namespace mocha

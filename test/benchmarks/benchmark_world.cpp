@@ -5,12 +5,15 @@
 #include <stdexcept>
 
 #include "topology/grid_path.h"
+#include "topology/map_terrain.h"
+#include "topology/path_shortening.h"
 
 namespace mocha {
 namespace {
 
 constexpr double kCell_m = 0.25;
 constexpr double kBorder_m = 6.0;
+constexpr double kLattice_m = 0.5;
 
 struct Ground {
   double side_m;
@@ -47,16 +50,18 @@ std::vector<Vector2> front_end(const std::vector<Circle>& circles, double side_m
   for (const Circle& circle : circles) {
     fill_disc(map, circle.centre, circle.radius_m, OccupancyGrid::kOccupied);
   }
-  GridPathRules rules;
+  TravelRules rules;
   rules.required_clearance_m = clearance_m;
   rules.preferred_clearance_m = clearance_m;
-  rules.step_m = 0.5;
-  const DistanceField field(map, DistanceField::Solid::kOccupied);
-  GridPath path = find_grid_path(field, {0.0, 0.0}, {side_m, side_m}, {}, rules);
+  const MapTerrain terrain(std::make_shared<DistanceField>(map, DistanceField::Solid::kOccupied));
+  const Vector2 start(0.0, 0.0);
+  const Vector2 goal(side_m, side_m);
+  const TravelCost cost(terrain, start, {}, rules);
+  const GridPath path = find_grid_path(terrain, start, goal, cost, kLattice_m);
   if (path.outcome != GridPath::Outcome::kFound) {
     throw std::runtime_error("benchmark world: there is no way through");
   }
-  return path.points;
+  return shortened(path.points, cost, Cuts<2>({}));
 }
 
 }  // namespace

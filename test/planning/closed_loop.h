@@ -175,7 +175,7 @@ class ClosedLoop {
     query.start_time_s = committed().switch_time(now_s + kPlanningTime_s);
     query.goal = goal;
     const PlanResult result =
-        planner_.plan(query, {scene.obstacles, scene.others}, [] { return false; });
+        planner_.plan(query, {terrain_of(scene.obstacles), scene.others}, [] { return false; });
     planned_s_ = now_s + planning_takes_s;
     requested_ = false;
     ++plans;

@@ -165,9 +165,9 @@ TEST_F(ReplannerLoop, RandomWorldsAreDrivenToTheEnd) {
     const Vector2 start(0.6, 0.6);
     const Vector2 goal(7.4, 5.4);
     const OccupancyGrid grid = random_world(seed, 24, start, goal, 0.6);
-    GridPathRules front_end;
+    TravelRules front_end;
     front_end.required_clearance_m = 0.3 + margin_m_ + 0.01;
-    if (find_grid_path(*occupied_field(grid), start, goal, {}, front_end).outcome !=
+    if (find_grid_way(occupied_field(grid), start, goal, {}, front_end).outcome !=
         GridPath::Outcome::kFound)
       continue;
     ++ways;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "planning/worlds.h"
@@ -26,7 +28,7 @@ class GlobalPlannerTest : public ::testing::Test {
   }
 
   PlanResult plan(const PlanQuery& query, const OccupancyGrid& grid) const {
-    return planner_.plan(query, {occupied_field(grid), {}}, kGoOn);
+    return planner_.plan(query, {terrain_of(grid), {}}, kGoOn);
   }
 
   void expect_certified(const PlanResult& result, const PlanQuery& query,
@@ -42,7 +44,9 @@ class GlobalPlannerTest : public ::testing::Test {
     EXPECT_FALSE(clearance) << describe(clearance);
     EXPECT_EQ(result.motion.start_time(), query.start_time_s);
     ASSERT_FALSE(result.candidates.empty());
-    EXPECT_TRUE(result.candidates.back().selected);
+    EXPECT_EQ(std::count_if(result.candidates.begin(), result.candidates.end(),
+                            [](const auto& candidate) { return candidate.selected; }),
+              1);
   }
 
   /// The motion must go on from the committed one in everything that a base cannot change at once.
@@ -179,7 +183,7 @@ TEST_F(GlobalPlannerTest, OccupiedGoalIsReplacedByTheNearestFreePlace) {
   rules.goal_search_radius_m = 1.0;
   const GlobalPlanner planner(robot_, rules);
   const PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-  const PlanResult result = planner.plan(query, {occupied_field(grid), {}}, kGoOn);
+  const PlanResult result = planner.plan(query, {terrain_of(grid), {}}, kGoOn);
   expect_certified(result, query, grid);
   const double off_m = (result.motion.end_pose().position - query.goal).norm();
   EXPECT_LT(off_m, 0.15 + 0.3 + MarginBudget::of(robot_).static_margin_m() + 0.15);
@@ -235,7 +239,7 @@ TEST_F(GlobalPlannerTest, BacksOutOfADeadEndTheWayItCame) {
   robot.footprint = Footprint::rectangle(1.0, 0.4, 3);
   const GlobalPlanner planner(robot, default_rules());
   PlanQuery query = from_standing({3.2, 0.0}, 0.0, {8.0, 0.0});
-  const PlanningScene scene{occupied_field(grid), {}};
+  const PlanningScene scene{terrain_of(grid), {}};
   const PlanResult stuck = planner.plan(query, scene, kGoOn);
   ASSERT_NE(stuck.reason, PlanReason::kSolved);
   EXPECT_TRUE(stuck.motion.empty());  // it does not know where it came from
@@ -247,7 +251,7 @@ TEST_F(GlobalPlannerTest, BacksOutOfADeadEndTheWayItCame) {
   EXPECT_LT(back.motion.end_pose().position.x(), 3.2 - 0.8);
   EXPECT_LT(std::abs(wrap_angle(back.motion.at(kStart_s).pose.yaw_rad)), 1e-3);
   EXPECT_FALSE(check_limits(back.motion, robot.limits, kStart_s));
-  EXPECT_FALSE(check_clearance(back.motion, robot.footprint, *scene.obstacles,
+  EXPECT_FALSE(check_clearance(back.motion, robot.footprint, scene.terrain->field(),
                                MarginBudget::of(robot).static_margin_m(), kStart_s));
   // Not where it came from ahead.
   query.trail.clear();
@@ -259,7 +263,7 @@ TEST_F(GlobalPlannerTest, GoesRoundAStandingPeer) {
   const PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
   const auto stand = std::make_shared<const Motion>(standing(kStart_s - 5.0, {4.0, 0.0}, 0.0));
   const auto peer = std::make_shared<PeerObstacle>("ugv2", stand, 0.3);
-  const PlanResult result = planner_.plan(query, {occupied_field(open_), {peer}}, kGoOn);
+  const PlanResult result = planner_.plan(query, {terrain_of(open_), {peer}}, kGoOn);
   expect_certified(result, query, open_);
   const double apart_m = robot_.peer_clearance_m + MarginBudget::of(robot_).peer_margin_m();
   const Violation violation = check_separation(result.motion, 0.3, *peer, apart_m, kStart_s);
@@ -273,7 +277,7 @@ TEST_F(GlobalPlannerTest, KeepsApartFromAPeerThatCrosses) {
   const auto peer = std::make_shared<PeerObstacle>("ugv2", crossing, 0.3);
   const double apart_m = robot_.peer_clearance_m + MarginBudget::of(robot_).peer_margin_m();
   ASSERT_TRUE(check_separation(plan(query, open_).motion, 0.3, *peer, apart_m, kStart_s));
-  const PlanResult result = planner_.plan(query, {occupied_field(open_), {peer}}, kGoOn);
+  const PlanResult result = planner_.plan(query, {terrain_of(open_), {peer}}, kGoOn);
   expect_certified(result, query, open_);
   const Violation violation = check_separation(result.motion, 0.3, *peer, apart_m, kStart_s);
   EXPECT_FALSE(violation) << describe(violation);
@@ -293,11 +297,11 @@ TEST_F(GlobalPlannerTest, WhoStandsTooCloseToAWallMayLeave) {
 
 TEST_F(GlobalPlannerTest, StopsWorkingWhenToldTo) {
   const PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-  int calls = 0;
+  std::atomic<int> calls{0};
   for (const int allowed : {0, 1, 30}) {
     calls = 0;
     const PlanResult result =
-        planner_.plan(query, {occupied_field(open_), {}}, [&] { return ++calls > allowed; });
+        planner_.plan(query, {terrain_of(open_), {}}, [&] { return ++calls > allowed; });
     if (result.reason == PlanReason::kSolved) continue;  // was fast enough
     EXPECT_EQ(result.reason, PlanReason::kBudgetExhausted);
     EXPECT_TRUE(result.motion.empty());

@@ -23,18 +23,18 @@ class RandomWorlds : public ::testing::Test {
   }
 
   /// Is there a way for the planner's front end?
-  bool has_way(const DistanceField& field, const Vector2& from, const Vector2& to) const {
-    GridPathRules rules;
+  bool has_way(const std::shared_ptr<const DistanceField>& field, const Vector2& from, const Vector2& to) const {
+    TravelRules rules;
     rules.required_clearance_m = robot_.footprint.cover().front().radius_m + margin_m_ + 0.01;
-    return find_grid_path(field, from, to, {}, rules).outcome == GridPath::Outcome::kFound;
+    return find_grid_way(field, from, to, {}, rules).outcome == GridPath::Outcome::kFound;
   }
 
   /// Plans and counts; what is called solved must be proved, joined and at its goal.
   PlanResult plan(const PlanQuery& query, const std::shared_ptr<const DistanceField>& field,
                   const std::string& name) {
-    const PlanResult result = planner_->plan(query, {field, {}}, kGoOn);
+    const PlanResult result = planner_->plan(query, {terrain_of(field), {}}, kGoOn);
     const MotionState start = query.committed.at(query.start_time_s);
-    ways_ += has_way(*field, start.pose.position, query.goal);
+    ways_ += has_way(field, start.pose.position, query.goal);
     if (result.reason != PlanReason::kSolved) {
       EXPECT_TRUE(result.motion.empty()) << name;
       EXPECT_FALSE(result.message.empty()) << name;
@@ -70,7 +70,7 @@ class RandomWorlds : public ::testing::Test {
       const auto field = occupied_field(random_world(seed, discs, kStart, kGoal, 0.6));
       std::mt19937 random(seed);
       const PlanResult result = plan(from_standing(random), field, "world " + std::to_string(seed));
-      EXPECT_EQ(result.reason == PlanReason::kNoPath, !has_way(*field, kStart, kGoal)) << seed;
+      EXPECT_EQ(result.reason == PlanReason::kNoPath, !has_way(field, kStart, kGoal)) << seed;
     }
     expect_share(worlds / 2, least_share);
   }
@@ -105,7 +105,7 @@ TEST_F(RandomWorlds, UnderWayToOtherGoals) {
     const auto field = occupied_field(random_world(seed, 22, kStart, kGoal, 0.6));
     std::mt19937 random(seed);
     const PlanQuery query = from_standing(random);
-    const Motion first = planner_->plan(query, {field, {}}, kGoOn).motion;
+    const Motion first = planner_->plan(query, {terrain_of(field), {}}, kGoOn).motion;
     if (first.empty()) continue;
     std::uniform_real_distribution<double> share(0.05, 0.95);
     for (int k = 0; k < 3; ++k) {

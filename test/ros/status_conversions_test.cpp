@@ -60,7 +60,8 @@ TEST(StatusConversions, EveryReasonHasItsOwnWordsAndNumber) {
       {PlanReason::kBudgetExhausted, Status::BUDGET_EXHAUSTED},
       {PlanReason::kPeerConflict, Status::PEER_CONFLICT},
       {PlanReason::kBraking, Status::BRAKING},
-      {PlanReason::kBackingOut, Status::BACKING_OUT}};
+      {PlanReason::kBackingOut, Status::BACKING_OUT},
+      {PlanReason::kCannotWin, Status::CANNOT_WIN}};
   std::set<std::string> words;
   for (const auto& [reason, number] : numbers) {
     EXPECT_EQ(to_message(reason, {}, "", "map", kStamp).reason, number);

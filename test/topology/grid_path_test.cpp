@@ -12,7 +12,7 @@ namespace {
 
 using Outcome = GridPath::Outcome;
 
-double length_m(const GridPath& path) {
+double length_m(const GridWay& path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.points.size(); ++i)
     length += (path.points[i] - path.points[i - 1]).norm();
@@ -20,7 +20,7 @@ double length_m(const GridPath& path) {
 }
 
 /// The smallest proved distance to obstacles along the path, sampled every millimetre.
-double clearance_m(const GridPath& path, const DistanceField& field) {
+double clearance_m(const GridWay& path, const DistanceField& field) {
   double least = field.distance_bound(path.points.front());
   for (std::size_t i = 1; i < path.points.size(); ++i) {
     const Vector2 step = path.points[i] - path.points[i - 1];
@@ -32,23 +32,23 @@ double clearance_m(const GridPath& path, const DistanceField& field) {
   return least;
 }
 
-void expect_ends(const GridPath& path, const Vector2& start, const Vector2& goal) {
+void expect_ends(const GridWay& path, const Vector2& start, const Vector2& goal) {
   ASSERT_EQ(path.outcome, Outcome::kFound);
   ASSERT_GE(path.points.size(), 2u);
   EXPECT_EQ(path.points.front(), start);
   EXPECT_EQ(path.points.back(), goal);
 }
 
-GridPath search(const OccupancyGrid& grid, const Vector2& start, const Vector2& goal,
-                const std::vector<BlockedDisc>& blocked = {}, const GridPathRules& rules = {}) {
-  return find_grid_path(*occupied_field(grid), start, goal, blocked, rules);
+GridWay search(const OccupancyGrid& grid, const Vector2& start, const Vector2& goal,
+                const std::vector<BlockedDisc>& blocked = {}, const TravelRules& rules = {}) {
+  return find_grid_way(occupied_field(grid), start, goal, blocked, rules);
 }
 
 TEST(GridPath, IsStraightOnAnEmptyMap) {
   const OccupancyGrid grid = free_grid({-1.0, -1.0}, {9.0, 7.0});
   const Vector2 start(0.013, 0.171);
   const Vector2 goal(7.91, 5.33);
-  const GridPath path = search(grid, start, goal);
+  const GridWay path = search(grid, start, goal);
   expect_ends(path, start, goal);
   EXPECT_EQ(path.points.size(), 2u);
   EXPECT_NEAR(path.cost, (goal - start).norm(), 1e-9);
@@ -57,11 +57,11 @@ TEST(GridPath, IsStraightOnAnEmptyMap) {
 TEST(GridPath, RoundsAWallByTheShortestWay) {
   OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0});
   fill_box(grid, {4.0, 0.0}, {4.05, 4.0});  // open above
-  GridPathRules rules;
+  TravelRules rules;
   rules.preferred_clearance_m = rules.required_clearance_m;  // length alone counts
   const Vector2 start(2.0, 2.0);
   const Vector2 goal(6.0, 2.0);
-  const GridPath path = search(grid, start, goal, {}, rules);
+  const GridWay path = search(grid, start, goal, {}, rules);
   expect_ends(path, start, goal);
   // Tangents to the two corners' circles of the required clearance, the arcs between them and the 5
   // cm along the top.
@@ -80,9 +80,9 @@ TEST(GridPath, PrefersRoomWhereThereIsAny) {
   fill_box(grid, {3.5, 2.6}, {4.5, 3.4});
   const Vector2 start(1.0, 3.0);
   const Vector2 goal(7.0, 3.0);
-  GridPathRules tight;
+  TravelRules tight;
   tight.preferred_clearance_m = tight.required_clearance_m;
-  GridPathRules wide;
+  TravelRules wide;
   wide.preferred_clearance_m = 1.0;
   const auto field = occupied_field(grid);
   const double near = clearance_m(search(grid, start, goal, {}, tight), *field);
@@ -92,12 +92,12 @@ TEST(GridPath, PrefersRoomWhereThereIsAny) {
 TEST(GridPath, EveryPointKeepsTheClearanceInRandomWorlds) {
   const Vector2 start(0.5, 0.5);
   const Vector2 goal(7.5, 5.5);
-  const GridPathRules rules;
+  const TravelRules rules;
   int found = 0;
   for (int seed = 1; seed <= 60; ++seed) {
     const OccupancyGrid grid = random_world(seed, 28, start, goal, 0.4);
     const auto field = occupied_field(grid);
-    const GridPath path = find_grid_path(*field, start, goal, {}, rules);
+    const GridWay path = find_grid_way(field, start, goal, {}, rules);
     if (path.outcome != Outcome::kFound) continue;
     ++found;
     expect_ends(path, start, goal);
@@ -110,7 +110,7 @@ TEST(GridPath, EveryPointKeepsTheClearanceInRandomWorlds) {
 }
 
 TEST(GridPath, KeepsTheClearanceFromAndToPlacesThatBarelyHaveIt) {
-  const GridPathRules rules;
+  const TravelRules rules;
   int found = 0;
   for (int seed = 1; seed <= 400; ++seed) {
     const OccupancyGrid grid = random_world(seed % 40, 28, {0.5, 0.5}, {7.5, 5.5}, 0.4);
@@ -129,7 +129,7 @@ TEST(GridPath, KeepsTheClearanceFromAndToPlacesThatBarelyHaveIt) {
     };
     const Vector2 start = barely_free();
     const Vector2 goal = barely_free();
-    const GridPath path = find_grid_path(*field, start, goal, {}, rules);
+    const GridWay path = find_grid_way(field, start, goal, {}, rules);
     ASSERT_NE(path.outcome, Outcome::kStartBlocked) << seed;
     ASSERT_NE(path.outcome, Outcome::kGoalBlocked) << seed;
     if (path.outcome != Outcome::kFound) continue;
@@ -153,9 +153,9 @@ TEST(GridPath, DoesNotSlipThroughAGapBetweenTwoNodes) {
     }
     const auto field = occupied_field(grid);
     for (double required_m = 0.2; required_m < 0.45; required_m += 0.0037) {
-      GridPathRules rules;
+      TravelRules rules;
       rules.required_clearance_m = required_m;
-      const GridPath path = find_grid_path(*field, {2.0, 1.5}, {6.0, 5.0}, {}, rules);
+      const GridWay path = find_grid_way(field, {2.0, 1.5}, {6.0, 5.0}, {}, rules);
       if (path.outcome != Outcome::kFound) continue;
       EXPECT_GE(clearance_m(path, *field), required_m - 0.004) << required_m;
     }
@@ -169,9 +169,9 @@ TEST(GridPath, CornersAreNotCutThroughForbiddenSpace) {
     for (double y = 0.5; y < 6.0; y += 1.0) fill_box(grid, {x, y}, {x + 0.05, y + 0.05});
   }
   const auto field = occupied_field(grid);
-  const GridPathRules rules;
+  const TravelRules rules;
   for (double y = 0.35; y < 5.6; y += 0.35) {
-    const GridPath path = find_grid_path(*field, {0.5, y}, {7.6, 6.0 - y}, {}, rules);
+    const GridWay path = find_grid_way(field, {0.5, y}, {7.6, 6.0 - y}, {}, rules);
     ASSERT_EQ(path.outcome, Outcome::kFound) << y;
     EXPECT_GE(clearance_m(path, *field), rules.required_clearance_m - 0.003) << y;
   }
@@ -183,10 +183,10 @@ TEST(GridPath, FindsANarrowGapThatIsJustWideEnough) {
     fill_box(grid, {4.0, 0.0}, {4.2, 6.0});
     const double gap_m = 0.05 * gap_cells;
     fill_box(grid, {4.0, 2.0}, {4.2, 2.0 + gap_m}, OccupancyGrid::kFree);
-    const GridPath path = search(grid, {2.0, 3.0}, {6.0, 3.0});
+    const GridWay path = search(grid, {2.0, 3.0}, {6.0, 3.0});
     // The middle of an even number of cells is a node of the lattice; of an odd number half a cell
     // off.
-    const double slack_m = gap_m - 2.0 * GridPathRules().required_clearance_m;
+    const double slack_m = gap_m - 2.0 * TravelRules().required_clearance_m;
     if (slack_m < -1e-6) {
       EXPECT_EQ(path.outcome, Outcome::kNoPath) << gap_m;
     } else if (slack_m >= 0.05) {
@@ -219,7 +219,7 @@ TEST(GridPath, OutsideTheFieldIsBlocked) {
 TEST(GridPath, SaysThatThereIsNoWay) {
   OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0});
   fill_box(grid, {4.0, 0.0}, {4.2, 6.0});
-  const GridPath path = search(grid, {2.0, 3.0}, {6.0, 3.0});
+  const GridWay path = search(grid, {2.0, 3.0}, {6.0, 3.0});
   EXPECT_EQ(path.outcome, Outcome::kNoPath);
   EXPECT_TRUE(path.points.empty());
 }
@@ -232,7 +232,7 @@ TEST(GridPath, StartAndGoalMayBeTheSameOrNearlyTheSame) {
   for (const Vector2& start : {Vector2(2.0, 3.0), Vector2(3.6, 3.0), Vector2(3.62, 3.01)}) {
     for (const Vector2& shift :
          {Vector2(0.0, 0.0), Vector2(0.004, 0.002), Vector2(0.02, 0.0), Vector2(0.0, 0.06)}) {
-      const GridPath path = search(grid, start, start + shift);
+      const GridWay path = search(grid, start, start + shift);
       expect_ends(path, start, start + shift);
       EXPECT_LT(path.cost, 0.3);
     }
@@ -242,7 +242,7 @@ TEST(GridPath, StartAndGoalMayBeTheSameOrNearlyTheSame) {
 TEST(GridPath, GoesRoundBlockedDiscs) {
   const OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0});
   const std::vector<BlockedDisc> blocked = {{{4.0, 3.0}, 1.0}, {{4.0, 1.2}, 1.0}};
-  const GridPath path = search(grid, {1.0, 3.0}, {7.0, 3.0}, blocked);
+  const GridWay path = search(grid, {1.0, 3.0}, {7.0, 3.0}, blocked);
   expect_ends(path, {1.0, 3.0}, {7.0, 3.0});
   for (std::size_t i = 1; i < path.points.size(); ++i) {
     const Vector2 step = path.points[i] - path.points[i - 1];
@@ -280,8 +280,8 @@ TEST(GridPath, WhoStandsTooCloseToAWallMayLeaveItButNotComeCloser) {
   const GridPath along = search(grid, start, {3.6, 5.5});
   expect_ends(along, start, {3.6, 5.5});
   for (std::size_t i = 1; i < along.points.size(); ++i) {
-    if ((along.points[i] - start).norm() < GridPathRules().escape_radius_m) continue;
-    EXPECT_GE(field->distance_bound(along.points[i]), GridPathRules().required_clearance_m - 0.003);
+    if ((along.points[i] - start).norm() < TravelRules().escape_radius_m) continue;
+    EXPECT_GE(field->distance_bound(along.points[i]), TravelRules().required_clearance_m - 0.003);
   }
   EXPECT_EQ(search(grid, start, {3.85, 3.1}).outcome, Outcome::kFound);  // within the escape radius
   EXPECT_EQ(search(grid, start, {3.85, 5.0}).outcome, Outcome::kGoalBlocked);  // far beyond it
@@ -289,20 +289,17 @@ TEST(GridPath, WhoStandsTooCloseToAWallMayLeaveItButNotComeCloser) {
 
 TEST(GridPath, TheLatticeIsNeverFinerThanTheMap) {
   const OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0}, 0.2);
-  GridPathRules rules;
-  rules.step_m = 0.01;
-  EXPECT_EQ(search(grid, {1.0, 1.0}, {7.0, 5.0}, {}, rules).outcome, Outcome::kFound);
+  const GridWay path = find_grid_way(occupied_field(grid), {1.0, 1.0}, {7.0, 5.0}, {}, {}, 0.01);
+  EXPECT_EQ(path.outcome, Outcome::kFound);
 }
 
 TEST(GridPath, ACoarseLatticeOnAFineMapStillKeepsTheClearance) {
   OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0}, 0.025);
   for (double y = 0.3; y < 6.0; y += 0.9) fill_disc(grid, {4.0, y}, 0.1, OccupancyGrid::kOccupied);
-  GridPathRules rules;
-  rules.step_m = 0.2;
   const auto field = occupied_field(grid);
-  const GridPath path = find_grid_path(*field, {2.0, 3.0}, {6.0, 3.1}, {}, rules);
+  const GridWay path = find_grid_way(field, {2.0, 3.0}, {6.0, 3.1}, {}, {}, 0.2);
   ASSERT_EQ(path.outcome, Outcome::kFound);
-  EXPECT_GE(clearance_m(path, *field), rules.required_clearance_m - 0.003);
+  EXPECT_GE(clearance_m(path, *field), TravelRules().required_clearance_m - 0.003);
 }
 
 TEST(GridPath, OneCellIsAMap) {

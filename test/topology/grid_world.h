@@ -2,8 +2,12 @@
 
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
+#include "topology/grid_path.h"
+#include "topology/map_terrain.h"
+#include "topology/path_shortening.h"
 #include "world/distance_field.h"
 #include "world/occupancy_grid.h"
 
@@ -39,6 +43,31 @@ inline std::shared_ptr<const DistanceField> occupied_field(const OccupancyGrid& 
 
 inline std::shared_ptr<const DistanceField> unseen_field(const OccupancyGrid& grid) {
   return std::make_shared<DistanceField>(grid, DistanceField::Solid::kOccupiedOrUnknown);
+}
+
+inline std::shared_ptr<const Terrain> terrain_of(std::shared_ptr<const DistanceField> field) {
+  return std::make_shared<MapTerrain>(std::move(field));
+}
+
+inline std::shared_ptr<const Terrain> terrain_of(const OccupancyGrid& grid) {
+  return terrain_of(occupied_field(grid));
+}
+
+/// The lattice path with its corners cut, and what it costs.
+struct GridWay : GridPath {
+  double cost = 0.0;
+};
+
+inline GridWay find_grid_way(std::shared_ptr<const DistanceField> field, const Vector2& start,
+                             const Vector2& goal, const std::vector<BlockedDisc>& blocked,
+                             const TravelRules& rules, double step_m = 0.05) {
+  const MapTerrain terrain(std::move(field));
+  const TravelCost cost(terrain, start, blocked, rules);
+  GridWay way{find_grid_path(terrain, start, goal, cost, step_m)};
+  if (way.outcome != GridPath::Outcome::kFound) return way;
+  way.points = shortened(way.points, cost, Cuts<2>({}));
+  way.cost = cost_of(way.points, cost);
+  return way;
 }
 
 /// 8 x 6 m from the origin on with `count` random discs, none nearer than `free_m` to `start` and

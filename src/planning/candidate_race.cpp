@@ -1,0 +1,80 @@
+#include "planning/candidate_race.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+namespace mocha {
+namespace {
+
+/// The cost that a candidate has to stay below in order to be driven.
+class CostToBeat {
+ public:
+  double get() const { return cost_.load(); }
+  void lower_to(double cost) {
+    double known = cost_.load();
+    while (cost < known && !cost_.compare_exchange_weak(known, cost)) {
+    }
+  }
+
+ private:
+  std::atomic<double> cost_{std::numeric_limits<double>::infinity()};
+};
+
+}  // namespace
+
+std::vector<PlanCandidate> race(const CandidatePlanner& planner, const PlanQuery& query,
+                                const Approaches& approaches, const PlanningScene& scene,
+                                const PlannerRules& rules,
+                                const std::function<bool()>& should_stop) {
+  const std::size_t count = approaches.list.size();
+  std::vector<PlanCandidate> candidates(count);
+  CostToBeat to_beat;
+  std::atomic<std::size_t> next{0};
+  const auto run = [&](std::size_t i) {
+    const Approach& approach = approaches.list[i];
+    const bool driven = approach.signature == approaches.driven;
+    const double least_cost = planner.least_cost(approach);
+    const auto cannot_win = [&] { return !driven && least_cost >= to_beat.get(); };
+    PlanCandidate& candidate = candidates[i];
+    candidate = planner.plan(query, approach, scene, [&] { return cannot_win() || should_stop(); });
+    // An optimiser may leave its class.
+    if (!candidate.motion.empty()) {
+      candidate.signature = signature_of<2>(
+          approaches.cuts, path_of(candidate.motion, query.start_time_s, planner.max_speed()));
+    }
+    candidate.driven = candidate.signature == approaches.driven;
+    if (candidate.reason == PlanReason::kBudgetExhausted && cannot_win()) {
+      candidate.reason = PlanReason::kCannotWin;
+      candidate.cost = std::max(candidate.cost, least_cost);
+    }
+    if (candidate.reason == PlanReason::kSolved)
+      to_beat.lower_to(candidate.driven ? (1.0 - rules.switch_margin) * candidate.cost
+                                        : candidate.cost);
+  };
+  tbb::task_arena arena(rules.threads > 0 ? rules.threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    // One at a time each, cheapest way first, so that what is to beat is known early.
+    tbb::parallel_for(
+        std::size_t{0}, count, [&](std::size_t) { run(next++); }, tbb::simple_partitioner());
+  });
+  return candidates;
+}
+
+int winner(const std::vector<PlanCandidate>& candidates, double switch_margin) {
+  int best = -1;
+  int driven = -1;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].reason != PlanReason::kSolved) continue;
+    if (best < 0 || candidates[i].cost < candidates[best].cost) best = static_cast<int>(i);
+    if (candidates[i].driven) driven = static_cast<int>(i);
+  }
+  const bool stays =
+      driven >= 0 && candidates[best].cost >= (1.0 - switch_margin) * candidates[driven].cost;
+  return stays ? driven : best;
+}
+
+}  // namespace mocha

@@ -1,0 +1,20 @@
+#include "planning/peer_discs.h"
+
+#include "safety/margin_budget.h"
+
+namespace mocha {
+
+bool stands(const MovingObstacle& peer, double t) {
+  constexpr double kSoon_s = 0.5;
+  return peer.rest_time() <= t + kSoon_s;
+}
+
+BlockedDisc kept_from(const MovingObstacle& peer, double t, const RobotModel& robot,
+                      double slack_m) {
+  const auto disc = peer.at(t);
+  return {disc.centre, disc.radius_m + robot.footprint.circumscribed_radius_m() +
+                           robot.peer_clearance_m + MarginBudget::of(robot).peer_margin_m() +
+                           slack_m};
+}
+
+}  // namespace mocha
