@@ -2,6 +2,9 @@
 # A folder without sources becomes an interface library, so that the layering can be stated in one place.
 function(mocha_folder name)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  if(MOCHA_LEFT_OUT)
+    list(FILTER sources EXCLUDE REGEX "/${MOCHA_LEFT_OUT}(_test)?\\.cpp$")
+  endif()
   if(sources)
     add_library(mocha_${name} STATIC ${sources})
     set(scope PUBLIC)

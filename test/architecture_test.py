@@ -26,6 +26,7 @@ LIBRARIES = {
     "ROS": (r"(ros|rosbag|rosconsole|tf2\w*|actionlib|message_filters|dynamic_reconfigure|laser_geometry|diagnostic_\w+"
             r"|xmlrpcpp|\w+_msgs|std_srvs|mocha_ugv)/|XmlRpc", r"(ros|nodes)/"),
     "OctoMap": (r"octomap", r"perception/"),
+    "CGAL": (r"CGAL/", r"topology/apollonius_roadmap\.cpp"),
     "LCM": (r"lcm/", r"fleet/wire_format\.|nodes/trajectory_broadcaster_node\."),
 }
 NOT_IN_CORE = {
@@ -116,6 +117,7 @@ class Architecture(unittest.TestCase):
             ("src/control/a.h", "#include <geometry_msgs/Twist.h>", "ROS has no business"),
             ("src/planning/a.h", "#include <mocha_ugv/Trajectory.h>", "ROS has no business"),
             ("src/ros/a.h", "#include <octomap/OcTree.h>", "OctoMap has no business"),
+            ("src/topology/apollonius_roadmap.h", "#include <CGAL/Apollonius_graph_2.h>", "CGAL has no business"),
             ("src/fleet/commitment.h", "#include <lcm/lcm-cpp.hpp>", "LCM has no business"),
             ("src/world/a.cpp", "auto t = std::chrono::steady_clock::now();", "reads a clock"),
             ("src/safety/a.cpp", 'std::cout << "proved";', "prints"),
@@ -142,6 +144,7 @@ class Architecture(unittest.TestCase):
             for name, content in {"config/a.yaml": "gain: {default: 1.0}\n",
                                   "src/planning/a.cpp": '#include "fleet/b.h"\nstd::snprintf(s, n, "x"); // sleep()',
                                   "src/fleet/wire_format.cpp": "#include <lcm/lcm-cpp.hpp>\n",
+                                  "src/topology/apollonius_roadmap.cpp": "#include <CGAL/Apollonius_graph_2.h>",
                                   "src/nodes/a_node.cpp": '#include <ros/ros.h>\n#include "ros/x.h"\n'
                                                           'read_parameters(ros::NodeHandle("~"), "a").number("gain")'}.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
