@@ -1,6 +1,6 @@
 #include "topology/h_signature.h"
 
-#include <numeric>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -11,6 +11,14 @@ namespace {
 double turn(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
+
+/// Whether points on the line from a to b come to be left of it when they are shifted a little
+/// towards +x, and far less than that towards +y.
+bool leftward(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return b.y() < a.y() || (b.y() == a.y() && b.x() > a.x());
+}
+
+bool is_left(double turn, bool if_on_line) { return turn > 0.0 || (turn == 0.0 && if_on_line); }
 
 std::vector<Eigen::Vector2d> feet_of(const std::vector<Cuts<3>::Curve>& curves) {
   std::vector<Eigen::Vector2d> feet;
@@ -30,7 +38,6 @@ SignatureKey key_of(int obstacle) {
   return z ^ (z >> 31);
 }
 
-template <>
 Cuts<2>::Cuts(const std::vector<Point>& representatives) {
   for (const Point& foot : representatives) rays_.push_back({foot, static_cast<int>(rays_.size())});
   std::stable_sort(rays_.begin(), rays_.end(),
@@ -50,23 +57,32 @@ Cuts<3>::Cuts(const std::vector<Curve>& curves)
       throw std::invalid_argument("loop: corners = " + std::to_string(corners) + ", at least 3");
     }
     for (std::size_t i = 0; i < corners; ++i) {
-      sides_.push_back({loop->corners[i], loop->corners[(i + 1) % corners], r});
+      sides_.push_back({snapped(loop->corners[i]), snapped(loop->corners[(i + 1) % corners]), r});
     }
   }
 }
 
+/// To a grid so coarse that turns of points up to 500 m from the origin are exact.
+Cuts<3>::Point Cuts<3>::snapped(const Point& p) {
+  constexpr double kPerMetre = 65536.0;
+  return {std::round(p.x() * kPerMetre) / kPerMetre, std::round(p.y() * kPerMetre) / kPerMetre,
+          p.z()};
+}
+
 int Cuts<3>::crossing(const Side& side, const Point& p, const Point& q) {
-  // Seen from above, the way crosses the side; a point on a line counts as left of it, for the way
-  // as for the side, so that neighbours share corners without gap or overlap.
-  const bool p_left = turn(side.from, side.to, p) >= 0.0;
-  const bool q_left = turn(side.from, side.to, q) >= 0.0;
-  if (p_left == q_left) return 0;
-  const double from_turn = turn(p, q, side.from);
-  const double to_turn = turn(p, q, side.to);
-  if ((from_turn >= 0.0) == (to_turn >= 0.0)) return 0;
-  // Where they cross, the way is to be above the side.
+  // Seen from above, the way is to cross the side. Where points lie on lines, the way counts as
+  // shifted a little: the same shift for all, so that neighbours share corners without gap or
+  // overlap, and too little to move a closed path across a curve.
+  const bool left_of_side = leftward(side.from, side.to);
   const double p_turn = turn(side.from, side.to, p);
   const double q_turn = turn(side.from, side.to, q);
+  const bool q_left = is_left(q_turn, left_of_side);
+  if (is_left(p_turn, left_of_side) == q_left) return 0;
+  const bool left_of_way = leftward(q, p);  // seen from the way, the side is shifted back
+  const double from_turn = turn(p, q, side.from);
+  const double to_turn = turn(p, q, side.to);
+  if (is_left(from_turn, left_of_way) == is_left(to_turn, left_of_way)) return 0;
+  // Where they cross, the way is to be above the side.
   const double way_z = p.z() + (q.z() - p.z()) * p_turn / (p_turn - q_turn);
   const double side_z =
       side.from.z() + (side.to.z() - side.from.z()) * from_turn / (from_turn - to_turn);
