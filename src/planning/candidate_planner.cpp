@@ -74,9 +74,8 @@ Motion CandidatePlanner::assemble(const PlanQuery& query, const Opening& opening
   if (query.goal_yaw_rad) {
     const double end_s = drive.path.duration();
     const Pose end{drive.path.position(end_s), heading(drive, end_s)};
-    for (const Phase& turn :
-         front_end_.openings().turn(end, wrap_angle(*query.goal_yaw_rad - end.yaw_rad)))
-      phases.push_back(turn);
+    const double change = wrap_angle(*query.goal_yaw_rad - end.yaw_rad);
+    if (const auto turn = front_end_.openings().turn(end, change)) phases.emplace_back(*turn);
   }
   return Motion(query.start_time_s, std::move(phases));
 }

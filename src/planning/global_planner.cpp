@@ -11,6 +11,7 @@ namespace mocha {
 namespace {
 
 constexpr double kAtGoal_m = 0.03;  // from there on, only the heading is left
+constexpr double kStand_s = 0.1;
 
 PlanResult failure(PlanReason reason, const std::string& message) {
   PlanResult result;
@@ -57,10 +58,10 @@ std::optional<Vector2> GlobalPlanner::free_goal(const Vector2& goal,
 PlanResult GlobalPlanner::turn_only(const PlanQuery& query, const PlanningScene& scene) const {
   const Pose pose = query.committed.at(query.start_time_s).pose;
   const double change = query.goal_yaw_rad ? wrap_angle(*query.goal_yaw_rad - pose.yaw_rad) : 0.0;
-  std::vector<Phase> phases = planner_.front_end().openings().turn(pose, change);
-  if (phases.empty()) phases.push_back(StandPhase{pose, 0.1});
+  const auto turn = planner_.front_end().openings().turn(pose, change);
   PlanResult result;
-  result.motion = Motion(query.start_time_s, std::move(phases));
+  result.motion =
+      Motion(query.start_time_s, {turn ? Phase(*turn) : Phase(StandPhase{pose, kStand_s})});
   result.goal = query.goal;
   result.violation = certify(result.motion, scene.terrain->field(), query.start_time_s);
   result.reason = result.violation ? PlanReason::kNotCertified : PlanReason::kSolved;

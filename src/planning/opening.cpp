@@ -25,11 +25,11 @@ double yaw_of(const Vector2& direction) { return std::atan2(direction.y(), direc
 Openings::Openings(const MotionLimits& limits, double smooth_start_rad, double rest_acceleration)
     : limits_(limits), smooth_start_rad_(smooth_start_rad), rest_acceleration_(rest_acceleration) {}
 
-std::vector<Phase> Openings::turn(const Pose& pose, double yaw_change_rad) const {
-  if (std::abs(yaw_change_rad) <= kNoTurn_rad) return {};
-  return {TurnPhase{
+std::optional<TurnPhase> Openings::turn(const Pose& pose, double yaw_change_rad) const {
+  if (std::abs(yaw_change_rad) <= kNoTurn_rad) return std::nullopt;
+  return TurnPhase{
       pose, yaw_change_rad,
-      turn_duration_s(yaw_change_rad, limits_.max_yaw_rate, limits_.max_yaw_acceleration)}};
+      turn_duration_s(yaw_change_rad, limits_.max_yaw_rate, limits_.max_yaw_acceleration)};
 }
 
 Opening Openings::opening(std::vector<Phase> phases, const Pose& end,
@@ -50,10 +50,9 @@ std::vector<Opening> Openings::from_rest(const std::vector<Phase>& before, const
   std::vector<Opening> openings;
   if (std::abs(change) <= std::max(smooth_start_rad_, kNoTurn_rad))
     openings.push_back(opening(before, pose, path));
-  const std::vector<Phase> turning = turn(pose, change);
-  if (!turning.empty()) {
+  if (const auto turning = turn(pose, change)) {
     std::vector<Phase> phases = before;
-    phases.push_back(turning.front());
+    phases.emplace_back(*turning);
     openings.push_back(opening(std::move(phases), {pose.position, path_yaw}, path));
   }
   return openings;

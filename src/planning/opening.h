@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planning/planner_rules.h"
@@ -33,8 +34,8 @@ class Openings {
   /// first.
   std::vector<Opening> rolling(const MotionState& state, const std::vector<Vector2>& path) const;
 
-  /// The turn that ends a plan: none for small changes.
-  std::vector<Phase> turn(const Pose& pose, double yaw_change_rad) const;
+  /// In place; none for changes so small that a drive can take them.
+  std::optional<TurnPhase> turn(const Pose& pose, double yaw_change_rad) const;
 
  private:
   Opening opening(std::vector<Phase> phases, const Pose& end,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mocha {
 namespace {
@@ -39,8 +40,10 @@ std::vector<Vector2> cut_corners(const std::vector<Vector2>& points, const Trave
     for (std::size_t next = from + 2; next < points.size() && failures < kMostFailures; ++next) {
       const bool same_class =
           key_of<2>(cuts, points[from], points[next]) == key_to[next] - key_to[from];
-      const bool cheap = same_class && cost.of_line(points[from], points[next]) <=
-                                           cost_to[next] - cost_to[from] + kNoDearer_m;
+      const double straight =
+          same_class ? cost.of_line(points[from], points[next]) : TravelCost::kInfinity;
+      const bool cheap = straight < TravelCost::kInfinity &&
+                         straight <= cost_to[next] - cost_to[from] + kNoDearer_m;
       failures = cheap ? 0 : failures + 1;
       if (cheap) to = next;
     }
@@ -72,8 +75,11 @@ std::vector<Vector2> shortened(const std::vector<Vector2>& path, const TravelCos
   for (int round = 0; round < 2; ++round) {
     const double spacing_m =
         std::max(kFinest * cost.terrain().detail_m(), length_of(shorter) / kPoints);
-    shorter = cut_corners(refined(shorter, spacing_m), cost, cuts);
-    std::reverse(shorter.begin(), shorter.end());
+    std::vector<Vector2> next = cut_corners(refined(shorter, spacing_m), cost, cuts);
+    // In the narrowest places a part of a line may fail where the whole has passed.
+    if (!(cost_of(next, cost) < TravelCost::kInfinity)) next = cut_corners(shorter, cost, cuts);
+    std::reverse(next.begin(), next.end());
+    shorter = std::move(next);
   }
   return shorter;
 }

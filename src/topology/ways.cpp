@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 #include <utility>
 
+#ifdef MOCHA_WITH_CGAL
 #include "topology/apollonius_roadmap.h"
+#endif
 #include "topology/class_search.h"
 #include "topology/length_bound.h"
 #include "topology/path_shortening.h"
@@ -26,9 +29,9 @@ struct Scenery {
   Cuts<2> cuts;
 };
 
-Scenery scenery_of(const Terrain& terrain, const TravelCost& cost) {
+Scenery scenery_of(const TravelCost& cost) {
   const double required_m = cost.rules().required_clearance_m;
-  std::vector<ObstacleGroup> groups = terrain.groups(required_m);
+  std::vector<ObstacleGroup> groups = cost.terrain().groups(required_m);
   for (const BlockedDisc& disc : cost.blocked()) {
     const double radius_m =
         std::min(disc.radius_m, (cost.start() - disc.centre).norm()) - required_m;
@@ -39,17 +42,22 @@ Scenery scenery_of(const Terrain& terrain, const TravelCost& cost) {
   return {std::move(groups), Cuts<2>(representatives)};
 }
 
-Roadmap<2> roadmap_of(const Terrain& terrain, const Scenery& scenery, const Vector2& start,
-                      const Vector2& goal, const WayRules& rules) {
-  const double required_m = rules.travel.required_clearance_m;
+Roadmap<2> roadmap_of(const TravelCost& cost, const Scenery& scenery, const Vector2& goal,
+                      const WayRules& rules) {
+  const Terrain& terrain = cost.terrain();
+  const TravelRules& travel = rules.travel;
+#ifdef MOCHA_WITH_CGAL
   if (rules.roadmap == RoadmapKind::kApollonius) {
-    const double relaxed_m = std::max(0.5 * required_m, required_m - kCircleError_m);
-    return apollonius_roadmap(scenery.groups, terrain.bounds(), start, goal, relaxed_m);
+    const double relaxed_m =
+        std::max(0.5 * travel.required_clearance_m, travel.required_clearance_m - kCircleError_m);
+    return apollonius_roadmap(scenery.groups, terrain.bounds(), cost.start(), goal,
+                              {relaxed_m, travel.escape_radius_m});
   }
+#endif
   VisibilityPrmRules prm;
   prm.samples = rules.prm_samples;
-  prm.required_clearance_m = required_m;
-  return visibility_prm<2>(terrain.field(), scenery.cuts, terrain.bounds(), start, goal, prm);
+  return visibility_prm<2>(terrain.field(), scenery.cuts, terrain.bounds(), cost.start(), goal,
+                           {travel.required_clearance_m, travel.escape_radius_m}, prm);
 }
 
 /// Off what is too close, if a few steps suffice.
@@ -85,17 +93,16 @@ void price(Roadmap<2>& roadmap, const TravelCost& cost) {
 }
 
 /// From the start that `cost` knows.
-std::vector<std::vector<Vector2>> paths_of_classes(const Terrain& terrain, const TravelCost& cost,
-                                                   const Scenery& scenery, const Vector2& goal,
-                                                   const WayRules& rules) {
-  Roadmap<2> roadmap = roadmap_of(terrain, scenery, cost.start(), goal, rules);
+std::vector<std::vector<Vector2>> paths_of_classes(const TravelCost& cost, const Scenery& scenery,
+                                                   const Vector2& goal, const WayRules& rules) {
+  Roadmap<2> roadmap = roadmap_of(cost, scenery, goal, rules);
   price(roadmap, cost);
   std::vector<std::vector<Vector2>> paths;
   for (auto& path : shortest_classes(roadmap, scenery.cuts, {rules.classes, rules.longest_ratio}))
     paths.push_back(std::move(path.points));
   if (!paths.empty()) return paths;
   // Too narrow for the roadmap's circles, perhaps; the lattice is slower, but misses nothing.
-  GridPath path = find_grid_path(terrain, cost.start(), goal, cost, rules.lattice_step_m);
+  GridPath path = find_grid_path(cost.terrain(), cost.start(), goal, cost, rules.lattice_step_m);
   if (path.outcome == GridPath::Outcome::kFound) paths.push_back(std::move(path.points));
   return paths;
 }
@@ -137,6 +144,22 @@ void keep_best(std::vector<Way>& ways, const std::optional<Signature>& driven,
 
 }  // namespace
 
+RoadmapKind roadmap_kind(const std::string& name) {
+#ifdef MOCHA_WITH_CGAL
+  constexpr bool kHaveApollonius = true;
+#else
+  constexpr bool kHaveApollonius = false;
+#endif
+  if (name == "visibility_prm") return RoadmapKind::kVisibilityPrm;
+  if (name == "best")
+    return kHaveApollonius ? RoadmapKind::kApollonius : RoadmapKind::kVisibilityPrm;
+  if (name != "apollonius") {
+    throw std::invalid_argument("roadmap = " + name + ", one of best, apollonius, visibility_prm");
+  }
+  if (!kHaveApollonius) throw std::invalid_argument("roadmap = apollonius: built without CGAL");
+  return RoadmapKind::kApollonius;
+}
+
 Ways find_ways(const Terrain& terrain, const WayQuery& query, const WayRules& rules) {
   const Vector2& start = query.start();
   const TravelCost cost(terrain, start, query.blocked, rules.travel);
@@ -146,9 +169,8 @@ Ways find_ways(const Terrain& terrain, const WayQuery& query, const WayRules& ru
   result.outcome = GridPath::Outcome::kGoalBlocked;
   if (!terrain.bounds().contains(query.goal) || cost.at(query.goal) == TravelCost::kInfinity)
     return result;
-  const Scenery scenery = scenery_of(terrain, cost);
-  std::vector<std::vector<Vector2>> paths =
-      paths_of_classes(terrain, cost, scenery, query.goal, rules);
+  const Scenery scenery = scenery_of(cost);
+  std::vector<std::vector<Vector2>> paths = paths_of_classes(cost, scenery, query.goal, rules);
   const bool drivable = query.lead_in.size() == 1 && query.driven.size() >= 2 &&
                         std::isfinite(cost_of(query.driven, cost));
   if (drivable) paths.push_back(query.driven);

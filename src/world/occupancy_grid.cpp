@@ -1,5 +1,6 @@
 #include "world/occupancy_grid.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -8,6 +8,7 @@
 
 #include "planning/worlds.h"
 #include "safety/certificate.h"
+#include "safety/margin_budget.h"
 #include "trajectory/stopping.h"
 
 namespace mocha {

@@ -4,6 +4,7 @@
 
 #include "planning/global_planner.h"
 #include "planning/worlds.h"
+#include "safety/margin_budget.h"
 
 namespace mocha {
 namespace {
@@ -23,7 +24,8 @@ class RandomWorlds : public ::testing::Test {
   }
 
   /// Is there a way for the planner's front end?
-  bool has_way(const std::shared_ptr<const DistanceField>& field, const Vector2& from, const Vector2& to) const {
+  bool has_way(const std::shared_ptr<const DistanceField>& field, const Vector2& from,
+               const Vector2& to) const {
     TravelRules rules;
     rules.required_clearance_m = robot_.footprint.cover().front().radius_m + margin_m_ + 0.01;
     return find_grid_way(field, from, to, {}, rules).outcome == GridPath::Outcome::kFound;

@@ -40,7 +40,7 @@ void expect_ends(const GridWay& path, const Vector2& start, const Vector2& goal)
 }
 
 GridWay search(const OccupancyGrid& grid, const Vector2& start, const Vector2& goal,
-                const std::vector<BlockedDisc>& blocked = {}, const TravelRules& rules = {}) {
+               const std::vector<BlockedDisc>& blocked = {}, const TravelRules& rules = {}) {
   return find_grid_way(occupied_field(grid), start, goal, blocked, rules);
 }
 
@@ -260,7 +260,7 @@ TEST(GridPath, WhoStandsInsideABlockedDiscMayLeaveItButNotGoDeeper) {
   const OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0});
   const std::vector<BlockedDisc> blocked = {{{4.0, 3.0}, 1.0}};
   expect_ends(search(grid, {3.3, 3.0}, {1.0, 3.0}, blocked), {3.3, 3.0}, {1.0, 3.0});
-  const GridPath round = search(grid, {3.3, 3.0}, {7.0, 3.0}, blocked);
+  const GridWay round = search(grid, {3.3, 3.0}, {7.0, 3.0}, blocked);
   expect_ends(round, {3.3, 3.0}, {7.0, 3.0});
   for (std::size_t i = 1; i < round.points.size(); ++i) {
     const Vector2 middle = 0.5 * (round.points[i] + round.points[i - 1]);
@@ -273,11 +273,11 @@ TEST(GridPath, WhoStandsTooCloseToAWallMayLeaveItButNotComeCloser) {
   fill_box(grid, {4.0, 0.0}, {4.2, 6.0});
   const auto field = occupied_field(grid);
   const Vector2 start(3.85, 3.0);  // 15 cm from the wall, 30 are required
-  const GridPath away = search(grid, start, {1.0, 1.0});
+  const GridWay away = search(grid, start, {1.0, 1.0});
   expect_ends(away, start, {1.0, 1.0});
   EXPECT_GE(clearance_m(away, *field), 0.149);
   // Along the wall only as far as one needs to get clear of it.
-  const GridPath along = search(grid, start, {3.6, 5.5});
+  const GridWay along = search(grid, start, {3.6, 5.5});
   expect_ends(along, start, {3.6, 5.5});
   for (std::size_t i = 1; i < along.points.size(); ++i) {
     if ((along.points[i] - start).norm() < TravelRules().escape_radius_m) continue;
