@@ -1,0 +1,190 @@
+#include "topology/visibility_prm.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <nanoflann.hpp>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace mocha {
+namespace {
+
+template <int D>
+using PointOf = Eigen::Matrix<double, D, 1>;
+
+/// Points that can be asked who is near; they are numbered as they come.
+template <int D>
+class Neighbourhood {
+ public:
+  Neighbourhood() : tree_(D, *this) {}
+
+  int size() const { return static_cast<int>(points_.size()); }
+  const PointOf<D>& operator[](int i) const { return points_[i]; }
+
+  template <typename Points>
+  void add(const Points& points) {
+    points_.insert(points_.end(), points.begin(), points.end());
+    tree_.buildIndex();  // anew, which for the few guards there are takes less than keeping several
+  }
+
+  /// In ascending order.
+  std::vector<int> within(double radius_m, const PointOf<D>& p) const {
+    std::vector<std::pair<std::size_t, double>> found;
+    tree_.radiusSearch(p.data(), radius_m * radius_m, found, nanoflann::SearchParams());
+    std::vector<int> near;
+    for (const auto& [point, squared] : found) near.push_back(static_cast<int>(point));
+    std::sort(near.begin(), near.end());
+    return near;
+  }
+
+  // What the tree asks.
+  std::size_t kdtree_get_point_count() const { return points_.size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points_[i][axis]; }
+  template <typename Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+
+ private:
+  using Metric = nanoflann::L2_Simple_Adaptor<double, Neighbourhood>;
+  std::vector<PointOf<D>> points_;
+  nanoflann::KDTreeSingleIndexAdaptor<Metric, Neighbourhood, D, std::size_t> tree_;
+};
+
+template <int D>
+class Sampler {
+ public:
+  Sampler(const SampledSpace<D>& space, const std::vector<PointOf<D>>& first_guards,
+          const VisibilityPrmRules& rules)
+      : space_(space), rules_(rules), random_(rules.seed) {
+    guards_.add(first_guards);
+  }
+
+  void draw() {
+    PointOf<D> shares;
+    // Written out, as the distributions of the standard library differ from one to the next.
+    for (double& share : shares) share = static_cast<double>(random_() >> 11) * 0x1p-53;
+    const PointOf<D> sample = space_.at(shares);
+    if (!space_.clearance_m(sample)) return;
+    const std::vector<int> guards = guards_that_see(sample);
+    if (guards.empty()) guards_.add(std::array{sample});
+    for (int from : guards) {
+      for (int to : guards) {
+        if (from < to) connect(from, sample, to);
+      }
+    }
+  }
+
+  /// Guards first.
+  const Neighbourhood<D>& collect_nodes() {
+    const auto before = [](const PointOf<D>& a, const PointOf<D>& b) {
+      return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    };
+    std::set<PointOf<D>, decltype(before)> connectors(before);  // one may serve several links
+    for (const auto& [link, connector] : connectors_) connectors.insert(connector.position);
+    connectors_.clear();
+    guards_.add(connectors);
+    return guards_;
+  }
+
+ private:
+  using Link = std::tuple<int, int, SignatureKey>;  // from guard to guard, in which class
+  struct Connector {
+    PointOf<D> position;
+    double length_m;  // of the way from guard to guard
+  };
+
+  bool see_each_other(const PointOf<D>& p, const PointOf<D>& q) const {
+    if (space_.in_order(p, q)) return space_.clearance_m(p, q).has_value();
+    return space_.in_order(q, p) && space_.clearance_m(q, p).has_value();
+  }
+
+  std::vector<int> guards_that_see(const PointOf<D>& p) const {
+    std::vector<int> guards = guards_.within(rules_.reach_m, p);
+    const auto hidden = [&](int guard) { return !see_each_other(guards_[guard], p); };
+    guards.erase(std::remove_if(guards.begin(), guards.end(), hidden), guards.end());
+    return guards;
+  }
+
+  void connect(int from, const PointOf<D>& via, int to) {
+    if (!space_.in_order(guards_[from], via)) std::swap(from, to);
+    const PointOf<D>& p = guards_[from];
+    const PointOf<D>& q = guards_[to];
+    if (!space_.in_order(p, via) || !space_.in_order(via, q)) return;
+    const double length_m = space_.length_m(p, via) + space_.length_m(via, q);
+    const Link link(from, to, space_.key(p, via) + space_.key(via, q));
+    const auto [known, is_new] = connectors_.try_emplace(link, Connector{via, length_m});
+    if (!is_new && length_m < known->second.length_m) known->second = {via, length_m};
+  }
+
+  const SampledSpace<D>& space_;
+  const VisibilityPrmRules rules_;
+  std::mt19937_64 random_;
+  Neighbourhood<D> guards_;
+  std::map<Link, Connector> connectors_;
+};
+
+/// Appends the straight edge between two nodes, if there is one.
+template <int D>
+void join(int from, int to, const SampledSpace<D>& space, Roadmap<D>& roadmap) {
+  if (!space.in_order(roadmap.nodes[from].position, roadmap.nodes[to].position)) {
+    std::swap(from, to);
+  }
+  const PointOf<D>& p = roadmap.nodes[from].position;
+  const PointOf<D>& q = roadmap.nodes[to].position;
+  if (!space.in_order(p, q)) return;
+  const auto clearance_m = space.clearance_m(p, q);
+  if (clearance_m) roadmap.edges.push_back({from, to, {}, space.length_m(p, q), *clearance_m});
+}
+
+void check(const VisibilityPrmRules& rules) {
+  const auto refuse = [](const std::string& value, const char* range) {
+    throw std::invalid_argument("VisibilityPrmRules: " + value + ": expected " + range);
+  };
+  if (rules.samples < 0) refuse("samples = " + std::to_string(rules.samples), "at least 0");
+  if (!(rules.reach_m > 0.0) || !std::isfinite(rules.reach_m)) {
+    refuse("reach_m = " + std::to_string(rules.reach_m), "a finite value above 0");
+  }
+}
+
+}  // namespace
+
+template <int D>
+Roadmap<D> visibility_prm(const SampledSpace<D>& space, const PointOf<D>& start,
+                          const PointOf<D>& goal, const VisibilityPrmRules& rules) {
+  check(rules);
+  Roadmap<D> roadmap;
+  const auto add_node = [&](const PointOf<D>& p) {
+    roadmap.nodes.push_back({p, space.clearance_m(p).value_or(0.0)});
+  };
+  add_node(start);
+  add_node(goal);
+  join(Roadmap<D>::kStart, Roadmap<D>::kGoal, space, roadmap);
+  if (start == goal || !start.allFinite() || !goal.allFinite()) return roadmap;
+
+  Sampler<D> sampler(space, {start, goal}, rules);
+  for (int i = 0; i < rules.samples; ++i) sampler.draw();
+
+  const Neighbourhood<D>& nodes = sampler.collect_nodes();
+  for (int i = Roadmap<D>::kGoal + 1; i < nodes.size(); ++i) {
+    add_node(nodes[i]);
+    for (int other : nodes.within(rules.reach_m, nodes[i])) {
+      if (other < i) join(other, i, space, roadmap);
+    }
+  }
+  return roadmap;
+}
+
+template Roadmap<2> visibility_prm(const SampledSpace<2>&, const Eigen::Vector2d&,
+                                   const Eigen::Vector2d&, const VisibilityPrmRules&);
+template Roadmap<3> visibility_prm(const SampledSpace<3>&, const Eigen::Vector3d&,
+                                   const Eigen::Vector3d&, const VisibilityPrmRules&);
+
+}  // namespace mocha

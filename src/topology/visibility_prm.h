@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+
+#include "topology/roadmap.h"
+#include "topology/sampled_space.h"
+#include "topology/static_space.h"
+
+namespace mocha {
+
+struct VisibilityPrmRules {
+  int samples = 3000;      ///< points that are tried, at least 0
+  std::uint64_t seed = 1;  ///< the same one gives the same roadmap, on every machine
+  double reach_m = 20.0;   ///< farther points do not see each other, above 0
+};
+
+/// A sampled roadmap that stays small however many samples are drawn, yet keeps a way of every
+/// class that they showed (visibility PRM of Simeon, Laumond, Nissoux 2000; with classes by Zhou,
+/// Pan, Gao, Shen 2021).
+///
+/// Start and goal are the first guards. A sample that sees no guard becomes one. Another one
+/// connects each pair of guards that it sees, if the way from guard to guard through it has a class
+/// that no connector of the two has yet, or is shorter than that connector's way. Guards and
+/// connectors are the nodes; those that see each other share an edge, straight and in order.
+///
+/// Start and goal see each other however far apart. Where one must not be at the start or at the
+/// goal, that node has no edges. Throws std::invalid_argument for rules out of range.
+template <int D>
+Roadmap<D> visibility_prm(const SampledSpace<D>& space, const Eigen::Matrix<double, D, 1>& start,
+                          const Eigen::Matrix<double, D, 1>& goal, const VisibilityPrmRules& rules);
+
+/// Among obstacles that stand still.
+template <int D>
+Roadmap<D> visibility_prm(const ObstacleField<D>& field, const Cuts<D>& cuts,
+                          const Eigen::AlignedBox<double, D>& bounds,
+                          const Eigen::Matrix<double, D, 1>& start,
+                          const Eigen::Matrix<double, D, 1>& goal, const ClearanceRules& clearance,
+                          const VisibilityPrmRules& rules) {
+  return visibility_prm<D>(StaticSpace<D>(field, cuts, bounds, start, clearance), start, goal,
+                           rules);
+}
+
+extern template Roadmap<2> visibility_prm(const SampledSpace<2>&, const Eigen::Vector2d&,
+                                          const Eigen::Vector2d&, const VisibilityPrmRules&);
+extern template Roadmap<3> visibility_prm(const SampledSpace<3>&, const Eigen::Vector3d&,
+                                          const Eigen::Vector3d&, const VisibilityPrmRules&);
+
+}  // namespace mocha
