@@ -6,13 +6,9 @@
 namespace mocha {
 namespace {
 
-constexpr double kMostPieces = 64.0;
+constexpr double kLeastClearance_m = 1e-4;  // that is told from none
 
 Vector2 left_of(const Vector2& v) { return {-v.y(), v.x()}; }
-
-double nearest_to_zero(double from, double to) {
-  return from * to <= 0.0 ? 0.0 : std::min(std::abs(from), std::abs(to));
-}
 
 }  // namespace
 
@@ -46,18 +42,23 @@ double Bisector::reach(double clearance_m) const {
 }
 
 std::vector<Vector2> Bisector::corners(double from, double to, double loss) const {
-  // The chord over t - h to t + h is farthest from the arc at t, by (cosh(h) - 1) a b / |tangent|,
-  // which is most where the arc is nearest to the line of centres; so is the clearance least.
-  const double nearest = nearest_to_zero(from, to);
-  const double tangent_m =
-      std::hypot(real_m_ * std::sinh(nearest), imaginary_m_ * std::cosh(nearest));
-  const double allowed_m = loss * clearance_m(nearest);
-  const double half_step =
-      std::acosh(1.0 + allowed_m * tangent_m / (std::abs(real_m_) * imaginary_m_));
-  const double pieces = std::min(kMostPieces, std::ceil(0.5 * std::abs(to - from) / half_step));
   std::vector<Vector2> corners;
-  for (int i = 1; i < pieces; ++i) corners.push_back(at(from + (to - from) * i / pieces));
+  refine(from, to, loss, corners);
   return corners;
+}
+
+void Bisector::refine(double from, double to, double loss, std::vector<Vector2>& corners) const {
+  const double half = 0.5 * std::abs(to - from);
+  const double middle = 0.5 * (from + to);
+  // The chord is farthest from the arc in the middle of the parameters.
+  const double tangent_m =
+      std::hypot(real_m_ * std::sinh(middle), imaginary_m_ * std::cosh(middle));
+  const double off_m = (std::cosh(half) - 1.0) * std::abs(real_m_) * imaginary_m_ / tangent_m;
+  const double least_m = clearance_m(std::max(0.0, std::abs(middle) - half));
+  if (!(off_m > loss * std::max(least_m, kLeastClearance_m))) return;
+  refine(from, middle, loss, corners);
+  corners.push_back(at(middle));
+  refine(middle, to, loss, corners);
 }
 
 }  // namespace mocha

@@ -21,10 +21,12 @@ class Bisector {
   double reach(double clearance_m) const;    ///< the |t| of this clearance; 0 if all are larger
 
   /// The corners of a polyline from one parameter to the other, ends left out. Its clearance is
-  /// smaller than the arc's by at most the share `loss` of the arc's least, which is above 0.
+  /// smaller than the arc's by at most the share `loss` of it, or of 0.1 mm if that is more.
   std::vector<Vector2> corners(double from, double to, double loss) const;
 
  private:
+  void refine(double from, double to, double loss, std::vector<Vector2>& corners) const;
+
   Vector2 centres_[2];
   Vector2 middle_;        // of the centres
   Vector2 along_;         // unit vector from the first to the second

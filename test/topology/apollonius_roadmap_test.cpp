@@ -66,8 +66,8 @@ World random_world(int seed, int count, double most_radius_m, double required_m)
   world.goal = {x(random), y(random)};
   while (static_cast<int>(world.circles.size()) < count) {
     const Circle circle{{x(random), y(random)}, radius(random)};
-    const double room_m = std::min(gap(world.start, circle).distance_m,  //
-                                   gap(world.goal, circle).distance_m);
+    const double room_m =
+        std::min(gap(world.start, circle).distance_m, gap(world.goal, circle).distance_m);
     if (room_m > 1.1 * required_m) world.circles.push_back(circle);
   }
   return world;
@@ -126,7 +126,7 @@ int loops(const Roadmap<2>& map) {
 
 /// Whether the goal is reached from the start over a lattice's points of at least this clearance.
 bool floods(const World& world, double clearance_m, double step_m, bool diagonally) {
-  const double margin_m = 1.0 + 4.0 * world.rules.required_clearance_m;
+  const double margin_m = 1.0 + 4.0 * clearance_m;
   const Vector2 low = world.bounds.min().array() - margin_m;
   const Vector2 size = world.bounds.sizes().array() + 2.0 * margin_m;
   const int columns = static_cast<int>(size.x() / step_m);
@@ -167,6 +167,18 @@ bool floods(const World& world, double clearance_m, double step_m, bool diagonal
   return false;
 }
 
+/// The largest clearance at which the goal is reached over the lattice's points, to a millimetre.
+double bottleneck_m(const World& world, double step_m, bool diagonally) {
+  double reached_m = 0.0;
+  double missed_m =
+      step_m + std::min(world.clearance_m(world.start), world.clearance_m(world.goal));
+  while (missed_m - reached_m > 1e-3) {
+    const double middle_m = 0.5 * (reached_m + missed_m);
+    (floods(world, middle_m, step_m, diagonally) ? reached_m : missed_m) = middle_m;
+  }
+  return diagonally ? missed_m : reached_m;
+}
+
 /// Against brute force: all that a roadmap states about clearance and length.
 void expect_true(const World& world, const Roadmap<2>& map) {
   const double required_m = world.rules.required_clearance_m;
@@ -193,10 +205,12 @@ void expect_true(const World& world, const Roadmap<2>& map) {
       least_m = std::min(least_m, clearances_m[0]);
       walled = walled || !world.is_inside(p, 1.1 * clearances_m[0]);
       if (walled || touches_ends(edge) || clearances_m.size() < 2) continue;
-      EXPECT_NEAR(clearances_m[0], clearances_m[1], 0.0401 * edge.clearance_m) << p.transpose();
+      EXPECT_NEAR(clearances_m[0], clearances_m[1], 0.042 * clearances_m[1]) << p.transpose();
     }
     EXPECT_GE(least_m, 0.98 * edge.clearance_m - 1e-8);
-    if (!walled) EXPECT_LE(least_m, edge.clearance_m + 1e-5);
+    if (!walled) {
+      EXPECT_LE(least_m, edge.clearance_m + 1e-5);
+    }
   }
 }
 
@@ -221,7 +235,7 @@ TEST(ApolloniusRoadmap, HasVerticesEquallyFarFromThreeCircles) {
     ++degree[edge.to];
   }
   int seen = 0;
-  for (std::size_t i = 2; i < map.nodes.size(); ++i) {
+  for (std::size_t i = 2; i + 2 < map.nodes.size(); ++i) {  // the last two are feet
     const std::vector<double> clearances_m = world.clearances_m(map.nodes[i].position);
     if (degree[i] < 3 || !world.is_inside(map.nodes[i].position, clearances_m[2])) continue;
     EXPECT_NEAR(clearances_m[0], clearances_m[2], 1e-8);
@@ -232,26 +246,26 @@ TEST(ApolloniusRoadmap, HasVerticesEquallyFarFromThreeCircles) {
 
 TEST(ApolloniusRoadmap, ConnectsWhateverIsConnected) {
   const double step_m = 0.03;
-  int together = 0;
-  int apart = 0;
-  for (int seed = 0; seed < 150; ++seed) {
+  int narrow = 0;
+  for (int seed = 0; seed < 75; ++seed) {
     SCOPED_TRACE(seed);
-    const World world =
-        random_world(seed, 5 + seed / 2, seed % 2 ? 0.9 : 0.3, 0.1 + 0.02 * (seed % 20));
-    const bool found = connected(world.roadmap());
-    const double required_m = world.rules.required_clearance_m;
-    if (floods(world, required_m + 0.5 * step_m, step_m, false)) {
-      EXPECT_TRUE(found);
-      ++together;
+    World world = random_world(seed, 5 + seed, seed % 2 ? 0.9 : 0.3, 0.0);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> x(1.0, 4.0), y(1.0, 7.0);
+    for (int i = 0; i < 100; ++i) {  // ends with room, so that the way is narrowest in between
+      const Vector2 p(x(random) + i % 2 * 5.0, y(random));
+      Vector2& end = i % 2 ? world.goal : world.start;
+      if (world.clearance_m(p) > world.clearance_m(end)) end = p;
     }
-    if (!floods(world, required_m - M_SQRT1_2 * step_m, step_m, true)) {
-      EXPECT_FALSE(found);
-      ++apart;
-    }
+    world.rules.escape_radius_m = 0.0;
+    world.rules.required_clearance_m = bottleneck_m(world, step_m, false) - M_SQRT1_2 * step_m;
+    EXPECT_TRUE(connected(world.roadmap()));
+    world.rules.required_clearance_m = bottleneck_m(world, step_m, true) + M_SQRT1_2 * step_m;
+    EXPECT_FALSE(connected(world.roadmap()));
+    const double ends_m = std::min(world.clearance_m(world.start), world.clearance_m(world.goal));
+    narrow += world.rules.required_clearance_m < ends_m ? 1 : 0;  // elsewhere than at an end
   }
-  EXPECT_GT(together, 50);
-  EXPECT_GT(apart, 25);
-  EXPECT_GT(together + apart, 130);
+  EXPECT_GT(narrow, 15);
 }
 
 TEST(ApolloniusRoadmap, HasALoopForEveryObstacleThatCanBeGoneRound) {
@@ -331,7 +345,7 @@ TEST(ApolloniusRoadmap, TakesDegenerateCircles) {
   world.circles.push_back({{5.0, 4.0}, 0.35});
   world.circles.push_back({{5.0, 4.0}, 0.2});   // concentric
   world.circles.push_back({{5.1, 4.0}, 0.25});  // touching from inside
-  world.circles.push_back({{5.2, 4.0}, 0.2});   // overlapping
+  world.circles.push_back({{5.2, 4.0}, 0.19});  // overlapping
   world.circles.push_back({{3.0 + 1e-12, 3.0}, 1e-12});
   world.start = {0.5, 4.0};
   world.goal = {9.5, 4.5};
