@@ -1,6 +1,7 @@
 #include "topology/map_terrain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -9,6 +10,7 @@ namespace {
 
 constexpr double kTile_m = 0.15;   // circles of at most this size, so that narrow ways stay open
 constexpr double kRimCells = 1.5;  // matter deeper inside is hidden by that of the rim
+constexpr double kJitter_m = 1e-4;
 constexpr int kNone = -1;
 
 /// Numbers the components of a map's blocked corners that contain solid matter.
@@ -58,6 +60,13 @@ class Components {
   std::vector<Vector2> representatives_;
 };
 
+/// A little aside, so that no four circles touch a common one: only slow, exact arithmetic could
+/// tell that from nearly touching.
+Vector2 off_the_lattice(const Vector2& p) {
+  const double angle = 1e3 * (p.x() + M_SQRT2 * p.y());
+  return p + kJitter_m * Vector2(std::cos(angle), std::sin(M_SQRT2 * angle));
+}
+
 }  // namespace
 
 MapTerrain::MapTerrain(std::shared_ptr<const DistanceField> field)
@@ -72,7 +81,7 @@ std::vector<ObstacleGroup> MapTerrain::groups(double clearance_m) const {
   std::vector<ObstacleGroup> groups(components.representatives().size());
   for (std::size_t r = 0; r < groups.size(); ++r)
     groups[r].representative = components.representatives()[r];
-  const int tile = std::max(1, static_cast<int>(kTile_m / cell_m));
+  const int tile = std::max(1, static_cast<int>(std::lround(kTile_m / cell_m)));
   std::map<int, Eigen::AlignedBox2d> parts;  // of the tile, by component
   for (int y = 0; y < field.rows(); y += tile) {
     for (int x = 0; x < field.columns(); x += tile) {
@@ -85,7 +94,8 @@ std::vector<ObstacleGroup> MapTerrain::groups(double clearance_m) const {
         }
       }
       for (const auto& [component, box] : parts) {
-        groups[component].cover.push_back({box.center(), 0.5 * box.diagonal().norm()});
+        groups[component].cover.push_back(
+            {off_the_lattice(box.center()), 0.5 * box.diagonal().norm()});
       }
     }
   }

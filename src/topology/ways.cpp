@@ -19,9 +19,9 @@
 namespace mocha {
 namespace {
 
-constexpr double kCircleError_m = 0.1;  // of the circles that stand for solid matter, at most
-constexpr int kPushes = 3;              // of a point off the obstacles
-constexpr double kPushed_m = 0.02;      // beyond the clearance that is required
+constexpr double kCircleError_m = 0.12;  // of the circles that stand for solid matter, at most
+constexpr int kPushes = 3;               // of a point off the obstacles
+constexpr double kPushed_m = 0.02;       // beyond the clearance that is required
 
 /// Obstacles and their cuts as seen by one robot.
 struct Scenery {
