@@ -130,8 +130,8 @@ TEST(VisibilityPrm, EdgesKeepTheClearanceThatTheyState) {
 TEST(VisibilityPrm, JoinsStartAndGoalWhereverThereIsAGenerousWay) {
   int open = 0;
   int closed = 0;
-  for (unsigned seed = 1; seed <= 60; ++seed) {
-    const PlanarWorld world = random_world(seed, 35 + static_cast<int>(seed));
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    const PlanarWorld world = random_world(seed, 40 + static_cast<int>(seed));
     const double required_m = world.clearance.required_m;
     const bool found = joined(world.roadmap());
     if (connected(world, required_m + 0.15)) {
@@ -142,7 +142,7 @@ TEST(VisibilityPrm, JoinsStartAndGoalWhereverThereIsAGenerousWay) {
       ++closed;
     }
   }
-  EXPECT_GT(open, 15);
+  EXPECT_GT(open, 10);
   EXPECT_GT(closed, 5);
 }
 
