@@ -152,7 +152,10 @@ TEST(SignatureInSpace, AColumnIsAVeryTallLoopThatPointsUpward) {
                      {foot.x() - 1e3, foot.y() + 20.0, 1e3},
                      {foot.x() - 1e3, foot.y() + 20.0, -1e3}}};
     if (apart_m(path, {tall.corners[0], tall.corners[1]}) < 0.1) continue;
-    const Signature signature = signature_of(Cuts<3>({tall, Column{foot.head<2>()}}), path);
+    std::vector<Cuts<3>::Curve> curves(2);
+    curves[0] = tall;
+    curves[1] = Column{foot.head<2>()};
+    const Signature signature = signature_of(Cuts<3>(curves), path);
     EXPECT_NEAR(signature[1], gauss_linking(path, closed(tall.corners)), 1e-4);
     EXPECT_EQ(signature[0], signature[1]);
   }
@@ -180,14 +183,14 @@ TEST(SignatureInSpace, AddsUpAlongAPathAndTurnsItsSignWithIt) {
     const Path<3> path = random_corners(9, step_m, random);
     for (int r = 0; r < 6; ++r) {
       if (r % 2 == 0) {
-        curves.push_back(Column{random_corners(1, 0.0, random)[0].head<2>()});
+        curves.emplace_back(Column{random_corners(1, 0.0, random)[0].head<2>()});
         continue;
       }
       Loop loop;
       do {
         loop.corners = random_corners(4, step_m, random);
       } while (apart_m(path, closed(loop.corners)) < least_apart_m(step_m));
-      curves.push_back(loop);
+      curves.emplace_back(loop);
     }
     expect_sums(Cuts<3>(curves), path);
   }
