@@ -1,10 +1,10 @@
 """The paper's Table II: this package's planner against SST and BIT* of OMPL, on the way to three targets through circles in the plane.
 
-10 worlds of 50 circles; robot radius 0.3 m, v_max 3 m/s, a_max 2 m/s2, obstacles checked every 0.1 m. t_plan is wall time from the list of circles:
-for mocha to the selected certified motion, all classes included. mocha drives from rest to rest at the target; SST (a double integrator, its cost
-the time) may pass within 1 m of the target at any speed. The paths of BIT*, after simplification, have corners, so that nothing can drive them at
-speed: T is the kinematic limit L / v_max + v_max / a_max, and feasible is no. SST comes a second time with its speed clipped at the limit,
-where the table's has it forbidden to exceed it.
+10 worlds of 50 circles; robot radius 0.3 m, v_max 3 m/s, a_max 2 m/s2, obstacles checked every 0.1 m. t_plan is wall time from the
+list of circles: for mocha to the selected certified motion, all classes included. mocha drives from rest to rest at the target; SST (a
+double integrator, its cost the time) may pass within 1 m of the target at any speed. The paths of BIT*, after simplification, have
+corners, so that nothing can drive them at speed: T is the kinematic limit L / v_max + v_max / a_max, and feasible is no. SST comes a
+second time with its speed clipped at the limit, where the table's has it forbidden to exceed it.
 """
 import statistics
 
@@ -51,7 +51,8 @@ def text(value, width, decimals=2):
 
 def print_row(name, t_plan_s, classes, figures, feasible):
     length_m, duration_s, top_speed, mean_speed, over_limit = figures
-    print(f"{name:14}{text(None if t_plan_s is None else 1e3 * t_plan_s, 9, 1)} ms{text(classes, 9, 0)}{text(length_m, 9)}{text(duration_s, 9)}"
+    t_plan_ms = None if t_plan_s is None else 1e3 * t_plan_s
+    print(f"{name:14}{text(t_plan_ms, 9, 1)} ms{text(classes, 9, 0)}{text(length_m, 9)}{text(duration_s, 9)}"
           f"{text(top_speed, 7)}{text(mean_speed, 7)}{text(over_limit, 8, 3)}  {feasible}")
 
 
@@ -79,13 +80,16 @@ def print_ratios(rows, clipped, summary):
     for method, theirs in others.items():
         found = {key: ratios(mocha, theirs, key) for key in ("t_plan_s", "L_m", "T_s")}
         summary[f"mocha_over_{method.replace(', ', '_')}"] = found
-        print(f"  {method:20}" + "   ".join(f"{key} {value['median']:.3f} ({value['least']:.3f} to {value['most']:.3f})" if value else f"{key} -"
-                                           for key, value in found.items()))
+        print_spreads(method, found)
     for method in ("TRR", "SST"):
         found = [[ours / theirs for ours, theirs in zip(PAPER[(target, "MOCHA")], PAPER[(target, method)])] for target in TARGETS]
-        cells = [f"{key} {statistics.median(column):.3f} ({min(column):.3f} to {max(column):.3f})"
-                 for key, column in zip(("t_plan_s", "L_m", "T_s"), zip(*found))]
-        print(f"  {'in the paper, ' + method:20}" + "   ".join(cells))
+        print_spreads(f"in the paper, {method}", {key: spread(column) for key, column in zip(("t_plan_s", "L_m", "T_s"), zip(*found))})
+
+
+def print_spreads(name, found):
+    cells = [f"{key} {value['median']:.3f} ({value['least']:.3f} to {value['most']:.3f})" if value else f"{key} -"
+             for key, value in found.items()]
+    print(f"  {name:20}" + "   ".join(cells))
 
 
 def print_aims(rows, summary):

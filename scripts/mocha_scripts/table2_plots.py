@@ -1,5 +1,5 @@
-"""Draws the paper's Figs. 8 and 9 with our own data: drives of this package's planner, SST and BIT* to three targets in one world, and their
-speed and acceleration over time against the limits."""
+"""Draws the paper's Figs. 8 and 9 with our own data: drives of this package's planner, SST and BIT* to three targets in one world, and
+their speed and acceleration over time against the limits."""
 import os
 
 import matplotlib
