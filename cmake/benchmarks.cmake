@@ -1,6 +1,22 @@
 # The programs behind scripts/bench and scripts/plots: test/benchmarks/NAME.cpp becomes benchmark_NAME. Built only when asked for.
-foreach(name evaluation table1 table1_curves)
-  add_executable(benchmark_${name} EXCLUDE_FROM_ALL test/benchmarks/${name}.cpp test/benchmarks/benchmark_world.cpp)
+function(mocha_benchmark name)
+  add_executable(benchmark_${name} EXCLUDE_FROM_ALL test/benchmarks/${name}.cpp test/benchmarks/benchmark_world.cpp ${ARGN})
   target_include_directories(benchmark_${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
   target_link_libraries(benchmark_${name} mocha_planning)
+endfunction()
+
+foreach(name evaluation table1 table1_curves)
+  mocha_benchmark(${name})
 endforeach()
+
+# Table II has planners of OMPL beside ours.
+find_package(ompl QUIET)
+if(ompl_FOUND)
+  list(REMOVE_ITEM OMPL_LIBRARIES ode)  # for its physics, which nothing here uses
+  foreach(name table2 table2_curves)
+    mocha_benchmark(${name} test/benchmarks/table2_world.cpp test/benchmarks/table2_plan.cpp test/benchmarks/table2_mocha.cpp
+      test/benchmarks/ompl_peers.cpp)
+    target_include_directories(benchmark_${name} SYSTEM PRIVATE ${OMPL_INCLUDE_DIRS})
+    target_link_libraries(benchmark_${name} ${OMPL_LIBRARIES})
+  endforeach()
+endif()

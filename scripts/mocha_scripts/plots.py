@@ -1,5 +1,5 @@
 """Draws a recorded drive (map with trajectories, speed, acceleration and yaw rate against limits, clearance, separation), or the paper's
-Figs. 6 and 7 with our own data."""
+Figs. 6 to 9 with our own data."""
 import argparse
 import os
 import sys
@@ -27,6 +27,16 @@ def add_table1(what):
     return table1
 
 
+def add_table2(what):
+    table2 = what.add_parser("table2", help="drives of Table II, as in the paper's Figs. 8 and 9",
+                             description="Plans with this package's planner, SST and BIT* to three targets in one world. Writes "
+                             "fig9.png (the trajectories) and fig8.png (their speed and acceleration over time against the limits).")
+    table2.add_argument("--world", type=int, default=1, metavar="N",
+                        help="seed of the world, as scripts/bench table2 numbers them (default 1)")
+    table2.set_defaults(draw=draw_table2)
+    return table2
+
+
 # The imports stand in the functions, as the help needs no matplotlib.
 def draw_drive(options):
     from mocha_scripts import drive_plots
@@ -38,10 +48,15 @@ def draw_table1(options):
     table1_plots.draw_table1(options.world, options.out)
 
 
+def draw_table2(options):
+    from mocha_scripts import table2_plots
+    table2_plots.draw_table2(options.world, options.out)
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
     what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
-    for plots in (add_drive(what), add_table1(what)):
+    for plots in (add_drive(what), add_table1(what), add_table2(what)):
         plots.add_argument("--out", default=".", metavar="DIR", help="PNG files go there (default: here)")
     options = parser.parse_args(arguments)
     os.makedirs(options.out, exist_ok=True)

@@ -1,7 +1,6 @@
 #include "benchmarks/benchmark_world.h"
 
 #include <cmath>
-#include <random>
 #include <stdexcept>
 
 #include "topology/grid_path.h"
@@ -14,31 +13,6 @@ namespace {
 constexpr double kCell_m = 0.25;
 constexpr double kBorder_m = 6.0;
 constexpr double kLattice_m = 0.5;
-
-struct Ground {
-  double side_m;
-  int circles;
-  double smallest_m;
-  double largest_m;
-};
-
-/// Circles at random, apart from each other and from both corners.
-std::vector<Circle> scatter(const Ground& ground, double gap_m, std::mt19937& random) {
-  std::uniform_real_distribution<double> place(0.0, ground.side_m);
-  std::uniform_real_distribution<double> size(ground.smallest_m, ground.largest_m);
-  std::vector<Circle> circles;
-  for (int attempt = 0; attempt < 200000; ++attempt) {
-    const Circle circle{{place(random), place(random)}, size(random)};
-    const auto is_free = [&](const Vector2& p, double radius) {
-      return (p - circle.centre).norm() > radius + circle.radius_m + gap_m;
-    };
-    bool free = is_free({0.0, 0.0}, 0.0) && is_free({ground.side_m, ground.side_m}, 0.0);
-    for (const Circle& other : circles) free = free && is_free(other.centre, other.radius_m);
-    if (free) circles.push_back(circle);
-    if (static_cast<int>(circles.size()) == ground.circles) return circles;
-  }
-  throw std::runtime_error("benchmark world: the circles do not fit");
-}
 
 std::vector<Vector2> front_end(const std::vector<Circle>& circles, double side_m,
                                double clearance_m) {
@@ -64,12 +38,36 @@ std::vector<Vector2> front_end(const std::vector<Circle>& circles, double side_m
   return shortened(path.points, cost, Cuts<2>({}));
 }
 
+/// Start and goal.
+std::vector<Vector2> corners(const Ground& ground) {
+  return {{0.0, 0.0}, {ground.side_m, ground.side_m}};
+}
+
 }  // namespace
+
+std::vector<Circle> scatter(const Ground& ground, double gap_m, const std::vector<Vector2>& free,
+                            std::mt19937& random) {
+  std::uniform_real_distribution<double> place(0.0, ground.side_m);
+  std::uniform_real_distribution<double> size(ground.smallest_m, ground.largest_m);
+  std::vector<Circle> circles;
+  for (int attempt = 0; attempt < 200000; ++attempt) {
+    const Circle circle{{place(random), place(random)}, size(random)};
+    const auto is_apart = [&](const Vector2& p, double radius) {
+      return (p - circle.centre).norm() > radius + circle.radius_m + gap_m;
+    };
+    bool apart = true;
+    for (const Vector2& point : free) apart = apart && is_apart(point, 0.0);
+    for (const Circle& other : circles) apart = apart && is_apart(other.centre, other.radius_m);
+    if (apart) circles.push_back(circle);
+    if (static_cast<int>(circles.size()) == ground.circles) return circles;
+  }
+  throw std::runtime_error("benchmark world: the circles do not fit");
+}
 
 BenchmarkWorld<2> circle_world(int seed, const BenchmarkRules& rules) {
   std::mt19937 random(seed);
   const Ground ground{100.0, 65, 1.0, 4.0};
-  const std::vector<Circle> circles = scatter(ground, rules.gap_m, random);
+  const std::vector<Circle> circles = scatter(ground, rules.gap_m, corners(ground), random);
   return {PrimitiveField<2>({circles.begin(), circles.end()}, 2.0),
           front_end(circles, ground.side_m, rules.front_end_clearance_m)};
 }
@@ -79,7 +77,7 @@ BenchmarkWorld<3> forest_world(int seed, const BenchmarkRules& rules) {
   constexpr double kClimb_m = 8.0;
   std::mt19937 random(1000 + seed);
   const Ground ground{122.0, 150, 0.4, 1.2};
-  const std::vector<Circle> trunks = scatter(ground, rules.gap_m, random);
+  const std::vector<Circle> trunks = scatter(ground, rules.gap_m, corners(ground), random);
   std::vector<Cylinder> cylinders;
   for (const Circle& trunk : trunks) cylinders.push_back({trunk.centre, trunk.radius_m});
   // Trunks have no end, so the way round them is that of the plane, climbing evenly.

@@ -1,10 +1,24 @@
 #pragma once
 
+#include <random>
 #include <vector>
 
 #include "world/primitive_field.h"
 
 namespace mocha {
+
+/// A square from the origin on, and the circles to be strewn over it.
+struct Ground {
+  double side_m;
+  int circles;
+  double smallest_m;  ///< radius
+  double largest_m;
+};
+
+/// Circles at random, farther than `gap_m` from each other and from the points that are to stay
+/// free. Throws std::runtime_error if they do not fit.
+std::vector<Circle> scatter(const Ground& ground, double gap_m, const std::vector<Vector2>& free,
+                            std::mt19937& random);
 
 /// A seeded world of Table I and a front-end path through it.
 template <int D>

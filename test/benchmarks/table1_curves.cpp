@@ -1,10 +1,10 @@
 // The trajectories of Table I in one world of the plane and one of space, to be drawn as the
 // paper's Figs. 6 and 7. Prints JSON; the argument is the seed of both worlds.
 
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
+#include "benchmarks/curve_json.h"
 #include "benchmarks/table_plan.h"
 
 namespace mocha {
@@ -15,19 +15,6 @@ struct Choice {
   double spacing_m;
 };
 constexpr Choice kChoices[] = {{false, 1.0}, {true, 1.0}, {false, 8.0}, {true, 8.0}};
-
-/// A list with one list a column.
-void print_columns(const char* key, const Eigen::MatrixXd& columns) {
-  std::printf(",\n\"%s\": [", key);
-  for (int i = 0; i < columns.cols(); ++i) {
-    std::printf("%s[", i == 0 ? "" : ", ");
-    for (int k = 0; k < columns.rows(); ++k) {
-      std::printf("%s%.6g", k == 0 ? "" : ", ", columns(k, i));
-    }
-    std::printf("]");
-  }
-  std::printf("]");
-}
 
 /// Centre and radius of each, over the ground.
 template <int D>
@@ -45,26 +32,12 @@ Eigen::MatrixXd obstacle_columns(const PrimitiveField<D>& field) {
   return columns;
 }
 
-/// Time [s], position [m], speed [m/s] and acceleration [m/s^2], at uniform time.
-template <int D>
-Eigen::MatrixXd samples(const PiecewisePolynomial<D, 3>& curve) {
-  constexpr double kStep_s = 0.02;
-  const int steps = static_cast<int>(std::ceil(curve.duration() / kStep_s));
-  Eigen::MatrixXd columns(3 + D, steps + 1);
-  for (int i = 0; i <= steps; ++i) {
-    const double t = curve.duration() * i / steps;
-    const auto state = curve.state(t);
-    columns.col(i) << t, state.col(0), state.col(1).norm(), state.col(2).norm();
-  }
-  return columns;
-}
-
 /// The interior knots.
 template <int D>
 Eigen::MatrixXd knot_columns(const PiecewisePolynomial<D, 3>& curve) {
   Eigen::MatrixXd columns(D, curve.pieces() - 1);
   for (int i = 1; i < curve.pieces(); ++i) {
-    columns.col(i - 1) = curve.position(curve.piece_start(i));
+    columns.col(i - 1) << curve.position(curve.piece_start(i));
   }
   return columns;
 }
