@@ -46,6 +46,18 @@ void check_point(const Vector2& p, const std::string& name) {
         "coordinates of at most 1e6 m");
 }
 
+/// Every other of them last, of the rest every other before those, and so on. What lies in a row
+/// comes in a row, and CGAL is slow where each one is inserted at the row's end.
+std::vector<Circle> coarse_to_fine(const std::vector<Circle>& circles) {
+  std::size_t step = 1;
+  while (step < circles.size()) step *= 2;
+  std::vector<Circle> ordered;
+  for (; step > 0; step /= 2) {
+    for (std::size_t i = step - 1; i < circles.size(); i += 2 * step) ordered.push_back(circles[i]);
+  }
+  return ordered;
+}
+
 /// All circles and the virtual wall, largest first: nobody is inside of one who comes later.
 std::vector<Circle> all_circles(const std::vector<ObstacleGroup>& groups, Eigen::AlignedBox2d box,
                                 double required_m) {
@@ -60,6 +72,7 @@ std::vector<Circle> all_circles(const std::vector<ObstacleGroup>& groups, Eigen:
       circles.push_back(circle);
     }
   }
+  circles = coarse_to_fine(circles);
   const Vector2 half = 0.5 * box.sizes().array() + kRimClearances * required_m;
   const double radius_m = kWallRadii * half.norm();
   for (const double side : {-1.0, 1.0}) {
