@@ -1,5 +1,7 @@
 #include "topology/apollonius_roadmap.h"
 
+// CGAL asserts of its results in doubles what holds for exact numbers only.
+#define CGAL_NDEBUG
 #include <CGAL/Apollonius_graph_2.h>
 #include <CGAL/Apollonius_graph_filtered_traits_2.h>
 #include <CGAL/Simple_cartesian.h>
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -24,7 +27,9 @@ using FaceBase = CGAL::Triangulation_face_base_with_info_2<int, Traits>;
 using Graph =
     CGAL::Apollonius_graph_2<Traits, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMostCoordinate_m = 1e6;
+constexpr double kSamePlace_m = 1e-6;   // up to this, distances to a vertex are the same
 constexpr double kRimClearances = 4.0;  // between what is to be gone round and the virtual wall
 constexpr double kWallRadii = 10.0;     // of the circles that make the wall, in half diagonals
 
@@ -41,6 +46,18 @@ void check_point(const Vector2& p, const std::string& name) {
         "coordinates of at most 1e6 m");
 }
 
+/// Every other of them last, of the rest every other before those, and so on. What lies in a row
+/// comes in a row, and CGAL is slow where each one is inserted at the row's end.
+std::vector<Circle> coarse_to_fine(const std::vector<Circle>& circles) {
+  std::size_t step = 1;
+  while (step < circles.size()) step *= 2;
+  std::vector<Circle> ordered;
+  for (; step > 0; step /= 2) {
+    for (std::size_t i = step - 1; i < circles.size(); i += 2 * step) ordered.push_back(circles[i]);
+  }
+  return ordered;
+}
+
 /// All circles and the virtual wall, largest first: nobody is inside of one who comes later.
 std::vector<Circle> all_circles(const std::vector<ObstacleGroup>& groups, Eigen::AlignedBox2d box,
                                 double required_m) {
@@ -55,6 +72,7 @@ std::vector<Circle> all_circles(const std::vector<ObstacleGroup>& groups, Eigen:
       circles.push_back(circle);
     }
   }
+  circles = coarse_to_fine(circles);
   const Vector2 half = 0.5 * box.sizes().array() + kRimClearances * required_m;
   const double radius_m = kWallRadii * half.norm();
   for (const double side : {-1.0, 1.0}) {
@@ -71,31 +89,30 @@ Site site_of(const Circle& circle) {
 }
 
 /// The circle that touches three others, by Newton's method from CGAL's answer, which loses digits
-/// where radii differ much.
+/// where radii differ much and is none at all where circles touch from inside.
 Skeleton::Vertex touching(const std::array<Circle, 3>& circles) {
   const Site guess = Traits().construct_Apollonius_site_2_object()(
       site_of(circles[0]), site_of(circles[1]), site_of(circles[2]));
   Vector2 p(guess.point().x(), guess.point().y());
+  if (!p.allFinite()) p = circles[2].centre;
   const auto gaps_m = [&](const Vector2& at) {
-    Eigen::Vector3d gaps;
-    for (int i = 0; i < 3; ++i) gaps[i] = (at - circles[i].centre).norm() - circles[i].radius_m;
-    return gaps;
+    return Eigen::Vector3d(gap(at, circles[0]).distance_m, gap(at, circles[1]).distance_m,
+                           gap(at, circles[2]).distance_m);
   };
+  const auto spread_m = [](const Eigen::Vector3d& g) { return g.maxCoeff() - g.minCoeff(); };
   Eigen::Vector3d gaps = gaps_m(p);
   for (int iteration = 0; iteration < 4; ++iteration) {
+    const Vector2 from_first = (p - circles[0].centre).normalized();
     Eigen::Matrix2d slopes;
-    for (int i = 0; i < 2; ++i) {
-      slopes.row(i) =
-          (p - circles[i + 1].centre).normalized() - (p - circles[0].centre).normalized();
-    }
+    slopes.row(0) = (p - circles[1].centre).normalized() - from_first;
+    slopes.row(1) = (p - circles[2].centre).normalized() - from_first;
     const Vector2 next = p - slopes.inverse() * Vector2(gaps[1] - gaps[0], gaps[2] - gaps[0]);
     const Eigen::Vector3d next_gaps = gaps_m(next);
-    const auto spread = [](const Eigen::Vector3d& g) { return g.maxCoeff() - g.minCoeff(); };
-    if (!(spread(next_gaps) < spread(gaps))) break;
+    if (!(spread_m(next_gaps) < spread_m(gaps))) break;
     p = next;
     gaps = next_gaps;
   }
-  return {p, gaps.minCoeff()};
+  return {p, spread_m(gaps) < kSamePlace_m ? gaps.minCoeff() : -kInfinity};
 }
 
 /// The graph's finite faces become vertices, in an order that does not depend on where in memory

@@ -144,7 +144,8 @@ class Builder {
     }
     if (nearest_m == kInfinity) return;
     const Bisector& bisector = skeleton_.arcs[which].bisector;
-    stop.node = add_node(bisector.at(stop.parameter), bisector.clearance_m(stop.parameter));
+    const Vector2 place = bisector.at(stop.parameter);
+    stop.node = add_node(place, terminal(end.node, place).clearance_m);
     if (add_straight_edge(end, stop.node)) {
       stops_[which].push_back(stop);
     } else {

@@ -245,11 +245,11 @@ TEST(ApolloniusRoadmap, HasVerticesEquallyFarFromThreeCircles) {
 }
 
 TEST(ApolloniusRoadmap, ConnectsWhateverIsConnected) {
-  const double step_m = 0.03;
+  const double step_m = 0.04;
   int narrow = 0;
-  for (int seed = 0; seed < 75; ++seed) {
+  for (int seed = 0; seed < 76; seed += 2) {
     SCOPED_TRACE(seed);
-    World world = random_world(seed, 5 + seed, seed % 2 ? 0.9 : 0.3, 0.0);
+    World world = random_world(seed, 5 + seed, seed % 4 ? 0.9 : 0.3, 0.0);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> x(1.0, 4.0), y(1.0, 7.0);
     for (int i = 0; i < 100; ++i) {  // ends with room, so that the way is narrowest in between
@@ -265,7 +265,7 @@ TEST(ApolloniusRoadmap, ConnectsWhateverIsConnected) {
     const double ends_m = std::min(world.clearance_m(world.start), world.clearance_m(world.goal));
     narrow += world.rules.required_clearance_m < ends_m ? 1 : 0;  // elsewhere than at an end
   }
-  EXPECT_GT(narrow, 15);
+  EXPECT_GT(narrow, 10);
 }
 
 TEST(ApolloniusRoadmap, HasALoopForEveryObstacleThatCanBeGoneRound) {
