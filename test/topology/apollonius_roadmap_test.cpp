@@ -300,6 +300,18 @@ TEST(ApolloniusRoadmap, JoinsStartAndGoalStraightWhereTheLineIsFree) {
   EXPECT_TRUE(connected(closed));
 }
 
+TEST(ApolloniusRoadmap, FindsAWayForAStartThatHasAllNearNodesBehindAWall) {
+  World world;
+  for (int i = 0; i <= 160; ++i) {
+    for (const double y : {3.2, 4.0}) world.circles.push_back({{1.0 + 0.05 * i, y}, 0.02});
+  }
+  world.start = {5.0, 4.5};
+  world.goal = {5.0, 1.0};
+  const Roadmap<2> map = world.roadmap();
+  EXPECT_TRUE(connected(map));
+  expect_true(world, map);
+}
+
 TEST(ApolloniusRoadmap, LeadsAStartOutThatIsCloserThanRequired) {
   World world;
   world.start = {0.5, 4.5};
