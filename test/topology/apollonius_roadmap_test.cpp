@@ -300,6 +300,17 @@ TEST(ApolloniusRoadmap, JoinsStartAndGoalStraightWhereTheLineIsFree) {
   EXPECT_TRUE(connected(closed));
 }
 
+TEST(ApolloniusRoadmap, FindsAWayForAStartThatHasAllNearNodesBehindAWall) {
+  World world;
+  for (int i = 0; i <= 40; ++i) world.circles.push_back({{1.0 + 0.2 * i, 4.0}, 0.11});
+  for (int i = 0; i <= 800; ++i) world.circles.push_back({{1.0 + 0.01 * i, 3.2}, 0.01});
+  world.start = {5.0, 4.5};
+  world.goal = {5.0, 1.0};
+  const Roadmap<2> map = world.roadmap();
+  EXPECT_TRUE(connected(map));
+  expect_true(world, map);
+}
+
 TEST(ApolloniusRoadmap, LeadsAStartOutThatIsCloserThanRequired) {
   World world;
   world.start = {0.5, 4.5};
