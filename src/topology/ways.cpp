@@ -14,14 +14,14 @@
 #include "topology/class_search.h"
 #include "topology/length_bound.h"
 #include "topology/path_shortening.h"
+#include "topology/roadmap_tidying.h"
 #include "topology/visibility_prm.h"
 
 namespace mocha {
 namespace {
 
+constexpr int kSpare = 2;                // ways that are shortened, for each one that is kept
 constexpr double kCircleError_m = 0.12;  // of the circles that stand for solid matter, at most
-constexpr int kPushes = 3;               // of a point off the obstacles
-constexpr double kPushed_m = 0.02;       // beyond the clearance that is required
 
 /// Obstacles and their cuts as seen by one robot.
 struct Scenery {
@@ -60,45 +60,16 @@ Roadmap<2> roadmap_of(const TravelCost& cost, const Scenery& scenery, const Vect
                            {travel.required_clearance_m, travel.escape_radius_m}, prm);
 }
 
-/// Off what is too close, if a few steps suffice.
-Vector2 pushed_off(Vector2 p, const ObstacleField<2>& field, double clearance_m) {
-  for (int i = 0; i < kPushes; ++i) {
-    const auto nearest = field.sample(p);
-    if (!(nearest.distance_m < clearance_m)) break;
-    p += (clearance_m - nearest.distance_m) * nearest.gradient;
-  }
-  return p;
-}
-
-/// Gives edges their true cost instead of their length, and leaves out those that are impossible:
-/// circles only stand for the field.
-void price(Roadmap<2>& roadmap, const TravelCost& cost) {
-  const ObstacleField<2>& field = cost.terrain().field();
-  const double clearance_m = cost.rules().required_clearance_m + kPushed_m;
-  for (std::size_t i = Roadmap<2>::kGoal + 1; i < roadmap.nodes.size(); ++i) {
-    roadmap.nodes[i].position = pushed_off(roadmap.nodes[i].position, field, clearance_m);
-  }
-  for (auto& edge : roadmap.edges) {
-    std::vector<Vector2> line = {roadmap.nodes[edge.from].position};
-    for (Vector2& point : edge.between) {
-      point = pushed_off(point, field, clearance_m);
-      line.push_back(point);
-    }
-    line.push_back(roadmap.nodes[edge.to].position);
-    edge.length_m = cost_of(line, cost);
-  }
-  const auto impossible = [](const auto& edge) { return !std::isfinite(edge.length_m); };
-  roadmap.edges.erase(std::remove_if(roadmap.edges.begin(), roadmap.edges.end(), impossible),
-                      roadmap.edges.end());
-}
-
 /// From the start that `cost` knows.
 std::vector<std::vector<Vector2>> paths_of_classes(const TravelCost& cost, const Scenery& scenery,
                                                    const Vector2& goal, const WayRules& rules) {
   Roadmap<2> roadmap = roadmap_of(cost, scenery, goal, rules);
   price(roadmap, cost);
+  roadmap = contracted(roadmap);
+  add_shortcuts(roadmap, cost);
   std::vector<std::vector<Vector2>> paths;
-  for (auto& path : shortest_classes(roadmap, scenery.cuts, {rules.classes, rules.longest_ratio}))
+  for (auto& path :
+       shortest_classes(roadmap, scenery.cuts, {kSpare * rules.classes, rules.longest_ratio}))
     paths.push_back(std::move(path.points));
   if (!paths.empty()) return paths;
   // Too narrow for the roadmap's circles, perhaps; the lattice is slower, but misses nothing.

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "topology/roadmap.h"
+#include "topology/travel_cost.h"
+
+namespace mocha {
+
+/// Gives edges their cost instead of their length, and leaves out those that are impossible. Where
+/// a roadmap was made on circles that only stand for the terrain, its corners are moved off the
+/// obstacles by what is missing, if a few steps suffice.
+void price(Roadmap<2>& roadmap, const TravelCost& cost);
+
+/// The same ways on fewer nodes: dead ends are left out, and nodes with only two edges become
+/// corners of one edge.
+Roadmap<2> contracted(const Roadmap<2>& roadmap);
+
+/// Adds straight edges from each node to the nearest ones that it sees, so that the lengths of ways
+/// are closer to those of the shortest paths of their class than ways midway between obstacles are.
+void add_shortcuts(Roadmap<2>& roadmap, const TravelCost& cost);
+
+}  // namespace mocha
