@@ -37,7 +37,11 @@ double TravelCost::blocked_room_m(const Vector2& p) const {
   return room_m;
 }
 
-double TravelCost::of_line(const Vector2& a, const Vector2& b) const {
+double TravelCost::of_line(const Vector2& from, const Vector2& to) const {
+  // The same samples both ways, so that a way back is as possible as the way there.
+  const bool swapped = from.x() > to.x() || (from.x() == to.x() && from.y() > to.y());
+  const Vector2& a = swapped ? to : from;
+  const Vector2& b = swapped ? from : to;
   const double length_m = (b - a).norm();
   const double smallest_m = terrain_.detail_m();
   double sum = 0.0;
