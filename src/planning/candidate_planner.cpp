@@ -129,6 +129,7 @@ PlanCandidate CandidatePlanner::plan(const PlanQuery& query, const Approach& app
                                      const std::function<bool()>& should_stop) const {
   PlanCandidate candidate;
   candidate.signature = approach.signature;
+  candidate.way = approach.openings.front().path;
   for (const Opening& opening : approach.openings) {
     drive(query, opening, scene, should_stop, candidate);
     if (!candidate.motion.empty() && !candidate.violation) {

@@ -58,10 +58,14 @@ std::optional<Vector2> GlobalPlanner::free_goal(const Vector2& goal,
 PlanResult GlobalPlanner::turn_only(const PlanQuery& query, const PlanningScene& scene) const {
   const Pose pose = query.committed.at(query.start_time_s).pose;
   const double change = query.goal_yaw_rad ? wrap_angle(*query.goal_yaw_rad - pose.yaw_rad) : 0.0;
-  const auto turn = planner_.front_end().openings().turn(pose, change);
+  std::vector<Phase> phases;
+  if (const auto turn = planner_.front_end().openings().turn(pose, change)) {
+    phases.emplace_back(*turn);
+  } else {
+    phases.emplace_back(StandPhase{pose, kStand_s});
+  }
   PlanResult result;
-  result.motion =
-      Motion(query.start_time_s, {turn ? Phase(*turn) : Phase(StandPhase{pose, kStand_s})});
+  result.motion = Motion(query.start_time_s, std::move(phases));
   result.goal = query.goal;
   result.violation = certify(result.motion, scene.terrain->field(), query.start_time_s);
   result.reason = result.violation ? PlanReason::kNotCertified : PlanReason::kSolved;

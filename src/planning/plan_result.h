@@ -36,6 +36,7 @@ struct PlanCandidate {
   double cost = 0.0;    ///< J (14), and the time of what comes before and after the drive
   CostTerms terms;      ///< sum up to the cost
   int evaluations = 0;
+  std::vector<Vector2> way;  ///< of the front end, from which the optimisation started
   Motion motion;
   bool driven = false;  ///< of the class of the plan that is being driven
   bool selected = false;

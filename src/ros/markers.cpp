@@ -2,29 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <variant>
 
 #include "ros/conversions.h"
 
 namespace mocha {
+
+std_msgs::ColorRGBA color(double red, double green, double blue, double alpha) {
+  std_msgs::ColorRGBA c;
+  c.r = static_cast<float>(red);
+  c.g = static_cast<float>(green);
+  c.b = static_cast<float>(blue);
+  c.a = static_cast<float>(alpha);
+  return c;
+}
+
 namespace {
 
 using visualization_msgs::Marker;
 
 constexpr double kLineStep_s = 0.05;
 constexpr double kGhostStep_s = 0.5;
+constexpr double kLineLevel_m = 0.02;
 constexpr double kTextHeight_m = 0.4;
 constexpr double kTextLevel_m = 0.6;  // above all else, seen from above
-
-std_msgs::ColorRGBA color(double r, double g, double b, double a = 1.0) {
-  std_msgs::ColorRGBA c;
-  c.r = static_cast<float>(r);
-  c.g = static_cast<float>(g);
-  c.b = static_cast<float>(b);
-  c.a = static_cast<float>(a);
-  return c;
-}
 
 const std_msgs::ColorRGBA kInk = color(0.1, 0.1, 0.12);
 const std_msgs::ColorRGBA kRobot = color(0.1, 0.25, 0.85);
@@ -156,20 +157,19 @@ void Drawing::add_motion(const std::string& name, const Motion& motion, double m
   line.colors = speeds(motion, max_speed, 1.0);
 }
 
-void Drawing::add_candidate(const std::string& name, const Motion& motion, double max_speed,
-                            double cost, bool selected) {
-  if (motion.empty()) return;
-  Marker& line = add(name, Marker::LINE_STRIP);
-  line.scale.x = 0.04;
-  line.color = color(1.0, 1.0, 1.0);
-  line.points = positions(motion, 0.02);
-  line.colors = speeds(motion, max_speed, selected ? 1.0 : 0.5);
+void Drawing::add_line(const std::string& name, const std::vector<Vector2>& points, double width_m,
+                       const std_msgs::ColorRGBA& color, bool dashed) {
+  Marker& line = add(name, dashed ? Marker::LINE_LIST : Marker::LINE_STRIP);
+  line.scale.x = width_m;
+  line.color = color;
+  const std::size_t even = points.size() - points.size() % 2;  // what a LINE_LIST must have
+  for (std::size_t i = 0; i < (dashed ? even : points.size()); ++i)
+    line.points.push_back(point(points[i], kLineLevel_m));
+}
 
-  char cost_text[32];
-  std::snprintf(cost_text, sizeof(cost_text), "%.1f", cost);
-  const double middle = 0.5 * (motion.start_time() + motion.end_time());
-  add_text(name, cost_text, motion.at(middle).pose.position + Vector2(0.0, kTextHeight_m)).color.a =
-      selected ? 1.0F : 0.5F;
+void Drawing::add_label(const std::string& name, const std::string& text, const Vector2& place,
+                        const std_msgs::ColorRGBA& color) {
+  add_text(name, text, place + Vector2(0.0, 0.5 * kTextHeight_m)).color = color;
 }
 
 void Drawing::add_robot(const std::string& name, const std::string& base_frame,

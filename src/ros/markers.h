@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nav_msgs/Path.h>
+#include <std_msgs/ColorRGBA.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <map>
@@ -20,6 +21,8 @@ nav_msgs::Path to_path(const Motion& motion, const std::string& frame, double dt
 /// Positions along the drives of a motion, `dt` [s] apart.
 std::vector<Vector2> polyline(const Motion& motion, double dt);
 
+std_msgs::ColorRGBA color(double red, double green, double blue, double alpha = 1.0);
+
 /// A picture for rviz: it replaces all that was published before on its topic. Markers are numbered
 /// in the order in which they are added, in one namespace per kind and name.
 class Drawing {
@@ -29,10 +32,12 @@ class Drawing {
   /// A broad line with dark edges, coloured by speed: blue at rest, red at `max_speed` [m/s].
   void add_motion(const std::string& name, const Motion& motion, double max_speed);
 
-  /// A thin line, coloured by speed like add_motion(), with its cost at its middle; fainter where
-  /// not selected.
-  void add_candidate(const std::string& name, const Motion& motion, double max_speed, double cost,
-                     bool selected);
+  /// A line of one colour; dashed, every other stretch between the points is left out.
+  void add_line(const std::string& name, const std::vector<Vector2>& points, double width_m,
+                const std_msgs::ColorRGBA& color, bool dashed);
+
+  void add_label(const std::string& name, const std::string& text, const Vector2& place,
+                 const std_msgs::ColorRGBA& color);
 
   /// Outline, heading and name of a robot, fixed to its frame.
   void add_robot(const std::string& name, const std::string& base_frame,

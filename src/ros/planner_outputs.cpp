@@ -4,6 +4,7 @@
 #include <mocha_ugv/PlannerStatus.h>
 #include <nav_msgs/Path.h>
 
+#include "ros/candidate_drawing.h"
 #include "ros/conversions.h"
 #include "ros/markers.h"
 #include "ros/status_conversions.h"
@@ -19,7 +20,6 @@ PlannerOutputs::PlannerOutputs(ros::NodeHandle& node, const RobotIdentity& ident
                                const RobotModel& model)
     : identity_(identity),
       radius_m_(model.footprint.circumscribed_radius_m()),
-      max_speed_(model.limits.max_speed),
       plans_(node.advertise<mocha_ugv::Trajectory>("global_trajectory", 2, true)),
       candidates_(node.advertise<mocha_ugv::Candidates>("candidates", 2, true)),
       statuses_(node.advertise<mocha_ugv::PlannerStatus>("planner_status", 10, true)),
@@ -51,9 +51,8 @@ void PlannerOutputs::show_candidates(const PlanResult& result, const Goal& goal,
   Drawing drawing(identity_.map_frame, now);
   for (const PlanCandidate& candidate : result.candidates) {
     message.candidates.push_back(to_message(candidate, identity_.map_frame, now));
-    drawing.add_candidate("candidates", candidate.motion, max_speed_, candidate.cost,
-                          candidate.selected);
   }
+  draw_candidates("candidates", result.candidates, drawing);
   drawing.add_goal(identity_.name, goal.position, goal.yaw_rad);
   candidates_.publish(message);
   drawings_.publish(drawing.markers());

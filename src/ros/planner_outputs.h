@@ -38,7 +38,6 @@ class PlannerOutputs {
  private:
   const RobotIdentity identity_;
   const double radius_m_;
-  const double max_speed_;
   ros::Publisher plans_;
   ros::Publisher candidates_;
   ros::Publisher statuses_;

@@ -1,6 +1,6 @@
 #include "ros/status_conversions.h"
 
-#include "ros/markers.h"
+#include "ros/candidate_drawing.h"
 
 namespace mocha {
 namespace {
@@ -76,7 +76,6 @@ Status to_message(PlanReason reason, const Violation& violation, const std::stri
 
 mocha_ugv::Candidate to_message(const PlanCandidate& candidate, const std::string& frame,
                                 ros::Time stamp) {
-  constexpr double kDrawingStep_s = 0.2;
   mocha_ugv::Candidate message;
   message.signature.assign(candidate.signature.begin(), candidate.signature.end());
   message.selected = candidate.selected;
@@ -91,10 +90,11 @@ mocha_ugv::Candidate to_message(const PlanCandidate& candidate, const std::strin
       to_message(candidate.reason, candidate.violation,
                  candidate.violation ? describe(candidate.violation) : to_text(candidate.reason),
                  frame, stamp);
-  if (candidate.motion.empty()) return message;
-  message.duration = candidate.motion.end_time() - candidate.motion.start_time();
-  message.length = candidate.motion.length_m();
-  for (const Vector2& point : polyline(candidate.motion, kDrawingStep_s)) {
+  if (!candidate.motion.empty()) {
+    message.duration = candidate.motion.end_time() - candidate.motion.start_time();
+    message.length = candidate.motion.length_m();
+  }
+  for (const Vector2& point : drawn_path(candidate)) {
     geometry_msgs::Point place;
     place.x = point.x();
     place.y = point.y();
