@@ -9,6 +9,9 @@ foreach(name evaluation table1 table1_curves)
   mocha_benchmark(${name})
 endforeach()
 
+mocha_benchmark(classes)
+target_link_libraries(benchmark_classes mocha_perception)
+
 # Table II has planners of OMPL beside ours.
 find_package(ompl QUIET)
 if(ompl_FOUND)

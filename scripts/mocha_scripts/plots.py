@@ -1,5 +1,5 @@
 """Draws a recorded drive (map with trajectories, speed, acceleration and yaw rate against limits, clearance, separation), or the paper's
-Figs. 6 to 9 with our own data."""
+Figs. 6 to 9 with our own data, or the ways of all classes on a map."""
 import argparse
 import os
 import sys
@@ -37,6 +37,18 @@ def add_table2(what):
     return table2
 
 
+def add_classes(what):
+    classes = what.add_parser("classes", help="the ways of all classes in a world or on a saved map",
+                              description="Plans in a world, for its first robot, or on a saved map, for the rover. Writes classes.png: the "
+                              "candidates of all classes with their costs, and what a planner with a single class would have driven.")
+    classes.add_argument("file", help="world file, or map.yaml of a saved map")
+    classes.add_argument("--classes", type=int, default=8, metavar="N", help="how many at most (default 8)")
+    classes.add_argument("--drive", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"),
+                         help="start and goal [m]; a saved map needs them")
+    classes.set_defaults(draw=draw_classes)
+    return classes
+
+
 # The imports stand in the functions, as the help needs no matplotlib.
 def draw_drive(options):
     from mocha_scripts import drive_plots
@@ -53,10 +65,15 @@ def draw_table2(options):
     table2_plots.draw_table2(options.world, options.out)
 
 
+def draw_classes(options):
+    from mocha_scripts import classes_plots
+    classes_plots.draw_classes(options.file, options.classes, options.drive, options.out)
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
     what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
-    for plots in (add_drive(what), add_table1(what), add_table2(what)):
+    for plots in (add_drive(what), add_table1(what), add_table2(what), add_classes(what)):
         plots.add_argument("--out", default=".", metavar="DIR", help="PNG files go there (default: here)")
     options = parser.parse_args(arguments)
     os.makedirs(options.out, exist_ok=True)

@@ -1,5 +1,6 @@
 #include "planning/candidate_race.h"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -55,7 +56,8 @@ std::vector<PlanCandidate> race(const CandidatePlanner& planner, const PlanQuery
       to_beat.lower_to(candidate.driven ? (1.0 - rules.switch_margin) * candidate.cost
                                         : candidate.cost);
   };
-  tbb::task_arena arena(rules.threads > 0 ? rules.threads : tbb::task_arena::automatic);
+  const int cores = tbb::info::default_concurrency();
+  tbb::task_arena arena(rules.threads > 0 ? std::min(rules.threads, cores) : cores);
   arena.execute([&] {
     // One at a time each, cheapest way first, so that what is to beat is known early.
     tbb::parallel_for(

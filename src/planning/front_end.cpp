@@ -29,11 +29,16 @@ WayRules way_rules(const RobotModel& robot, const PlannerRules& rules) {
   return ways;
 }
 
+bool is_under_way(const PlanQuery& query, const Vector2& goal) {
+  return !query.driven.empty() && query.driven.end_time() > query.start_time_s &&
+         (query.driven.end_pose().position - goal).norm() < kSameGoal_m;
+}
+
 }  // namespace
 
 std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_speed) {
   std::vector<Vector2> points;
-  constexpr double kStep_m = 0.1;
+  constexpr double kStep_m = 0.2;
   const double step_s = kStep_m / max_speed;
   for (double t = from_s; t < motion.end_time(); t += step_s)
     points.push_back(motion.at(t).pose.position);
@@ -58,10 +63,8 @@ Ways FrontEnd::ways(std::vector<Vector2> lead_in, const PlanQuery& query,
     // A team-mate on the goal will hardly stay.
     if ((disc.centre - goal).norm() > disc.radius_m) ways.blocked.push_back(disc);
   }
-  const Motion& driven = query.driven;
-  if (!driven.empty() && driven.end_time() > query.start_time_s &&
-      (driven.end_pose().position - goal).norm() < kSameGoal_m) {
-    ways.driven = path_of(driven, query.start_time_s, robot_.limits.max_speed);
+  if (is_under_way(query, goal)) {
+    ways.driven = path_of(query.driven, query.start_time_s, robot_.limits.max_speed);
     ways.driven.front() = ways.lead_in.front();
     ways.driven.back() = goal;
   }
@@ -72,7 +75,7 @@ Approaches FrontEnd::approaches(const PlanQuery& query, const PlanningScene& sce
                                 const Vector2& goal) const {
   const MotionState start = query.committed.at(query.start_time_s);
   Ways found = ways({start.pose.position}, query, scene, goal);
-  Approaches result{{}, std::move(found.cuts), std::move(found.driven)};
+  Approaches result{{}, std::move(found.cuts), is_under_way(query, goal), std::move(found.driven)};
   for (const Way& way : found.ways) {
     std::vector<Opening> openings = start.at_rest ? openings_.from_rest({}, start.pose, way.points)
                                                   : openings_.rolling(start, way.points);
@@ -96,7 +99,7 @@ Approaches FrontEnd::after_braking(const PlanQuery& query, const PlanningScene& 
       brake_along(query.committed, query.start_time_s, rest_acceleration_);
   const Motion stop(query.start_time_s, brake);
   Ways found = ways(path_of(stop, query.start_time_s, robot_.limits.max_speed), query, scene, goal);
-  Approaches result{{}, std::move(found.cuts), std::move(found.driven)};
+  Approaches result{{}, std::move(found.cuts), is_under_way(query, goal), std::move(found.driven)};
   for (const Way& way : found.ways) {
     result.list.push_back({openings_.from_rest(brake, stop.end_pose(), way.points),
                            way.least_length_m, way.signature});

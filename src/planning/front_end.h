@@ -21,10 +21,11 @@ struct Approach {
 struct Approaches {
   std::vector<Approach> list;       ///< cheapest first
   Cuts<2> cuts{{}};                 ///< that tell their classes apart
-  std::optional<Signature> driven;  ///< class of the plan that is being driven
+  bool under_way = false;           ///< a plan to the same goal is being driven
+  std::optional<Signature> driven;  ///< class of that plan; none if it is blocked
 };
 
-/// Places on a motion from a time on to its end, at most 0.1 m apart.
+/// Places on a motion from a time on to its end, at most 0.2 m apart.
 std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_speed);
 
 /// Finds the ways to the goal, cheapest first (IV-E).

@@ -5,6 +5,9 @@
 
 namespace mocha {
 
+/// A place moved off obstacles that are closer than required, if a few steps suffice.
+Vector2 pushed_off(Vector2 p, const TravelCost& cost);
+
 /// Gives edges their cost instead of their length, and leaves out those that are impossible. Where
 /// a roadmap was made on circles that only stand for the terrain, its corners are moved off the
 /// obstacles by what is missing, if a few steps suffice.

@@ -78,6 +78,14 @@ std::vector<std::vector<Vector2>> paths_of_classes(const TravelCost& cost, const
   return paths;
 }
 
+/// The path that is driven, moved off what has come to light beside it since; empty where it is
+/// blocked.
+std::vector<Vector2> still_drivable(std::vector<Vector2> path, const TravelCost& cost) {
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) path[i] = pushed_off(path[i], cost);
+  const bool possible = path.size() >= 2 && std::isfinite(cost_of(path, cost));
+  return possible ? path : std::vector<Vector2>{};
+}
+
 /// Makes a way of each path, as cheap as its class allows.
 std::vector<Way> ways_along(const std::vector<std::vector<Vector2>>& paths, const TravelCost& cost,
                             const Cuts<2>& cuts, const std::vector<Vector2>& lead_in) {
@@ -142,11 +150,10 @@ Ways find_ways(const Terrain& terrain, const WayQuery& query, const WayRules& ru
     return result;
   const Scenery scenery = scenery_of(cost);
   std::vector<std::vector<Vector2>> paths = paths_of_classes(cost, scenery, query.goal, rules);
-  const bool drivable = query.lead_in.size() == 1 && query.driven.size() >= 2 &&
-                        std::isfinite(cost_of(query.driven, cost));
-  if (drivable) paths.push_back(query.driven);
+  const std::vector<Vector2> driven = still_drivable(query.driven, cost);
+  if (query.lead_in.size() == 1 && !driven.empty()) paths.push_back(driven);
   result.ways = ways_along(paths, cost, scenery.cuts, query.lead_in);
-  if (!query.driven.empty()) result.driven = signature_of<2>(scenery.cuts, query.driven);
+  if (!driven.empty()) result.driven = signature_of<2>(scenery.cuts, driven);
   keep_best(result.ways, result.driven, rules);
   result.cuts = scenery.cuts;
   result.outcome = result.ways.empty() ? GridPath::Outcome::kNoPath : GridPath::Outcome::kFound;

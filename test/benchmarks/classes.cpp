@@ -1,0 +1,112 @@
+// Plans on a world file or a saved map and prints, as JSON, the ways of all classes, for
+// scripts/plots classes.
+
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "perception/map_image.h"
+#include "planning/global_planner.h"
+#include "topology/map_terrain.h"
+#include "topology/primitive_terrain.h"
+#include "world/world_file.h"
+
+namespace mocha {
+namespace {
+
+struct Task {
+  std::shared_ptr<const Terrain> terrain;
+  RobotModel robot;
+  Pose start;
+  Vector2 goal;
+};
+
+Task world_task(const std::string& path, const std::string& config) {
+  const World world = load_world(path, config);
+  if (world.robots.empty() || !world.robots.front().goal)
+    throw std::runtime_error(path + ": has no robot with a goal");
+  std::vector<Obstacle> obstacles(world.circles.begin(), world.circles.end());
+  obstacles.insert(obstacles.end(), world.polygons.begin(), world.polygons.end());
+  obstacles.insert(obstacles.end(), world.keep_out.begin(), world.keep_out.end());
+  const auto field = std::make_shared<PrimitiveField<2>>(std::move(obstacles), 1.0);
+  const WorldRobot& robot = world.robots.front();
+  return {std::make_shared<PrimitiveTerrain>(field, world.bounds), robot.model, robot.start,
+          robot.goal->position};
+}
+
+Task map_task(const std::string& path, const std::string& config, const Vector2& start,
+              const Vector2& goal) {
+  const OccupancyGrid map = grown_to_hold(load_map_image(path), {start, goal}, 1.0);
+  const auto field = std::make_shared<DistanceField>(map, DistanceField::Solid::kOccupied);
+  const Vector2 ahead = goal - start;
+  return {std::make_shared<MapTerrain>(field),
+          load_robot_model(config, "rover"),
+          {start, std::atan2(ahead.y(), ahead.x())},
+          goal};
+}
+
+PlanResult plan(const Task& task, PlannerRules rules, int classes) {
+  rules.classes = classes;
+  rules.threads = 1;  // which of them are cut short does not depend on the machine
+  PlanQuery query;
+  query.committed = Motion(-1.0, {StandPhase{task.start, 0.1}});
+  query.goal = task.goal;
+  return GlobalPlanner(task.robot, rules).plan(query, {task.terrain, {}}, [] { return false; });
+}
+
+void print(const std::vector<Vector2>& path) {
+  std::cout << "[";
+  for (std::size_t i = 0; i < path.size(); ++i)
+    std::cout << (i == 0 ? "[" : ", [") << path[i].x() << ", " << path[i].y() << "]";
+  std::cout << "]";
+}
+
+void print(const char* key, const PlanResult& result) {
+  std::cout << "\"" << key << "\": [";
+  bool first = true;
+  for (const PlanCandidate& candidate : result.candidates) {
+    std::cout << (first ? "" : ",") << "\n{\"cost\": " << candidate.cost
+              << ", \"solved\": " << (candidate.reason == PlanReason::kSolved ? "true" : "false")
+              << ", \"cannot_win\": "
+              << (candidate.reason == PlanReason::kCannotWin ? "true" : "false")
+              << ", \"selected\": " << (candidate.selected ? "true" : "false") << ", \"path\": ";
+    print(candidate.motion.empty() ? candidate.way : path_of(candidate.motion, 0.0, 1.0));
+    std::cout << "}";
+    first = false;
+  }
+  std::cout << "]";
+}
+
+void run(const std::vector<std::string>& arguments) {
+  if (arguments.size() != 3 && arguments.size() != 7)
+    throw std::runtime_error("usage: CONFIG CLASSES FILE [START_X START_Y GOAL_X GOAL_Y]");
+  const auto number = [&](std::size_t i) { return std::stod(arguments[i]); };
+  const std::string& config = arguments[0];
+  const Task task = arguments.size() == 3 ? world_task(arguments[2], config)
+                                          : map_task(arguments[2], config, {number(3), number(4)},
+                                                     {number(5), number(6)});
+  const PlannerRules rules =
+      PlannerRules::from(ParameterTable::from_schema(config + "/global_planner.yaml"));
+  std::cout << "{\"start\": [" << task.start.position.x() << ", " << task.start.position.y()
+            << "], \"goal\": [" << task.goal.x() << ", " << task.goal.y() << "], ";
+  print("candidates", plan(task, rules, std::stoi(arguments[1])));
+  std::cout << ", ";
+  print("single", plan(task, rules, 1));
+  std::cout << "}\n";
+}
+
+}  // namespace
+}  // namespace mocha
+
+int main(int argc, char** argv) {
+  try {
+    mocha::run({argv + 1, argv + argc});
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+  }
+}

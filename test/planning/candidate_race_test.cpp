@@ -1,0 +1,164 @@
+#include "planning/candidate_race.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "planning/global_planner.h"
+#include "planning/worlds.h"
+#include "topology/primitive_terrain.h"
+#include "world/world_file.h"
+
+namespace mocha {
+namespace {
+
+const std::function<bool()> kGoOn = [] { return false; };
+
+struct Task {
+  PlanningScene scene;
+  RobotModel robot;
+  PlanQuery query;
+};
+
+/// The first robot of a world file, standing at its start, knows its analytic obstacles.
+Task task_of(const std::string& file) {
+  const World world = load_world(file, "config");
+  std::vector<Obstacle> obstacles(world.circles.begin(), world.circles.end());
+  obstacles.insert(obstacles.end(), world.polygons.begin(), world.polygons.end());
+  const auto field = std::make_shared<PrimitiveField<2>>(std::move(obstacles), 1.0);
+  const WorldRobot& robot = world.robots.front();
+  Task task{{std::make_shared<PrimitiveTerrain>(field, world.bounds), {}}, robot.model, {}};
+  task.query.committed = standing(-1.0, robot.start.position, robot.start.yaw_rad);
+  task.query.goal = robot.goal->position;
+  return task;
+}
+
+PlanResult plan(const Task& task, const PlannerRules& rules) {
+  return GlobalPlanner(task.robot, rules).plan(task.query, task.scene, kGoOn);
+}
+
+const PlanCandidate& selected(const PlanResult& result) {
+  return *std::find_if(result.candidates.begin(), result.candidates.end(),
+                       [](const PlanCandidate& candidate) { return candidate.selected; });
+}
+
+PlanCandidate candidate(double cost, bool driven, PlanReason reason = PlanReason::kSolved) {
+  PlanCandidate result;
+  result.cost = cost;
+  result.driven = driven;
+  result.reason = reason;
+  return result;
+}
+
+TEST(Winner, IsTheCheapestOfThoseThatAreCertified) {
+  EXPECT_EQ(winner({}, 0.1), -1);
+  EXPECT_EQ(winner({candidate(1.0, false, PlanReason::kNotCertified)}, 0.1), -1);
+  EXPECT_EQ(winner({candidate(1.0, false, PlanReason::kCannotWin), candidate(3.0, false),
+                    candidate(2.0, false)},
+                   0.1),
+            2);
+}
+
+TEST(Winner, IsOfTheClassThatIsDrivenUnlessAnotherIsCheaperByTheMargin) {
+  EXPECT_EQ(winner({candidate(9.1, false), candidate(10.0, true)}, 0.1), 1);
+  EXPECT_EQ(winner({candidate(8.9, false), candidate(10.0, true)}, 0.1), 0);
+  EXPECT_EQ(winner({candidate(9.9, false), candidate(10.0, true)}, 0.0), 0);
+  EXPECT_EQ(winner({candidate(8.0, false), candidate(7.0, true, PlanReason::kNotCertified)}, 0.1),
+            0);
+}
+
+TEST(Classes, ASingleClassIsTwentyPerCentDearerInTheSlalom) {
+  const Task task = task_of("config/worlds/slalom.yaml");
+  PlannerRules rules = default_rules();
+  const PlanResult all = plan(task, rules);
+  rules.classes = 1;
+  const PlanResult single = plan(task, rules);
+  ASSERT_EQ(all.reason, PlanReason::kSolved) << all.message;
+  ASSERT_EQ(single.reason, PlanReason::kSolved) << single.message;
+  ASSERT_EQ(single.candidates.size(), 1u);
+  EXPECT_GT(all.candidates.size(), 2u);
+  EXPECT_GE(selected(single).cost, 1.2 * selected(all).cost);
+  EXPECT_NE(selected(single).signature, selected(all).signature);
+  EXPECT_GT(single.motion.end_time(), 1.15 * all.motion.end_time());
+}
+
+TEST(Classes, CostsAreSumsOfTheirTermsAndNoLessThanTheirBound) {
+  const Task task = task_of("config/worlds/rooms.yaml");
+  const PlannerRules rules = default_rules();
+  const CandidatePlanner planner(task.robot, rules);
+  const Approaches approaches =
+      planner.front_end().approaches(task.query, task.scene, task.query.goal);
+  ASSERT_GE(approaches.list.size(), 4u);
+  for (const Approach& approach : approaches.list) {
+    const PlanCandidate found = planner.plan(task.query, approach, task.scene, kGoOn);
+    ASSERT_EQ(found.reason, PlanReason::kSolved);
+    double sum = 0.0;
+    for (const auto& [name, value] : found.terms) sum += value;
+    EXPECT_NEAR(found.cost, sum, 1e-6 * sum);
+    EXPECT_GE(found.cost, planner.least_cost(approach));
+    EXPECT_GE(found.cost, rules.weight_duration * found.motion.end_time());
+  }
+}
+
+TEST(Classes, WhatCannotWinIsGivenUpWithoutChangingTheWinner) {
+  const Task task = task_of("config/worlds/rooms.yaml");
+  PlannerRules rules = default_rules();
+  rules.classes = 10;
+  int given_up = 0;
+  Signature first;
+  for (const int threads : {1, 2, 4}) {
+    rules.threads = threads;
+    const PlanResult result = plan(task, rules);
+    ASSERT_EQ(result.reason, PlanReason::kSolved);
+    const PlanCandidate& best = selected(result);
+    if (threads == 1) first = best.signature;
+    EXPECT_EQ(best.signature, first);
+    for (const PlanCandidate& other : result.candidates) {
+      EXPECT_GE(other.cost, best.cost);
+      given_up += other.reason == PlanReason::kCannotWin;
+    }
+  }
+  EXPECT_GT(given_up, 0);
+}
+
+/// Two boxes side by side across the way: through the middle, or round either.
+class Hysteresis : public ::testing::Test {
+ protected:
+  /// The gap above the box is that much wider than the one below.
+  PlanResult replan(double upper_m, const Motion& driven, double margin) const {
+    OccupancyGrid grid = free_grid({-2.0, -6.0}, {12.0, 6.0});
+    fill_box(grid, {4.0, -2.0 - upper_m}, {4.5, 2.0 - upper_m});
+    PlannerRules rules = default_rules();
+    rules.switch_margin = margin;
+    PlanQuery query;
+    query.committed = standing(-1.0, {0.0, 0.0}, 0.0);
+    query.goal = {9.0, 0.0};
+    query.driven = driven;
+    return GlobalPlanner(rover(), rules).plan(query, {terrain_of(grid), {}}, kGoOn);
+  }
+};
+
+TEST_F(Hysteresis, StaysOnItsSideUntilTheOtherOneIsCheaperByTheMargin) {
+  const PlanResult below = replan(-0.3, Motion(), 0.15);
+  ASSERT_EQ(below.reason, PlanReason::kSolved) << below.message;
+  EXPECT_FALSE(below.switches_class);
+  const auto side = [](const PlanResult& result) {
+    return result.motion.at(0.5 * result.motion.end_time()).pose.position.y();
+  };
+  ASSERT_LT(side(below), 0.0);
+  // The box is seen to reach farther down: a little, then a lot.
+  const PlanResult a_little = replan(0.2, below.motion, 0.15);
+  ASSERT_EQ(a_little.reason, PlanReason::kSolved);
+  EXPECT_LT(side(a_little), 0.0) << "no flipping for a small gain";
+  EXPECT_FALSE(a_little.switches_class);
+  EXPECT_TRUE(selected(a_little).driven);
+  EXPECT_GT(side(replan(0.2, Motion(), 0.15)), 0.0) << "that would be cheaper afresh";
+  EXPECT_GT(side(replan(0.2, below.motion, 0.0)), 0.0) << "and without a margin";
+  const PlanResult a_lot = replan(1.5, below.motion, 0.15);
+  ASSERT_EQ(a_lot.reason, PlanReason::kSolved);
+  EXPECT_GT(side(a_lot), 0.0);
+  EXPECT_TRUE(a_lot.switches_class);
+}
+
+}  // namespace
+}  // namespace mocha
