@@ -63,7 +63,7 @@ Network random_network(unsigned seed, int nodes, int obstacles, double density) 
       for (int twin = 0; twin < 2; ++twin) {
         if (uniform(random, 0.0, 1.0) > density) continue;
         std::vector<Vector2> between;
-        if (twin == 1) between.push_back(point());
+        if (twin == 1) between = {point(), point()};
         const bool backward = uniform(random, 0.0, 1.0) < 0.5;
         network.add_edge(backward ? i : j, backward ? j : i, between, uniform(random, 1.0, 1.3));
       }
