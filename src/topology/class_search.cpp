@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kNone = -1;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRounding = 1e-9;  // of sums of the same lengths in another order
+constexpr int kSignatures = 4;      // of one node that are looked at, for each result
 
 /// One direction of an edge, without its shape.
 struct Arc {
@@ -84,7 +86,8 @@ class Search {
       : arcs_(arcs),
         to_goal_m_(std::move(to_goal_m)),
         rules_(rules),
-        longest_m_(rules.longest_ratio * to_goal_m_[Roadmap<2>::kStart]),
+        longest_m_((1.0 + kRounding) * rules.longest_ratio * to_goal_m_[Roadmap<2>::kStart]),
+        most_signatures_(static_cast<std::size_t>(kSignatures) * rules.classes),
         seen_(arcs.size()) {}
 
   /// The last steps of the paths found.
@@ -96,7 +99,8 @@ class Search {
       const int current = queue_.top().second;
       queue_.pop();
       const Step step = steps_[current];
-      if (!seen_[step.node].insert(step.key).second) continue;
+      auto& seen = seen_[step.node];
+      if (seen.size() >= most_signatures_ || !seen.insert(step.key).second) continue;
       if (step.node == Roadmap<2>::kGoal) {
         found.push_back(current);
         continue;
@@ -130,6 +134,7 @@ class Search {
   const std::vector<double> to_goal_m_;
   const ClassSearchRules rules_;
   const double longest_m_;
+  const std::size_t most_signatures_;
   std::vector<Step> steps_;
   std::vector<std::unordered_set<SignatureKey>> seen_;  // of each node
   using Entry = std::pair<double, int>;                 // bound and step; ties in order of age

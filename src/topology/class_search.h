@@ -21,10 +21,13 @@ struct ClassPath {
 
 /// The shortest paths of pairwise different signatures, shortest first; none visits a node twice.
 ///
-/// A* over pairs (node, signature so far) with the exact distance to the goal as its bound. Of one
-/// node no more signatures are looked at than there are results, as each of them continues to a
-/// result of its own, so the work grows with nodes times results, however many classes there are
-/// (Bhattacharya, Likhachev, Kumar 2012 use the same augmented graph).
+/// A* over pairs (node, signature so far) with the exact distance to the goal as its bound
+/// (Bhattacharya, Likhachev, Kumar 2012 use the same augmented graph). A class is missed, or found
+/// with a longer path, only where it has a shorter walk that visits some node twice.
+///
+/// Each signature of a node continues to a result of its own, unless the way on is barred by where
+/// it has been. So of one node only a few times as many signatures are looked at as there are
+/// results, and the work grows with nodes times results, however many classes there are.
 template <int D>
 std::vector<ClassPath<D>> shortest_classes(const Roadmap<D>& roadmap, const Cuts<D>& cuts,
                                            const ClassSearchRules& rules);

@@ -11,13 +11,14 @@ namespace {
 constexpr double kTile_m = 0.15;   // circles of at most this size, so that narrow ways stay open
 constexpr double kRimCells = 1.5;  // matter deeper inside is hidden by that of the rim
 constexpr double kJitter_m = 1e-4;
+constexpr double kSlackCells = 0.5;  // of a gap: between corners, distances are interpolated
 constexpr int kNone = -1;
 
-/// Numbers the components of a map's blocked corners that contain solid matter.
+/// Numbers the components of what a map's solid matter and the impassable gaps between it make up.
 class Components {
  public:
-  Components(const DistanceField& field, double blocked_m)
-      : field_(field), blocked_m_(blocked_m), number_(field.columns() * field.rows(), kNone) {
+  Components(const DistanceField& field, double clearance_m)
+      : field_(field), clearance_m_(clearance_m), number_(field.columns() * field.rows(), kNone) {
     for (int y = 0; y < field.rows(); ++y) {
       for (int x = 0; x < field.columns(); ++x) {
         if (field.at_corner(x, y) <= 0.0 && number_[index(x, y)] == kNone) spread(x, y);
@@ -35,6 +36,15 @@ class Components {
     return static_cast<std::size_t>(y) * field_.columns() + x;
   }
 
+  /// Whether a robot may come through between two neighbouring corners: no point between them is
+  /// farther from solid matter than half of `gap_m`.
+  bool passable(int x, int y, int nx, int ny) const {
+    const double outside_m = field_.at_corner(x, y) + field_.at_corner(nx, ny);
+    const double gap_m = outside_m + (field_.corner(nx, ny) - field_.corner(x, y)).norm();
+    const double slack_m = outside_m > 0.0 ? kSlackCells * field_.resolution_m() : 0.0;
+    return gap_m >= 2.0 * clearance_m_ - slack_m;
+  }
+
   void spread(int x, int y) {
     const int number = static_cast<int>(representatives_.size());
     representatives_.push_back(field_.corner(x, y));
@@ -45,7 +55,7 @@ class Components {
       front_.pop_back();
       for (int ny = std::max(0, cy - 1); ny <= std::min(field_.rows() - 1, cy + 1); ++ny) {
         for (int nx = std::max(0, cx - 1); nx <= std::min(field_.columns() - 1, cx + 1); ++nx) {
-          if (number_[index(nx, ny)] != kNone || field_.at_corner(nx, ny) >= blocked_m_) continue;
+          if (number_[index(nx, ny)] != kNone || passable(cx, cy, nx, ny)) continue;
           number_[index(nx, ny)] = number;
           front_.push_back({nx, ny});
         }
@@ -54,7 +64,7 @@ class Components {
   }
 
   const DistanceField& field_;
-  double blocked_m_;
+  double clearance_m_;
   std::vector<int> number_;
   std::vector<std::pair<int, int>> front_;
   std::vector<Vector2> representatives_;
@@ -75,9 +85,8 @@ MapTerrain::MapTerrain(std::shared_ptr<const DistanceField> field)
 
 std::vector<ObstacleGroup> MapTerrain::groups(double clearance_m) const {
   const DistanceField& field = *field_;
-  // Who passes between two neighbouring blocked corners is within 0.71 cells of one of them.
   const double cell_m = field.resolution_m();
-  const Components components(field, std::max(0.5 * cell_m, clearance_m - 0.75 * cell_m));
+  const Components components(field, clearance_m);
   std::vector<ObstacleGroup> groups(components.representatives().size());
   for (std::size_t r = 0; r < groups.size(); ++r)
     groups[r].representative = components.representatives()[r];

@@ -7,8 +7,9 @@
 
 namespace mocha {
 
-/// A map. Its groups are the components of the solid cells, inflated by what the robot cannot pass;
-/// their circles cover the rims of solid matter to within half a cell.
+/// A map. Its groups are the components of the solid cells and of the gaps between them that the
+/// robot cannot pass; their circles cover the rims of solid matter and stick out by less than 11
+/// cm.
 class MapTerrain : public Terrain {
  public:
   explicit MapTerrain(std::shared_ptr<const DistanceField> field);
