@@ -225,8 +225,12 @@ TEST(LengthBound, ASpikeThatWindsAboutNothingIsNoReasonToGoFarther) {
       const Vector2 goal = start + Vector2(aside(random), aside(random));
       const Vector2 tip(x(random), y(random));
       if (signature_of<2>(cuts, {start, tip, goal, start}) != Signature(solid.size(), 0)) continue;
-      const double room_m = std::min(field->distance_bound(start), field->distance_bound(goal));
-      if (room_m < 0.2 || field->distance_bound(tip) < 0.05) continue;
+      bool is_free = true;
+      for (double share = 0.0; share <= 1.0 && is_free; share += 0.01) {
+        is_free = field->distance_bound(start + share * (tip - start)) > 0.05 &&
+                  field->distance_bound(goal + share * (tip - goal)) > 0.05;
+      }
+      if (!is_free) continue;
       ++spikes;
       ASSERT_LE(least_length_m({start, tip, goal}, *field), (goal - start).norm() + 1e-9)
           << seed << ": " << start.transpose() << " by way of " << tip.transpose();
