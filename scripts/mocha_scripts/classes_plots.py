@@ -68,8 +68,8 @@ def draw_classes(path, classes, drive, out):
     else:
         draw_world(axes, description)
     draw_candidates(axes, result["candidates"])
-    for candidate in result["single"]:
-        axes.plot(*np.array(candidate["path"]).T, "k--", lw=1.2, zorder=5, label=f"with a single class: {describe(candidate)}")
+    for candidate in result["straight"]:
+        axes.plot(*np.array(candidate["path"]).T, "k--", lw=1.2, zorder=5, label=f"from the straight line: {describe(candidate)}")
     axes.plot(*result["start"], "o", color="w", ms=9, mec="k", zorder=7)
     axes.plot(*result["goal"], "*", color="w", ms=15, mec="k", zorder=7)
     axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]", title="ways of different classes and what they cost")

@@ -40,7 +40,7 @@ def add_table2(what):
 def add_classes(what):
     classes = what.add_parser("classes", help="the ways of all classes in a world or on a saved map",
                               description="Plans in a world, for its first robot, or on a saved map, for the rover. Writes classes.png: the "
-                              "candidates of all classes with their costs, and what a planner with a single class would have driven.")
+                              "candidates of all classes with their costs, and what the optimiser makes of the straight line, without classes.")
     classes.add_argument("file", help="world file, or map.yaml of a saved map")
     classes.add_argument("--classes", type=int, default=8, metavar="N", help="how many at most (default 8)")
     classes.add_argument("--drive", type=float, nargs=4, metavar=("X0", "Y0", "X1", "Y1"),

@@ -49,6 +49,16 @@ bool is_sound(const DriveQuery& query) {
              0.0;
 }
 
+/// The cost at the weights of the rules, so that drives found with different effort compare.
+void undo(const Effort& effort, OptimizedTrajectory<2, 3>& found) {
+  found.cost = 0.0;
+  for (auto& [name, value] : found.terms) {
+    if (name == "obstacle") value /= effort.obstacle_weight;
+    if (name == "dynamics" || name == "turning" || name == "wheels") value /= effort.limit_weight;
+    found.cost += value;
+  }
+}
+
 double peer_distance_m(const RobotModel& robot) {
   return robot.peer_clearance_m + MarginBudget::of(robot).peer_margin_m();
 }
@@ -160,7 +170,9 @@ OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
   OptimizerRules optimizer_rules;
   optimizer_rules.max_evaluations = rules_.max_evaluations;
   optimizer_rules.should_stop = should_stop;
-  return optimize<2, 3>(objective, objective.initial(knots.durations_s), optimizer_rules);
+  auto found = optimize<2, 3>(objective, objective.initial(knots.durations_s), optimizer_rules);
+  undo(effort, found);
+  return found;
 }
 
 }  // namespace mocha

@@ -40,7 +40,8 @@ class DriveOptimizer {
 
   /// `field` are the static obstacles. The result's curve is empty only if nothing finite was
   /// found (kNotFinite), or the query is none (kInvalidInput): values that are not finite or beyond
-  /// 1e6, fewer than two points, no length.
+  /// 1e6, fewer than two points, no length. Cost and terms are those at the weights of the rules,
+  /// whatever the effort.
   OptimizedTrajectory<2, 3> optimize_drive(const DriveQuery& query, const ObstacleField<2>& field,
                                            const Effort& effort,
                                            const std::function<bool()>& should_stop) const;

@@ -75,7 +75,7 @@ Approaches FrontEnd::approaches(const PlanQuery& query, const PlanningScene& sce
                                 const Vector2& goal) const {
   const MotionState start = query.committed.at(query.start_time_s);
   Ways found = ways({start.pose.position}, query, scene, goal);
-  Approaches result{{}, std::move(found.cuts), is_under_way(query, goal), std::move(found.driven)};
+  Approaches result{{}, std::move(found.cuts), std::move(found.driven)};
   for (const Way& way : found.ways) {
     std::vector<Opening> openings = start.at_rest ? openings_.from_rest({}, start.pose, way.points)
                                                   : openings_.rolling(start, way.points);
@@ -99,7 +99,7 @@ Approaches FrontEnd::after_braking(const PlanQuery& query, const PlanningScene& 
       brake_along(query.committed, query.start_time_s, rest_acceleration_);
   const Motion stop(query.start_time_s, brake);
   Ways found = ways(path_of(stop, query.start_time_s, robot_.limits.max_speed), query, scene, goal);
-  Approaches result{{}, std::move(found.cuts), is_under_way(query, goal), std::move(found.driven)};
+  Approaches result{{}, std::move(found.cuts), std::move(found.driven)};
   for (const Way& way : found.ways) {
     result.list.push_back({openings_.from_rest(brake, stop.end_pose(), way.points),
                            way.least_length_m, way.signature});

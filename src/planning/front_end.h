@@ -21,8 +21,7 @@ struct Approach {
 struct Approaches {
   std::vector<Approach> list;       ///< cheapest first
   Cuts<2> cuts{{}};                 ///< that tell their classes apart
-  bool under_way = false;           ///< a plan to the same goal is being driven
-  std::optional<Signature> driven;  ///< class of that plan; none if it is blocked
+  std::optional<Signature> driven;  ///< class of the plan that is being driven to the same goal
 };
 
 /// Places on a motion from a time on to its end, at most 0.2 m apart.

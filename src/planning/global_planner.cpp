@@ -117,7 +117,7 @@ void GlobalPlanner::run(const PlanQuery& query, const Approaches& approaches,
   result.message = "solved";
   result.violation = {};
   result.motion = chosen.motion;
-  result.switches_class = approaches.under_way && !chosen.driven;
+  result.switches_class = approaches.driven && !chosen.driven;
 }
 
 PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scene,

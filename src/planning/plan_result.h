@@ -49,7 +49,7 @@ struct PlanResult {
   Motion motion;  ///< certified; empty unless solved or backing out
   Vector2 goal =
       Vector2::Zero();  ///< where it leads: the goal, or the nearest free place; valid where solved
-  /// The motion is of another class than the plan that is being driven, or that plan is blocked.
+  /// The motion is of another class than the plan that is being driven.
   bool switches_class = false;
   std::vector<PlanCandidate> candidates;  ///< one of each class
 };

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace mocha {
 namespace {
 
 using Vector2 = Eigen::Vector2d;
+
+constexpr int kProjections = 4;        // onto what is nearest
+constexpr double kOnSurface_m = 1e-6;  // no path comes as close
 
 double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -17,6 +21,20 @@ struct Ray {
   double side_m(const Vector2& p) const { return cross(direction, p - origin); }
   double along_m(const Vector2& p) const { return direction.dot(p - origin); }
 };
+
+/// From the obstacle nearest to p through p; nothing where it cannot be made out, as midway between
+/// obstacles. Only a ray that begins on solid matter is crossed by all paths of a class alike.
+std::optional<Ray> ray_through(const Vector2& p, const ObstacleField<2>& field) {
+  Vector2 origin = p;
+  auto nearest = field.sample(origin);
+  if (!(nearest.distance_m > kOnSurface_m)) return std::nullopt;
+  for (int i = 0; i < kProjections && nearest.distance_m > kOnSurface_m; ++i) {
+    origin -= nearest.distance_m * nearest.gradient.normalized();
+    nearest = field.sample(origin);
+  }
+  if (!(nearest.distance_m <= kOnSurface_m)) return std::nullopt;
+  return Ray{origin, (p - origin).normalized()};
+}
 
 /// How often the path crosses the ray from right to left, minus how often from left to right.
 int net_crossings(const std::vector<Vector2>& path, const Ray& ray) {
@@ -53,11 +71,9 @@ double least_length_m(const std::vector<Vector2>& path, const ObstacleField<2>& 
   const Vector2& goal = path.back();
   double least_m = (goal - start).norm();
   for (std::size_t i = 1; i + 1 < path.size(); ++i) {
-    const auto nearest = field.sample(path[i]);
-    if (!(nearest.distance_m > 0.0) || !std::isfinite(nearest.distance_m)) continue;
-    const Ray ray{path[i] - nearest.distance_m * nearest.gradient, nearest.gradient.normalized()};
-    if (net_crossings(path, ray) == 0) continue;
-    least_m = std::max(least_m, by_way_of(ray, start, goal));
+    const auto ray = ray_through(path[i], field);
+    if (ray && net_crossings(path, *ray) != 0)
+      least_m = std::max(least_m, by_way_of(*ray, start, goal));
   }
   return least_m;
 }

@@ -47,12 +47,13 @@ class Components {
 
   void spread(int x, int y) {
     const int number = static_cast<int>(representatives_.size());
-    representatives_.push_back(field_.corner(x, y));
     number_[index(x, y)] = number;
     front_.assign(1, {x, y});
+    std::vector<Vector2> solid;
     while (!front_.empty()) {
       const auto [cx, cy] = front_.back();
       front_.pop_back();
+      if (field_.at_corner(cx, cy) <= 0.0) solid.push_back(field_.corner(cx, cy));
       for (int ny = std::max(0, cy - 1); ny <= std::min(field_.rows() - 1, cy + 1); ++ny) {
         for (int nx = std::max(0, cx - 1); nx <= std::min(field_.columns() - 1, cx + 1); ++nx) {
           if (number_[index(nx, ny)] != kNone || passable(cx, cy, nx, ny)) continue;
@@ -61,6 +62,17 @@ class Components {
         }
       }
     }
+    representatives_.push_back(innermost(solid));
+  }
+
+  /// The one nearest to their mean, so that a path which only touches the rim of the matter is
+  /// still classified by the side on which it passes.
+  static Vector2 innermost(const std::vector<Vector2>& points) {
+    Vector2 mean = Vector2::Zero();
+    for (const Vector2& point : points) mean += point / static_cast<double>(points.size());
+    return *std::min_element(points.begin(), points.end(), [&](const Vector2& a, const Vector2& b) {
+      return (a - mean).squaredNorm() < (b - mean).squaredNorm();
+    });
   }
 
   const DistanceField& field_;

@@ -10,6 +10,7 @@ namespace {
 constexpr int kPoints = 60;       // from which corners are cut, about
 constexpr double kFinest = 4.0;   // such points are at least this many details apart
 constexpr int kMostFailures = 4;  // in a row, before a shortcut is as long as it can be
+constexpr int kRounds = 4;        // to and fro, so even
 constexpr double kNoDearer_m = 1e-6;
 
 /// The same path with more points on it.
@@ -25,33 +26,67 @@ std::vector<Vector2> refined(const std::vector<Vector2>& path, double spacing_m)
 }
 
 /// Cuts corners from the front to the back.
-std::vector<Vector2> cut_corners(const std::vector<Vector2>& points, const TravelCost& cost,
-                                 const Cuts<2>& cuts) {
-  std::vector<double> cost_to(points.size(), 0.0);
-  std::vector<SignatureKey> key_to(points.size(), 0);
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    cost_to[i] = cost_to[i - 1] + cost.of_line(points[i - 1], points[i]);
-    key_to[i] = key_to[i - 1] + key_of<2>(cuts, points[i - 1], points[i]);
-  }
-  std::vector<Vector2> shorter = {points.front()};
-  for (std::size_t from = 0; from + 1 < points.size();) {
-    std::size_t to = from + 1;
-    int failures = 0;
-    for (std::size_t next = from + 2; next < points.size() && failures < kMostFailures; ++next) {
-      const bool same_class =
-          key_of<2>(cuts, points[from], points[next]) == key_to[next] - key_to[from];
-      const double straight =
-          same_class ? cost.of_line(points[from], points[next]) : TravelCost::kInfinity;
-      const bool cheap = straight < TravelCost::kInfinity &&
-                         straight <= cost_to[next] - cost_to[from] + kNoDearer_m;
-      failures = cheap ? 0 : failures + 1;
-      if (cheap) to = next;
+class CornerCutter {
+ public:
+  CornerCutter(const std::vector<Vector2>& points, const TravelCost& cost, const Cuts<2>& cuts)
+      : points_(points), cost_(cost), cuts_(cuts), to_(points.size()) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      to_[i].cost = to_[i - 1].cost + cost.of_line(points[i - 1], points[i]);
+      to_[i].key = to_[i - 1].key + key_of<2>(cuts, points[i - 1], points[i]);
     }
-    shorter.push_back(points[to]);
-    from = to;
   }
-  return shorter;
-}
+
+  std::vector<Vector2> run() {
+    std::vector<Vector2> shorter = {points_.front()};
+    Reached here;
+    for (std::size_t next = 1; next < points_.size();) {
+      const std::size_t farthest = farthest_from(shorter.back(), here, next);
+      const bool is_new = farthest > next && farthest + 1 < points_.size();
+      // On from the middle, which is closer to what the path bends around than the end is.
+      const Vector2 middle = 0.5 * (shorter.back() + points_[farthest]);
+      const double first = is_new ? cost_.of_line(shorter.back(), middle) : TravelCost::kInfinity;
+      const double second =
+          is_new ? cost_.of_line(middle, points_[farthest]) : TravelCost::kInfinity;
+      if (first + second <= to_[farthest].cost - here.cost + kNoDearer_m) {
+        here = {to_[farthest].cost - second,
+                to_[farthest].key - key_of<2>(cuts_, middle, points_[farthest])};
+        shorter.push_back(middle);
+        next = farthest;
+      } else {
+        here = to_[farthest];
+        shorter.push_back(points_[farthest]);
+        next = farthest + 1;
+      }
+    }
+    return shorter;
+  }
+
+ private:
+  struct Reached {
+    double cost = 0.0;
+    SignatureKey key = 0;
+  };
+
+  /// The last of the points that the straight way leads to; the one given can be reached.
+  std::size_t farthest_from(const Vector2& p, const Reached& here, std::size_t reachable) const {
+    std::size_t farthest = reachable;
+    int failures = 0;
+    for (std::size_t i = reachable + 1; i < points_.size() && failures < kMostFailures; ++i) {
+      const bool same_class = key_of<2>(cuts_, p, points_[i]) == to_[i].key - here.key;
+      const double straight = same_class ? cost_.of_line(p, points_[i]) : TravelCost::kInfinity;
+      const bool cheap =
+          straight < TravelCost::kInfinity && straight <= to_[i].cost - here.cost + kNoDearer_m;
+      failures = cheap ? 0 : failures + 1;
+      if (cheap) farthest = i;
+    }
+    return farthest;
+  }
+
+  const std::vector<Vector2>& points_;
+  const TravelCost& cost_;
+  const Cuts<2>& cuts_;
+  std::vector<Reached> to_;  // each of the points, along the path
+};
 
 double length_of(const std::vector<Vector2>& path) {
   double length_m = 0.0;
@@ -72,16 +107,18 @@ std::vector<Vector2> shortened(const std::vector<Vector2>& path, const TravelCos
   if (path.size() < 2) return path;
   std::vector<Vector2> shorter = path;
   // Backwards as well, as what is cut first bends what is cut later.
-  for (int round = 0; round < 2; ++round) {
+  for (int round = 0; round < kRounds; ++round) {
     const double spacing_m =
         std::max(kFinest * cost.terrain().detail_m(), length_of(shorter) / kPoints);
-    std::vector<Vector2> next = cut_corners(refined(shorter, spacing_m), cost, cuts);
+    std::vector<Vector2> next = CornerCutter(refined(shorter, spacing_m), cost, cuts).run();
     // In the narrowest places a part of a line may fail where the whole has passed.
-    if (!(cost_of(next, cost) < TravelCost::kInfinity)) next = cut_corners(shorter, cost, cuts);
+    if (!(cost_of(next, cost) < TravelCost::kInfinity))
+      next = CornerCutter(shorter, cost, cuts).run();
     std::reverse(next.begin(), next.end());
     shorter = std::move(next);
   }
-  return shorter;
+  // What is sampled anew may come out dearer by a trifle.
+  return cost_of(shorter, cost) <= cost_of(path, cost) ? shorter : path;
 }
 
 }  // namespace mocha

@@ -37,13 +37,12 @@ double TravelCost::blocked_room_m(const Vector2& p) const {
   return room_m;
 }
 
-double TravelCost::of_line(const Vector2& from, const Vector2& to) const {
-  // The same samples both ways, so that a way back is as possible as the way there.
-  const bool swapped = from.x() > to.x() || (from.x() == to.x() && from.y() > to.y());
-  const Vector2& a = swapped ? to : from;
-  const Vector2& b = swapped ? from : to;
+double TravelCost::of_line(const Vector2& a, const Vector2& b) const {
+  // Sampled in the same places whichever way it is gone.
+  if (std::lexicographical_compare(b.begin(), b.end(), a.begin(), a.end())) return of_line(b, a);
   const double length_m = (b - a).norm();
   const double smallest_m = terrain_.detail_m();
+  const double roomy_m = std::max(rules_.preferred_clearance_m, rules_.required_clearance_m);
   double sum = 0.0;
   double along_m = 0.0;
   double distance_m = terrain_.field().sample(a).distance_m;
@@ -51,7 +50,7 @@ double TravelCost::of_line(const Vector2& from, const Vector2& to) const {
   Vector2 p = a;
   while (cost < kInfinity && along_m < length_m) {
     // As far as there is more room than anybody could wish for, a metre costs 1.
-    const double room_m = std::min(distance_m - rules_.preferred_clearance_m, blocked_room_m(p));
+    const double room_m = std::min(distance_m - roomy_m, blocked_room_m(p));
     const double step_m = std::min(std::max(smallest_m, room_m), length_m - along_m);
     along_m += step_m;
     if (length_m - along_m < 1e-9 * length_m) along_m = length_m;

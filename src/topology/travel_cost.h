@@ -37,7 +37,7 @@ class TravelCost {
   double at(const Vector2& p) const { return at(p, terrain_.field().sample(p).distance_m); }
 
   /// Of the straight line; infinite if it meets a forbidden place.
-  double of_line(const Vector2& from, const Vector2& to) const;
+  double of_line(const Vector2& a, const Vector2& b) const;
 
   const Vector2& start() const { return start_; }
   const Terrain& terrain() const { return terrain_; }

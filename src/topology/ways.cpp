@@ -153,7 +153,7 @@ Ways find_ways(const Terrain& terrain, const WayQuery& query, const WayRules& ru
   const std::vector<Vector2> driven = still_drivable(query.driven, cost);
   if (query.lead_in.size() == 1 && !driven.empty()) paths.push_back(driven);
   result.ways = ways_along(paths, cost, scenery.cuts, query.lead_in);
-  if (!driven.empty()) result.driven = signature_of<2>(scenery.cuts, driven);
+  if (!query.driven.empty()) result.driven = signature_of<2>(scenery.cuts, query.driven);
   keep_best(result.ways, result.driven, rules);
   result.cuts = scenery.cuts;
   result.outcome = result.ways.empty() ? GridPath::Outcome::kNoPath : GridPath::Outcome::kFound;

@@ -38,7 +38,7 @@ struct Ways {
   GridPath::Outcome outcome = GridPath::Outcome::kNoPath;
   std::vector<Way> ways;  ///< of pairwise different classes, cheapest first; empty unless found
   Cuts<2> cuts{{}};       ///< that tell the classes apart
-  std::optional<Signature> driven;  ///< class of the path that is being driven; none if blocked
+  std::optional<Signature> driven;  ///< class of the path that is being driven
 };
 
 /// From where to where.

@@ -48,13 +48,25 @@ Task map_task(const std::string& path, const std::string& config, const Vector2&
           goal};
 }
 
-PlanResult plan(const Task& task, PlannerRules rules, int classes) {
-  rules.classes = classes;
-  rules.threads = 1;  // which of them are cut short does not depend on the machine
+PlanQuery query_of(const Task& task) {
   PlanQuery query;
   query.committed = Motion(-1.0, {StandPhase{task.start, 0.1}});
   query.goal = task.goal;
-  return GlobalPlanner(task.robot, rules).plan(query, {task.terrain, {}}, [] { return false; });
+  return query;
+}
+
+std::vector<PlanCandidate> plan_all(const Task& task, const PlannerRules& rules) {
+  return GlobalPlanner(task.robot, rules)
+      .plan(query_of(task), {task.terrain, {}}, [] { return false; })
+      .candidates;
+}
+
+/// What is found from the straight line, as planners do that know one class only.
+PlanCandidate plan_straight(const Task& task, const PlannerRules& rules) {
+  const CandidatePlanner planner(task.robot, rules);
+  const std::vector<Vector2> line = {task.start.position, task.goal};
+  const Approach straight{planner.front_end().openings().from_rest({}, task.start, line), 0.0, {}};
+  return planner.plan(query_of(task), straight, {task.terrain, {}}, [] { return false; });
 }
 
 void print(const std::vector<Vector2>& path) {
@@ -64,14 +76,15 @@ void print(const std::vector<Vector2>& path) {
   std::cout << "]";
 }
 
-void print(const char* key, const PlanResult& result) {
+void print(const char* key, const std::vector<PlanCandidate>& candidates) {
   std::cout << "\"" << key << "\": [";
   bool first = true;
-  for (const PlanCandidate& candidate : result.candidates) {
+  for (const PlanCandidate& candidate : candidates) {
     std::cout << (first ? "" : ",") << "\n{\"cost\": " << candidate.cost
               << ", \"solved\": " << (candidate.reason == PlanReason::kSolved ? "true" : "false")
               << ", \"cannot_win\": "
               << (candidate.reason == PlanReason::kCannotWin ? "true" : "false")
+              << ", \"T\": " << (candidate.motion.empty() ? 0.0 : candidate.motion.end_time())
               << ", \"selected\": " << (candidate.selected ? "true" : "false") << ", \"path\": ";
     print(candidate.motion.empty() ? candidate.way : path_of(candidate.motion, 0.0, 1.0));
     std::cout << "}";
@@ -88,13 +101,15 @@ void run(const std::vector<std::string>& arguments) {
   const Task task = arguments.size() == 3 ? world_task(arguments[2], config)
                                           : map_task(arguments[2], config, {number(3), number(4)},
                                                      {number(5), number(6)});
-  const PlannerRules rules =
+  PlannerRules rules =
       PlannerRules::from(ParameterTable::from_schema(config + "/global_planner.yaml"));
+  rules.classes = std::stoi(arguments[1]);
+  rules.threads = 1;  // which of them are cut short does not depend on the machine
   std::cout << "{\"start\": [" << task.start.position.x() << ", " << task.start.position.y()
             << "], \"goal\": [" << task.goal.x() << ", " << task.goal.y() << "], ";
-  print("candidates", plan(task, rules, std::stoi(arguments[1])));
+  print("candidates", plan_all(task, rules));
   std::cout << ", ";
-  print("single", plan(task, rules, 1));
+  print("straight", {plan_straight(task, rules)});
   std::cout << "}\n";
 }
 

@@ -59,8 +59,8 @@ Table2Plan plan_with_mocha(const Table2World& world, const Vector2& target) {
   static const GlobalPlanner planner(robot(), rules());
   const Vector2 ahead = target - world.start;
   PlanQuery query;
-  query.committed = Motion(
-      -1.0, {StandPhase{{world.start, std::atan2(ahead.y(), ahead.x())}, 0.1}});
+  query.committed =
+      Motion(-1.0, {StandPhase{{world.start, std::atan2(ahead.y(), ahead.x())}, 0.1}});
   query.goal = target;
   const Vector2 border = Vector2::Constant(Table2World::kBorder_m);
   const Eigen::AlignedBox2d bounds(-border, Vector2::Constant(Table2World::kSide_m) + border);
