@@ -47,7 +47,8 @@ class LiveParametersTest(unittest.TestCase):
     @classmethod
     def on_diagnostics(cls, message):
         for status in message.status:
-            cls.diagnosed.setdefault(status.name.split(":")[0], {}).update((v.key, v.value) for v in status.values)
+            node = status.name.split(":")[0].split("/")[-1]
+            cls.diagnosed.setdefault(node, {}).update((entry.key, entry.value) for entry in status.values)
 
     def client(self, node="global_planner"):
         client = Client("/ugv1/" + node, timeout=TIMEOUT_S)
