@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Checks by reading the sources that the house stands: includes point down only, libraries stay in their places, the core has
-no clock and prints nothing, and parameters in code and in config/ are the same. Each rule is also tried on a planted fault."""
+no clock and prints nothing, parameters in code and in config/ are the same, and those marked as live are served. Each rule is
+also tried on a planted fault."""
 import pathlib
 import re
 import tempfile
@@ -100,8 +101,19 @@ def parameter_faults(root):
             yield f"config/{schema}.yaml: `{name}` is read nowhere"
 
 
+def live_faults(root):
+    for path in sorted((root / "config").glob("*.yaml")):
+        marked = any(entry.get("live") for entry in yaml.safe_load(path.read_text()).values())
+        node = root / "src" / "nodes" / f"{path.stem}_node.cpp"
+        served = node.exists() and "LiveParameters" in COMMENT.sub("", node.read_text())
+        if marked and not served:
+            yield f"config/{path.name}: marks parameters as live, but its node does not serve them"
+        if served and not marked:
+            yield f"nodes/{node.name}: serves live parameters, but config/{path.name} marks none"
+
+
 def all_faults(root):
-    return [*include_faults(root), *core_faults(root), *parameter_faults(root)]
+    return [*include_faults(root), *core_faults(root), *parameter_faults(root), *live_faults(root)]
 
 
 class Architecture(unittest.TestCase):
@@ -129,6 +141,8 @@ class Architecture(unittest.TestCase):
             ("src/nodes/a_node.cpp", 'read_parameters(ros::NodeHandle("~"), "a"); values.number("gian")', "`gian` is not"),
             ("src/planning/a.cpp", 'values.number("gian")', "no schema"),
             ("config/a.yaml", "unused: {default: 1.0}", "`unused` is read nowhere"),
+            ("config/a.yaml", "gain: {default: 1.0, live: true}", "does not serve them"),
+            ("src/nodes/a_node.cpp", "LiveParameters parameters_;", "marks none"),
         ]
         for path, text, complaint in plants:
             with self.subTest(path=path, text=text), tempfile.TemporaryDirectory() as directory:
@@ -143,12 +157,13 @@ class Architecture(unittest.TestCase):
     def test_a_sound_tree_passes(self):
         with tempfile.TemporaryDirectory() as directory:
             root = pathlib.Path(directory)
-            for name, content in {"config/a.yaml": "gain: {default: 1.0}\n",
+            for name, content in {"config/a.yaml": "gain: {default: 1.0, live: true}\n",
                                   "src/planning/a.cpp": '#include "fleet/b.h"\nstd::snprintf(s, n, "x"); // sleep()',
                                   "src/fleet/wire_format.cpp": "#include <lcm/lcm-cpp.hpp>\n",
                                   "src/topology/apollonius_roadmap.cpp": "#include <CGAL/Apollonius_graph_2.h>",
                                   "src/nodes/a_node.cpp": '#include <ros/ros.h>\n#include "ros/x.h"\n'
-                                                          'read_parameters(ros::NodeHandle("~"), "a").number("gain")'}.items():
+                                                          'read_parameters(ros::NodeHandle("~"), "a").number("gain");'
+                                                          'LiveParameters parameters_;'}.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
                 (root / name).write_text(content)
             self.assertEqual(all_faults(root), [])

@@ -59,10 +59,15 @@ TrajectoryTracker::TrajectoryTracker(const TrackerParameters& parameters, const 
   require_positive(max_position_error_m_, "margin_tracking");
   require_positive(parameters.max_heading_error_rad, "max_heading_error");
   require_positive(parameters.max_pose_age_s, "max_pose_age");
-  require_positive(parameters.gains.along, "along_gain");
-  require_positive(parameters.gains.across, "across_gain");
-  require_positive(parameters.gains.heading, "heading_gain");
-  require_positive(parameters.gains.max_bandwidth, "max_bandwidth");
+  set_gains(parameters.gains);
+}
+
+void TrajectoryTracker::set_gains(const FeedbackGains& gains) {
+  require_positive(gains.along, "along_gain");
+  require_positive(gains.across, "across_gain");
+  require_positive(gains.heading, "heading_gain");
+  require_positive(gains.max_bandwidth, "max_bandwidth");
+  parameters_.gains = gains;
 }
 
 void TrajectoryTracker::offer(const MotionId& id, Motion motion, double lease_end_s) {

@@ -41,6 +41,10 @@ class TrajectoryTracker {
   /// Throws std::invalid_argument for bounds and gains that are not positive.
   TrajectoryTracker(const TrackerParameters& parameters, const RobotModel& robot);
 
+  /// From the next step() on. Throws std::invalid_argument for gains that are not positive; then
+  /// nothing changes.
+  void set_gains(const FeedbackGains& gains);
+
   /// Offers a newly committed motion, with a lease until `lease_end_s` (in the past: none). It is
   /// taken up by the first step() that has both a lease and a pose for it, if it fits the pose
   /// then; else it is refused and driving goes on as before. A motion that is known already, or

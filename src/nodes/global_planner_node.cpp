@@ -1,9 +1,8 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <mocha_ugv/PlanTrajectory.h>
-#include <mocha_ugv/Trajectory.h>
 #include <ros/ros.h>
 
-#include <algorithm>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -12,8 +11,10 @@
 #include "planning/driven_trail.h"
 #include "planning/global_planner.h"
 #include "planning/goal_queue.h"
+#include "ros/commitment_source.h"
 #include "ros/conversions.h"
 #include "ros/goal_inputs.h"
+#include "ros/live_parameters.h"
 #include "ros/map_source.h"
 #include "ros/parameters.h"
 #include "ros/peer_source.h"
@@ -40,20 +41,19 @@ class GlobalPlannerNode {
       : identity_(robot_identity()),
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
         values_(values),
-        planner_(model_, PlannerRules::from(values)),
-        goals_({values.number("goal_tolerance"), values.number("goal_yaw_tolerance"),
-                values.number("goal_timeout")}),
+        planner_(std::make_unique<GlobalPlanner>(model_, PlannerRules::from(values))),
+        goals_(GoalRules::from(values)),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
+        committed_(node, identity_.name),
         outputs_(node, identity_, model_),
-        commitments_(
-            node.subscribe("committed_trajectory", 10, &GlobalPlannerNode::on_committed, this)),
         requests_(node.subscribe("replan_request", 10, &GlobalPlannerNode::on_request, this)),
         service_(node.advertiseService("plan", &GlobalPlannerNode::on_plan_service, this)),
         inputs_(node, identity_, pose_.transforms(),
                 {[this](std::deque<Goal> goals) { take(std::move(goals)); },
                  [this](const std::string& why) { stop(why); }}),
+        parameters_(values_, [this](const ParameterTable& changed) { apply(changed); }),
         loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }) {
     diagnostics_.setHardwareID(identity_.name);
     diagnostics_.add("planning", this, &GlobalPlannerNode::diagnose);
@@ -61,16 +61,6 @@ class GlobalPlannerNode {
 
  private:
   // --- what comes in ---
-
-  void on_committed(const mocha_ugv::Trajectory& message) {
-    try {
-      committed_ = from_message(message);
-    } catch (const std::exception& error) {
-      ++refused_messages_;
-      ROS_WARN_THROTTLE(1.0, "%s: refused a message on committed_trajectory: %s",
-                        identity_.name.c_str(), error.what());
-    }
-  }
 
   void on_request(const mocha_ugv::PlannerStatus& status) {
     requested_ = true;
@@ -87,6 +77,11 @@ class GlobalPlannerNode {
     retreats_ = false;
     goal_is_new_ = true;
     occupied_since_.reset();
+  }
+
+  void apply(const ParameterTable& values) {
+    planner_ = std::make_unique<GlobalPlanner>(model_, PlannerRules::from(values));
+    goals_.set_rules(GoalRules::from(values));
   }
 
   // --- what happens when ---
@@ -136,13 +131,13 @@ class GlobalPlannerNode {
       report(PlanReason::kNoMap, {}, "no map on " + ros::names::resolve("map") + " yet");
       return;
     }
-    if (committed_.empty()) {
+    if (committed_.motion().empty()) {
       report(PlanReason::kNoPose, {}, "nothing is committed yet that a plan could start from");
       return;
     }
     PlanQuery query = query_to(goals_.current());
     if (!goal_is_new_ && !retreats_) query.driven = plan_;
-    const PlanResult result = planner_.plan(query, scene(query), [] { return false; });
+    const PlanResult result = planner_->plan(query, scene(query), [] { return false; });
     const bool improvement = !goal_is_new_ && !requested_ && !retreats_ && !plan_.empty() &&
                              now_.toSec() < plan_.end_time() + kAfterEnd_s;
     planned_at_ = now_;
@@ -193,9 +188,11 @@ class GlobalPlannerNode {
   void stop(const std::string& why) {
     ROS_INFO("%s: stops: %s", identity_.name.c_str(), why.c_str());
     goals_.clear();
-    if (committed_.empty()) return;
-    const double from_s = committed_.switch_time(now_.toSec() + values_.number("planning_time"));
-    adopt(Motion(from_s, brake_along(committed_, from_s, 0.6 * model_.limits.max_acceleration)));
+    if (committed_.motion().empty()) return;
+    const double from_s =
+        committed_.motion().switch_time(now_.toSec() + values_.number("planning_time"));
+    adopt(Motion(from_s,
+                 brake_along(committed_.motion(), from_s, 0.6 * model_.limits.max_acceleration)));
   }
 
   bool on_plan_service(mocha_ugv::PlanTrajectory::Request& request,
@@ -221,7 +218,7 @@ class GlobalPlannerNode {
       refusal.message = "start or goal is not usable: " + inputs_.refusal();
       return refusal;
     }
-    if (!map_.available() || (from_here && committed_.empty())) {
+    if (!map_.available() || (from_here && committed_.motion().empty())) {
       refusal.reason = map_.available() ? PlanReason::kNoPose : PlanReason::kNoMap;
       refusal.message = map_.available() ? "the robot's state is not known yet" : "no map yet";
       return refusal;
@@ -233,13 +230,14 @@ class GlobalPlannerNode {
           Motion(now_.toSec(), {StandPhase{{start->position, start->yaw_rad.value_or(0.0)}, 0.1}});
       query.trail.clear();
     }
-    return planner_.plan(query, scene(query), [] { return false; });
+    return planner_->plan(query, scene(query), [] { return false; });
   }
 
   PlanQuery query_to(const Goal& goal) const {
     PlanQuery query;
-    query.committed = committed_;
-    query.start_time_s = committed_.switch_time(now_.toSec() + values_.number("planning_time"));
+    query.committed = committed_.motion();
+    query.start_time_s =
+        committed_.motion().switch_time(now_.toSec() + values_.number("planning_time"));
     query.goal = goal.position;
     query.goal_yaw_rad = goal.yaw_rad;
     query.trail = trail_.points();
@@ -267,21 +265,22 @@ class GlobalPlannerNode {
     status.add("plans adopted", outputs_.adopted());
     status.add("switches to another class of ways", class_switches_);
     status.add("last request", request_);
-    status.add("messages refused", refused_messages_ + inputs_.refused() + map_.refused() +
+    status.add("parameter changes refused", parameters_.refused());
+    status.add("messages refused", committed_.refused() + inputs_.refused() + map_.refused() +
                                        peers_.refused() + pose_.refused());
   }
 
   const RobotIdentity identity_;
   const RobotModel model_;
-  const ParameterTable values_;
-  const GlobalPlanner planner_;
+  ParameterTable values_;
+  std::unique_ptr<const GlobalPlanner> planner_;
   GoalQueue goals_;
   DrivenTrail trail_;
   PoseSource pose_;
   MapSource map_;
   PeerSource peers_;
+  CommitmentSource committed_;
   PlannerOutputs outputs_;
-  Motion committed_;
   Motion plan_;
   ros::Time now_;
   ros::Time planned_at_;
@@ -292,12 +291,11 @@ class GlobalPlannerNode {
   std::string request_;
   int plans_made_ = 0;
   int class_switches_ = 0;
-  int refused_messages_ = 0;
-  ros::Subscriber commitments_;
   ros::Subscriber requests_;
   ros::ServiceServer service_;
   diagnostic_updater::Updater diagnostics_;
   GoalInputs inputs_;
+  LiveParameters parameters_;
   StepLoop loop_;
 };
 

@@ -20,6 +20,7 @@
 #include "perception/planar_scan.h"
 #include "perception/point_cloud.h"
 #include "ros/conversions.h"
+#include "ros/live_parameters.h"
 #include "ros/map_conversions.h"
 #include "ros/parameters.h"
 #include "ros/robot_identity.h"
@@ -34,8 +35,7 @@ namespace mocha {
 namespace {
 
 constexpr double kPeriod_s = 0.02;
-constexpr double kFreshStamp_s =
-    0.5;  // a map that is older than this and a bit: perception is dead
+constexpr double kFreshStamp_s = 0.5;  // a map much older than this: perception is dead
 
 OccupancyMapOptions map_options(const ParameterTable& values) {
   OccupancyMapOptions options;
@@ -70,6 +70,7 @@ class PerceptionNode {
         services_{node.advertiseService("save_map", &PerceptionNode::on_save, this),
                   node.advertiseService("load_map", &PerceptionNode::on_load, this),
                   node.advertiseService("clear_map", &PerceptionNode::on_clear, this)},
+        parameters_(values_),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
     if (!values.text("map_file").empty()) map_.load(values.text("map_file"));
     if (!values.text("keep_out_file").empty())
@@ -242,6 +243,7 @@ class PerceptionNode {
       status.summary(DiagnosticStatus::OK, "scans enter the map");
     }
     status.add("scans waiting for their transforms", queue_.waiting());
+    status.add("parameter changes refused", parameters_.refused());
     for (const auto& [reason, times] : refusals_.counts()) status.add("refused: " + reason, times);
   }
 
@@ -259,7 +261,7 @@ class PerceptionNode {
     status.add("team-mates known", peers_.at(now_.toSec()).size());
   }
 
-  const ParameterTable values_;
+  ParameterTable values_;
   const RobotIdentity robot_;
   OccupancyMap map_;
   std::vector<Polygon> keep_out_;
@@ -288,6 +290,7 @@ class PerceptionNode {
   ros::Subscriber points_;
   ros::Subscriber fleet_;
   std::vector<ros::ServiceServer> services_;
+  LiveParameters parameters_;
   StepLoop loop_;
 };
 

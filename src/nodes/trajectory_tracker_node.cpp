@@ -14,6 +14,7 @@
 
 #include "control/trajectory_tracker.h"
 #include "ros/conversions.h"
+#include "ros/live_parameters.h"
 #include "ros/parameters.h"
 #include "ros/pose_source.h"
 #include "ros/robot_identity.h"
@@ -24,15 +25,21 @@ namespace {
 
 constexpr double kPeriod_s = 0.02;
 
+FeedbackGains feedback_gains(const ParameterTable& values) {
+  FeedbackGains gains;
+  gains.along = values.number("along_gain");
+  gains.across = values.number("across_gain");
+  gains.max_bandwidth = values.number("max_bandwidth");
+  gains.damping = values.number("damping");
+  gains.heading = values.number("heading_gain");
+  gains.settle_start_rad = values.number("settle_start");
+  gains.settle_stop_rad = values.number("settle_stop");
+  return gains;
+}
+
 TrackerParameters tracker_parameters(const ParameterTable& values) {
   TrackerParameters parameters;
-  parameters.gains.along = values.number("along_gain");
-  parameters.gains.across = values.number("across_gain");
-  parameters.gains.max_bandwidth = values.number("max_bandwidth");
-  parameters.gains.damping = values.number("damping");
-  parameters.gains.heading = values.number("heading_gain");
-  parameters.gains.settle_start_rad = values.number("settle_start");
-  parameters.gains.settle_stop_rad = values.number("settle_stop");
+  parameters.gains = feedback_gains(values);
   parameters.max_heading_error_rad = values.number("max_heading_error");
   parameters.max_pose_age_s = values.number("max_pose_age");
   parameters.command_delay_s = values.number("command_delay");
@@ -43,7 +50,8 @@ TrackerParameters tracker_parameters(const ParameterTable& values) {
 class TrajectoryTrackerNode {
  public:
   TrajectoryTrackerNode(ros::NodeHandle& node, const ParameterTable& values)
-      : robot_(robot_identity()),
+      : values_(values),
+        robot_(robot_identity()),
         initial_lease_(values.number("initial_lease")),
         max_lease_(values.number("max_lease")),
         tracker_(tracker_parameters(values),
@@ -56,6 +64,8 @@ class TrajectoryTrackerNode {
                                      ros::TransportHints().tcpNoDelay())),
         leases_(node.subscribe("lease", 10, &TrajectoryTrackerNode::on_lease, this,
                                ros::TransportHints().tcpNoDelay())),
+        parameters_(values_,
+                    [this](const ParameterTable& v) { tracker_.set_gains(feedback_gains(v)); }),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
     diagnostics_.setHardwareID(robot_.name);
     diagnostics_.add("tracking", this, &TrajectoryTrackerNode::diagnose);
@@ -164,9 +174,11 @@ class TrajectoryTrackerNode {
     if (refused_ > 0) status.add("last refused message", refusal_);
     status.add("refused motions", tracker_.refused());
     if (tracker_.refused() > 0) status.add("last refused motion", tracker_.refusal());
+    status.add("refused parameter changes", parameters_.refused());
     status.add("refused odometry", pose_.refused());
   }
 
+  ParameterTable values_;
   RobotIdentity robot_;
   double initial_lease_;
   double max_lease_;
@@ -182,6 +194,7 @@ class TrajectoryTrackerNode {
   ros::Publisher errors_;
   ros::Subscriber trajectories_;
   ros::Subscriber leases_;
+  LiveParameters parameters_;
   StepLoop loop_;
 };
 

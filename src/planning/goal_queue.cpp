@@ -14,6 +14,11 @@ constexpr double kElsewhere_m = 0.5;
 
 }  // namespace
 
+GoalRules GoalRules::from(const ParameterTable& values) {
+  return {values.number("goal_tolerance"), values.number("goal_yaw_tolerance"),
+          values.number("goal_timeout")};
+}
+
 void GoalQueue::set(std::deque<Goal> goals, double now_s) {
   goals_ = std::move(goals);
   begin(now_s);

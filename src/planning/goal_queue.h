@@ -3,6 +3,7 @@
 #include <deque>
 #include <optional>
 
+#include "config/parameter_table.h"
 #include "control/robot_state.h"
 
 namespace mocha {
@@ -17,6 +18,9 @@ struct GoalRules {
   double tolerance_m;
   double yaw_tolerance_rad;
   double timeout_s;  ///< without progress
+
+  /// Of config/global_planner.yaml.
+  static GoalRules from(const ParameterTable& values);
 };
 
 /// Goals to be visited in order: which one counts now, whether it is reached, whether anything
@@ -26,6 +30,8 @@ class GoalQueue {
   enum class Event { kNone, kReached, kAllReached, kTimedOut };
 
   explicit GoalQueue(const GoalRules& rules) : rules_(rules) {}
+  /// For the goals that are there and those to come.
+  void set_rules(const GoalRules& rules) { rules_ = rules; }
 
   /// Replaces all goals.
   void set(std::deque<Goal> goals, double now_s);

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <limits>
 
 namespace mocha {
 namespace {
@@ -28,11 +30,11 @@ class TextFile {
 };
 
 const char kSchema[] = R"(
-speed: {default: 1.0, min: 0.1, max: 2.5, unit: m/s, about: How fast.}
-beams: {default: 360, min: 3, max: 1000, unit: "-", about: How many.}
-enabled: {default: true, unit: "-", about: Whether.}
-shape: {default: disc, choices: [disc, rectangle], unit: "-", about: What.}
-frame: {default: map, unit: "-", about: Where.}
+speed: {default: 1.0, min: 0.1, max: 2.5, live: true, unit: m/s, about: How fast.}
+beams: {default: 360, min: 3, max: 1000, live: true, unit: "-", about: How many.}
+enabled: {default: true, live: true, unit: "-", about: Whether.}
+shape: {default: disc, choices: [disc, rectangle], live: true, unit: "-", about: What.}
+frame: {default: map, live: false, unit: "-", about: Where.}
 code: {default: "12", unit: "-", about: A text that looks like a number.}
 )";
 
@@ -63,7 +65,7 @@ TEST(ParameterTable, HasDefaultsOfTheirTypes) {
   EXPECT_TRUE(parameters.flag("enabled"));
   EXPECT_EQ(parameters.text("shape"), "disc");
   EXPECT_EQ(parameters.text("code"), "12");
-  EXPECT_EQ(parameters.names().size(), 6u);
+  EXPECT_EQ(parameters.parameters().size(), 6u);
 }
 
 TEST(ParameterTable, AssignsValues) {
@@ -122,9 +124,77 @@ TEST(ParameterTable, RefusesSchemasThatAreIncomplete) {
   refuse("a: {default: 1, unit: m, about: x}", {"a", "range"});
   refuse("a: {default: 2.0, min: 0.0, max: 1.0, unit: m, about: x}", {"a", "0 to 1"});
   refuse("a: {default: c, choices: [a, b], unit: m, about: x}", {"a = c", "one of a, b"});
+  refuse("a: {default: true, live: 2, unit: m, about: x}", {"a.live = 2", "true or false"});
   refuse("a: 3", {"a", "default"});
   expect_error([] { ParameterTable::from_schema("/nowhere/schema.yaml"); },
                {"/nowhere/schema.yaml"});
+}
+
+TEST(ParameterTable, AssignsAllValuesOrNone) {
+  ParameterTable parameters = table();
+  EXPECT_THROW(parameters.assign(YAML::Load("{beams: 7, speed: 2.6}"), "test"), ParameterError);
+  EXPECT_EQ(parameters.integer("beams"), 360);
+}
+
+TEST(ParameterTable, SaysWhatTheSchemaSays) {
+  ParameterTable parameters = table();
+  parameters.assign(YAML::Load("{speed: 2}"), "test");
+  const Parameter& speed = parameters.parameters().at("speed");
+  EXPECT_EQ(speed.value, ParameterValue(2.0));
+  EXPECT_EQ(speed.default_value, ParameterValue(1.0));
+  EXPECT_EQ(speed.min, 0.1);
+  EXPECT_EQ(speed.max, 2.5);
+  EXPECT_EQ(speed.unit, "m/s");
+  EXPECT_EQ(speed.about, "How fast.");
+  EXPECT_TRUE(speed.live);
+  EXPECT_FALSE(parameters.parameters().at("frame").live);
+  EXPECT_FALSE(parameters.parameters().at("code").live);
+  EXPECT_EQ(parameters.parameters().at("shape").choices,
+            (std::vector<std::string>{"disc", "rectangle"}));
+}
+
+TEST(ParameterTable, ChangesLiveParameters) {
+  ParameterTable parameters = table();
+  const auto notes = parameters.change(
+      {{"speed", 2.5}, {"beams", 3}, {"enabled", false}, {"shape", std::string("rectangle")}});
+  EXPECT_TRUE(notes.empty());
+  EXPECT_EQ(parameters.number("speed"), 2.5);
+  EXPECT_EQ(parameters.integer("beams"), 3);
+  EXPECT_FALSE(parameters.flag("enabled"));
+  EXPECT_EQ(parameters.text("shape"), "rectangle");
+}
+
+TEST(ParameterTable, ClampsChangesAndSaysSo) {
+  ParameterTable parameters = table();
+  const auto notes = parameters.change({{"speed", 7.5}, {"beams", -4}});
+  EXPECT_EQ(parameters.number("speed"), 2.5);
+  EXPECT_EQ(parameters.integer("beams"), 3);
+  EXPECT_EQ(notes, (std::vector<std::string>{
+                       "speed = 7.5: clamped to 2.5, from 0.1 to 2.5 (m/s)",
+                       "beams = -4: clamped to 3, from 3 to 1000 (-)",
+                   }));
+  parameters.change({{"speed", -std::numeric_limits<double>::infinity()}});
+  EXPECT_EQ(parameters.number("speed"), 0.1);
+}
+
+TEST(ParameterTable, RefusesChangesAsAWhole) {
+  const auto refuse = [](const std::string& name, const ParameterValue& value,
+                         std::initializer_list<std::string> parts) {
+    ParameterTable parameters = table();
+    expect_error([&] { parameters.change({{"enabled", false}, {name, value}}); }, parts);
+    for (const auto& [unchanged, parameter] : parameters.parameters())
+      EXPECT_EQ(parameter.value, parameter.default_value) << unchanged << " after " << name;
+  };
+  refuse("sped", 2.0, {"unknown parameter `sped`"});
+  refuse("frame", std::string("odom"), {"frame", "at the start only"});
+  refuse("speed", 2, {"speed = 2", "a number"});
+  refuse("speed", std::string("2.0"), {"speed = 2.0", "a number"});
+  refuse("speed", std::nan(""), {"speed = nan", "0.1 to 2.5"});
+  refuse("beams", 10.0, {"beams = 10", "an integer"});
+  refuse("beams", true, {"beams = true", "an integer"});
+  refuse("enabled", 1, {"enabled = 1", "true or false"});
+  refuse("shape", true, {"shape = true", "a text"});
+  refuse("shape", std::string("triangle"), {"shape = triangle", "disc, rectangle"});
 }
 
 TEST(ParameterTable, RefusesQuestionsThatTheSchemaDoesNotAnswer) {

@@ -291,6 +291,24 @@ TEST(TrajectoryTracker, WithoutAMotionOrAPoseItCommandsZero) {
   EXPECT_EQ(tracker.mode(), TrackerMode::kIdle);
 }
 
+TEST(TrajectoryTracker, NewGainsCountFromTheNextStepOn) {
+  TrajectoryTracker tracker(TrackerParameters(), rover());
+  tracker.offer({1, 1}, Motion(0.0, {StandPhase{{}, 10.0}}), kForever);
+  RobotState turned;
+  turned.pose.yaw_rad = -0.1;
+  FeedbackGains gains;
+  gains.settle_start_rad = 0.2;
+  tracker.set_gains(gains);
+  EXPECT_EQ(tracker.step(0.0, turned).yaw_rate, 0.0);
+  gains.settle_start_rad = 0.05;
+  tracker.set_gains(gains);
+  turned.stamp_s = 0.02;
+  EXPECT_GT(tracker.step(0.02, turned).yaw_rate, 0.0);
+
+  gains.across = 0.0;
+  EXPECT_THROW(tracker.set_gains(gains), std::invalid_argument);
+}
+
 TEST(TrajectoryTracker, BadParametersAreNamed) {
   TrackerParameters parameters;
   parameters.max_heading_error_rad = -1.0;

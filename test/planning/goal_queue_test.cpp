@@ -42,6 +42,13 @@ TEST_F(GoalQueueTest, HeadingCountsWhereOneIsAskedForAndWrapsRound) {
   EXPECT_EQ(queue.update(2.0, at(5.0, -M_PI + 0.1)), Event::kAllReached);
 }
 
+TEST_F(GoalQueueTest, NewRulesCountForTheGoalsThatAreThere) {
+  queue.set({goal(5.0)}, 0.0);
+  EXPECT_EQ(queue.update(1.0, at(4.5)), Event::kNone);
+  queue.set_rules({0.6, 0.2, 10.0});
+  EXPECT_EQ(queue.update(2.0, at(4.5)), Event::kAllReached);
+}
+
 TEST_F(GoalQueueTest, VisitsGoalsInOrder) {
   queue.set({goal(1.0), goal(2.0), goal(1.0)}, 0.0);
   EXPECT_EQ(queue.update(1.0, at(2.0)), Event::kNone);  // not its turn yet

@@ -1,0 +1,179 @@
+#!/usr/bin/python3
+"""Parameters changed while the stack runs: offered as the schemas say, in force at once, clamped or refused as a whole, and
+there again after a respawn."""
+
+import math
+import os
+import signal
+import sys
+import unittest
+
+import rospkg
+import rospy
+import rostest
+import yaml
+from diagnostic_msgs.msg import DiagnosticArray
+from dynamic_reconfigure.client import Client
+from dynamic_reconfigure.msg import BoolParameter, Config, DoubleParameter, IntParameter, StrParameter
+from dynamic_reconfigure.srv import Reconfigure
+from geometry_msgs.msg import PoseStamped, Vector3Stamped
+from mocha_ugv.srv import PlanTrajectory
+from nav_msgs.msg import OccupancyGrid
+
+from simulated_robot import SimulatedRobot, pose
+
+NODES = ("global_planner", "perception", "trajectory_tracker")
+BEHIND_THE_BLOCK = (-3.0, 2.95)
+TIMEOUT_S = 20.0  # wall time
+CONFIG = rospkg.RosPack().get_path("mocha_ugv") + "/config/"
+
+
+def schema(node):
+    with open(CONFIG + node + ".yaml") as file:
+        return {name: entry for name, entry in yaml.safe_load(file).items() if entry.get("live")}
+
+
+class LiveParametersTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.robot = SimulatedRobot()
+        cls.diagnosed = {}  # node -> newest values in diagnostics
+        cls.maps = []
+        cls.errors = []
+        rospy.Subscriber("/diagnostics", DiagnosticArray, cls.on_diagnostics)
+        rospy.Subscriber("/ugv1/map", OccupancyGrid, cls.maps.append)
+        rospy.Subscriber("/ugv1/tracking_error", Vector3Stamped, cls.errors.append)
+        cls.plan = rospy.ServiceProxy("/ugv1/plan", PlanTrajectory)
+        cls.robot.start()
+
+    @classmethod
+    def on_diagnostics(cls, message):
+        for status in message.status:
+            node = status.name.split(":")[0].split("/")[-1]
+            cls.diagnosed.setdefault(node, {}).update((entry.key, entry.value) for entry in status.values)
+
+    def client(self, node="global_planner"):
+        client = Client("/ugv1/" + node, timeout=TIMEOUT_S)
+        self.addCleanup(client.close)
+        self.assertIsNotNone(client.get_parameter_descriptions(TIMEOUT_S))
+        self.assertIsNotNone(client.get_configuration(TIMEOUT_S))
+        return client
+
+    def ways(self):
+        """How many ways to a place behind the block the planner optimises."""
+        answer = self.plan(PoseStamped(), pose(*BEHIND_THE_BLOCK))
+        self.assertTrue(answer.success, answer.status.message)
+        return len(answer.candidates)
+
+    def test_1_offers_what_the_schemas_mark_as_live(self):
+        types = {"int": int, "double": float, "str": str, "bool": bool}
+        for node in NODES:
+            declared = schema(node)
+            client = self.client(node)
+            offered = {entry["name"]: entry for entry in client.get_parameter_descriptions()}
+            self.assertEqual(set(offered), set(declared))
+            for name, entry in offered.items():
+                self.assertIs(types[entry["type"]], type(declared[name]["default"]), name)
+                self.assertEqual(entry["default"], declared[name]["default"])
+                self.assertEqual(client.get_configuration()[name], declared[name]["default"])
+                self.assertIn(declared[name]["about"], entry["description"])
+                if "choices" in declared[name]:
+                    choices = [constant["value"] for constant in eval(entry["edit_method"])["enum"]]
+                    self.assertEqual(choices, declared[name]["choices"])
+                else:
+                    self.assertEqual((entry["min"], entry["max"]), (declared[name]["min"], declared[name]["max"]))
+
+    def test_2_a_change_is_in_force_at_once(self):
+        self.assertGreater(self.ways(), 1)
+        client = self.client()
+        answer = client.update_configuration({"classes": 1, "roadmap": "VISIBILITY_PRM"})
+        self.assertEqual((answer["classes"], answer["roadmap"]), (1, "visibility_prm"))
+        self.assertEqual(self.ways(), 1)
+        self.assertEqual(self.client().get_configuration()["classes"], 1)
+        self.assertEqual(rospy.get_param("/ugv1/global_planner/roadmap"), "visibility_prm")
+        client.update_configuration({"classes": 6, "roadmap": "best"})
+        self.assertGreater(self.ways(), 1)
+
+    def test_3_a_tolerance_counts_for_the_next_look_at_a_goal(self):
+        x, y = self.robot.place()
+        self.client().update_configuration({"goal_tolerance": 1.0})
+        self.robot.send(x + 0.6, y)
+        self.robot.run_until(self.robot.done, 1.0, "it is there already")
+        self.assertEqual(self.robot.outcome()[0], "SUCCEEDED", self.robot.report())
+        self.client().update_configuration({"goal_tolerance": 0.15})
+
+    def test_4_values_out_of_range_are_clamped(self):
+        answer = self.client().update_configuration({"classes": 0, "longest_ratio": math.inf})
+        self.assertEqual((answer["classes"], answer["longest_ratio"]), (1, 100.0))
+        self.robot.run_until(lambda: self.robot.said("classes = 0: clamped to 1"), 3.0, "the log says so")
+        self.assertEqual(self.ways(), 1)
+        self.client().update_configuration({"classes": 6, "longest_ratio": 2.0})
+
+    def test_5_refused_as_a_whole(self):
+        client = self.client()
+        service = rospy.ServiceProxy("/ugv1/global_planner/set_parameters", Reconfigure)
+        before = dict(client.get_configuration())
+        self.robot.run(1.5)
+        counted = int(self.diagnosed["global_planner"]["parameter changes refused"])
+        wrong = (({"ints": [IntParameter("clases", 2)]}, "unknown parameter `clases`"),
+                 ({"ints": [IntParameter("longest_ratio", 3)]}, "longest_ratio = 3: expected a number"),
+                 ({"doubles": [DoubleParameter("longest_ratio", math.nan)]}, "longest_ratio = nan"),
+                 ({"doubles": [DoubleParameter("planning_time", 1.0)]}, "planning_time: is read at the start only"),
+                 ({"bools": [BoolParameter("goal_timeout", True)]}, "goal_timeout = true: expected a number"),
+                 ({"strs": [StrParameter("roadmap", "streets")]}, "roadmap = streets: expected one of best"))
+        for values, words in wrong:
+            request = Config(**values)
+            request.doubles.append(DoubleParameter("better_by", 0.5))
+            with self.subTest(words), self.assertRaises(rospy.ServiceException):
+                service(request)
+            self.robot.run_until(lambda: self.robot.said(words), 3.0, words)
+        self.robot.run(1.5)
+        self.assertEqual(int(self.diagnosed["global_planner"]["parameter changes refused"]), counted + len(wrong))
+        answer = service(Config()).config
+        self.assertEqual({value.name: value.value for value in answer.doubles + answer.ints + answer.strs},
+                         {name: value for name, value in before.items() if name != "groups"})
+
+    def test_6_map_rate(self):
+        def maps_of(seconds):
+            self.robot.run(1.0)
+            before = len(self.maps)
+            self.robot.run(seconds)
+            return len(self.maps) - before
+
+        self.assertGreater(maps_of(4.0), 5)
+        self.client("perception").update_configuration({"map_rate": 0.5})
+        self.assertLessEqual(maps_of(4.0), 3)
+        self.client("perception").update_configuration({"map_rate": 5.0})
+
+    def drive(self, x, gains):
+        """Turns and drives along the lane, as soon as it moves with other weights and gains; the mean error across [m]."""
+        del self.errors[:]
+        self.robot.send(x, -1.5)
+        self.robot.run_until(lambda: not self.robot.standing(), 10.0, "it moves")
+        self.client("trajectory_tracker").update_configuration(gains)
+        self.client().update_configuration({"weight_duration": 2.0, "soft_margin": 0.3})
+        self.robot.run_until(self.robot.done, 60.0, "it arrives")
+        self.assertEqual(self.robot.outcome()[0], "SUCCEEDED", self.robot.report())
+        return sum(abs(error.vector.y) for error in self.errors) / len(self.errors)
+
+    def test_7_weights_and_gains_change_while_driving(self):
+        self.robot.arrive(4.0, -1.5)
+        stiff_m = self.drive(-4.0, {"across_gain": 2.5})
+        slack_m = self.drive(4.0, {"across_gain": 0.1, "max_bandwidth": 0.1, "heading_gain": 0.1, "damping": 0.3})
+        self.assertGreater(slack_m, 5.0 * stiff_m)
+
+    def test_8_a_respawned_node_has_them_again(self):
+        self.client().update_configuration({"classes": 1, "better_by": 0.3})
+        os.kill(self.robot.process("global_planner"), signal.SIGKILL)
+        self.robot.run(2.0)
+        self.robot.wait_for_node("global_planner")
+        self.robot.run(1.0)
+        values = self.client().get_configuration()
+        self.assertEqual((values["classes"], values["better_by"]), (1, 0.3))
+        self.assertEqual(self.ways(), 1)
+        self.assertEqual(self.robot.truth.contacts, 0)
+
+
+if __name__ == "__main__":
+    rospy.init_node("live_parameters_test")
+    rostest.rosrun("mocha_ugv", "live_parameters", LiveParametersTest, sys.argv)
