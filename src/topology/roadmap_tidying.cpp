@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "topology/path_shortening.h"
@@ -125,11 +126,20 @@ void price(Roadmap<2>& roadmap, const TravelCost& cost) {
                       roadmap.edges.end());
 }
 
-Roadmap<2> contracted(const Roadmap<2>& roadmap) { return Contraction(roadmap).run(); }
+Roadmap<2> contracted(const Roadmap<2>& roadmap) {
+  Roadmap<2> result = Contraction(roadmap).run();
+  // Where a loop on one node was left out, that node may be a dead end now.
+  for (std::size_t nodes = roadmap.nodes.size(); result.nodes.size() < nodes;) {
+    nodes = result.nodes.size();
+    result = Contraction(result).run();
+  }
+  return result;
+}
 
 void add_shortcuts(Roadmap<2>& roadmap, const TravelCost& cost) {
   const int nodes = static_cast<int>(roadmap.nodes.size());
   std::vector<std::pair<double, int>> others;
+  std::set<std::pair<int, int>> tried;  // nodes may be near each other both ways
   for (int i = 0; i < nodes; ++i) {
     const Vector2& from = roadmap.nodes[i].position;
     others.clear();
@@ -140,6 +150,7 @@ void add_shortcuts(Roadmap<2>& roadmap, const TravelCost& cost) {
     std::partial_sort(others.begin(), others.begin() + near, others.end());
     for (std::size_t k = 0; k < near; ++k) {
       const int j = others[k].second;
+      if (!tried.insert(std::minmax(i, j)).second) continue;
       const double straight = cost.of_line(from, roadmap.nodes[j].position);
       if (std::isfinite(straight)) roadmap.edges.push_back({i, j, {}, straight, 0.0});
     }
