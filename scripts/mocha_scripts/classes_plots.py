@@ -74,5 +74,4 @@ def draw_classes(path, classes, drive, out):
     axes.plot(*result["goal"], "*", color="w", ms=15, mec="k", zorder=7)
     axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]", title="ways of different classes and what they cost")
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), title="cost J")
-    figure.tight_layout()
-    figure.savefig(os.path.join(out, "classes.png"), dpi=110)
+    figure.savefig(os.path.join(out, "classes.png"), dpi=110, bbox_inches="tight")

@@ -41,7 +41,7 @@ Motion join(const Motion& current, const Motion& next, double t) {
   }
   std::vector<Phase> phases = current.phases_between(from, next.start_time());
   const double rest = next.start_time() - std::max(from, current.end_time());
-  if (rest > 0.0) phases.push_back(StandPhase{current.end_pose(), rest});
+  if (rest > 0.0) phases.emplace_back(StandPhase{current.end_pose(), rest});
   phases.insert(phases.end(), next.phases().begin(), next.phases().end());
   return Motion(from, std::move(phases));
 }

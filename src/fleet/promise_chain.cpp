@@ -71,7 +71,7 @@ std::shared_ptr<const Motion> PromiseChain::composed(double now) const {
       for (Phase& phase : motion.phases_between(from, until)) phases.push_back(std::move(phase));
       const bool waits =
           claim.until_s > until && claim.until_s < std::numeric_limits<double>::infinity();
-      if (waits) phases.push_back(StandPhase{motion.end_pose(), claim.until_s - until});
+      if (waits) phases.emplace_back(StandPhase{motion.end_pose(), claim.until_s - until});
     }
     return std::make_shared<const Motion>(begin, std::move(phases));
   } catch (const std::invalid_argument&) {

@@ -70,7 +70,7 @@ Motion CandidatePlanner::assemble(const PlanQuery& query, const Opening& opening
                                   PlanarPath curve) const {
   std::vector<Phase> phases = opening.phases;
   const DrivePhase drive{1, std::move(curve)};
-  phases.push_back(drive);
+  phases.emplace_back(drive);
   if (query.goal_yaw_rad) {
     const double end_s = drive.path.duration();
     const Pose end{drive.path.position(end_s), heading(drive, end_s)};

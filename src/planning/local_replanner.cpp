@@ -163,7 +163,7 @@ std::optional<Motion> LocalReplanner::joined(double now_s, double& join_s) const
   std::vector<Phase> phases = committed_.phases_between(begin_s, join_s);
   const double stands_from = std::max(begin_s, committed_.end_time());
   if (stands_from < join_s)
-    phases.push_back(StandPhase{committed_.end_pose(), join_s - stands_from});
+    phases.emplace_back(StandPhase{committed_.end_pose(), join_s - stands_from});
   for (Phase& phase : plan_.phases_between(join_s, plan_.end_time()))
     phases.push_back(std::move(phase));
   return Motion(begin_s, std::move(phases));

@@ -18,7 +18,7 @@ constexpr double kPeerHorizon_s = 10.0;  // of predictions that never come to re
 Motion remainder(const Motion& motion, double from_s) {
   from_s = std::max(from_s, motion.start_time());
   std::vector<Phase> phases = motion.phases_between(from_s, motion.end_time());
-  if (phases.empty()) phases.push_back(StandPhase{motion.end_pose(), kStep_s});
+  if (phases.empty()) phases.emplace_back(StandPhase{motion.end_pose(), kStep_s});
   return Motion(from_s, std::move(phases));
 }
 
