@@ -9,7 +9,8 @@
 namespace mocha {
 namespace {
 
-constexpr double kStep_m = 0.05;      // of the sampled path
+constexpr double kStep_m = 0.05;      // of the sampled path, at least
+constexpr double kSteps = 40.0;       // in the window that rounds corners
 constexpr double kMostSamples = 2e4;  // very long paths are sampled more coarsely
 constexpr int kMostPieces = 2000;
 constexpr double kShareOfAcceleration = 0.6;  // leaves room for the curve's own shape
@@ -114,7 +115,7 @@ SpeedProfile<D>::SpeedProfile(const Points& points, double start_speed, const Mo
   if (!(limits.max_speed > 0.0) || !(limits.max_acceleration > 0.0) || !(start_speed >= 0.0)) {
     throw std::invalid_argument("SpeedProfile: limits must be above 0, the first speed at least 0");
   }
-  const double step_m = std::max(kStep_m, length / kMostSamples);
+  const double step_m = std::max({kStep_m, window_m / kSteps, length / kMostSamples});
   const int half_window = static_cast<int>(std::clamp(0.5 * window_m / step_m, 0.0, kMostSamples));
   samples_ = resample<D>(points, step_m);
   for (int pass = 0; pass < 2; ++pass) samples_ = rounded<D>(samples_, half_window);

@@ -7,10 +7,9 @@
 namespace mocha {
 namespace {
 
-constexpr int kPoints = 60;       // from which corners are cut, about
-constexpr double kFinest = 4.0;   // such points are at least this many details apart
-constexpr int kMostFailures = 4;  // in a row, before a shortcut is as long as it can be
-constexpr int kRounds = 4;        // to and fro, so even
+constexpr int kPoints = 50;      // from which corners are cut, about
+constexpr double kFinest = 4.0;  // such points are at least this many details apart
+constexpr int kRounds = 2;        // to and fro, so even
 constexpr double kNoDearer_m = 1e-6;
 
 /// The same path with more points on it.
@@ -67,19 +66,25 @@ class CornerCutter {
     SignatureKey key = 0;
   };
 
-  /// The last of the points that the straight way leads to; the one given can be reached.
+  /// One of the last points that the straight way leads to; the one given can be reached. Strides
+  /// double while they succeed and halve when they fail.
   std::size_t farthest_from(const Vector2& p, const Reached& here, std::size_t reachable) const {
     std::size_t farthest = reachable;
-    int failures = 0;
-    for (std::size_t i = reachable + 1; i < points_.size() && failures < kMostFailures; ++i) {
-      const bool same_class = key_of<2>(cuts_, p, points_[i]) == to_[i].key - here.key;
-      const double straight = same_class ? cost_.of_line(p, points_[i]) : TravelCost::kInfinity;
-      const bool cheap =
-          straight < TravelCost::kInfinity && straight <= to_[i].cost - here.cost + kNoDearer_m;
-      failures = cheap ? 0 : failures + 1;
-      if (cheap) farthest = i;
+    std::size_t stride = 1;
+    for (bool growing = true; stride > 0;) {
+      const std::size_t next = farthest + stride;
+      const bool reached = next < points_.size() && is_no_dearer(p, here, next);
+      if (reached) farthest = next;
+      growing = growing && reached;
+      stride = growing ? 2 * stride : stride / 2;
     }
     return farthest;
+  }
+
+  bool is_no_dearer(const Vector2& p, const Reached& here, std::size_t i) const {
+    if (key_of<2>(cuts_, p, points_[i]) != to_[i].key - here.key) return false;
+    const double straight = cost_.of_line(p, points_[i]);
+    return straight < TravelCost::kInfinity && straight <= to_[i].cost - here.cost + kNoDearer_m;
   }
 
   const std::vector<Vector2>& points_;

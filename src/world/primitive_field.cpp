@@ -82,14 +82,18 @@ bool PrimitiveField<D>::fill(const Eigen::AlignedBox2d& ground, double cell_m) {
       }
     }
   }
-  std::sort(listings.begin(), listings.end(), [](const Listing& a, const Listing& b) {
-    return std::tie(a.cell, a.entry.bound_m) < std::tie(b.cell, b.entry.bound_m);
-  });
   starts_.assign(columns_ * rows_ + 1, 0);
   for (const Listing& listing : listings) ++starts_[listing.cell + 1];
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-  entries_.reserve(listings.size());
-  for (const Listing& listing : listings) entries_.push_back(listing.entry);
+  entries_.resize(listings.size());
+  std::vector<int> next(starts_.begin(), starts_.end() - 1);  // where each cell's next entry goes
+  for (const Listing& listing : listings) entries_[next[listing.cell]++] = listing.entry;
+  for (int cell = 0; cell < columns_ * rows_; ++cell) {
+    std::sort(entries_.begin() + starts_[cell], entries_.begin() + starts_[cell + 1],
+              [](const Entry& a, const Entry& b) {
+                return std::tie(a.bound_m, a.primitive) < std::tie(b.bound_m, b.primitive);
+              });
+  }
   return true;
 }
 
