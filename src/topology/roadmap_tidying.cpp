@@ -14,12 +14,15 @@ constexpr int kPushes = 3;          // of a corner off the obstacles
 constexpr double kPushed_m = 0.02;  // beyond the clearance that is required
 constexpr int kNeighbours = 10;     // of a node, that shortcuts are tried to
 
-/// Off what is too close, if a few steps suffice.
-Vector2 pushed_off(Vector2 p, const ObstacleField<2>& field, double clearance_m) {
+/// Off what is too close, if a few steps suffice. Around a narrow start what is allowed stays.
+Vector2 pushed_off(Vector2 p, const TravelCost& cost) {
+  const double required_m = cost.rules().required_clearance_m;
   for (int i = 0; i < kPushes; ++i) {
-    const auto nearest = field.sample(p);
-    if (!(nearest.distance_m < clearance_m)) break;
-    p += (clearance_m - nearest.distance_m) * nearest.gradient;
+    const auto nearest = cost.terrain().field().sample(p);
+    const double lack_m = required_m + kPushed_m - nearest.distance_m;
+    const bool escapes = nearest.distance_m < required_m && std::isfinite(cost.at(p));
+    if (!(lack_m > 0.0) || escapes) break;
+    p += lack_m * nearest.gradient;
   }
   return p;
 }
@@ -109,15 +112,13 @@ class Contraction {
 }  // namespace
 
 void price(Roadmap<2>& roadmap, const TravelCost& cost) {
-  const ObstacleField<2>& field = cost.terrain().field();
-  const double clearance_m = cost.rules().required_clearance_m + kPushed_m;
   for (std::size_t i = Roadmap<2>::kGoal + 1; i < roadmap.nodes.size(); ++i) {
-    roadmap.nodes[i].position = pushed_off(roadmap.nodes[i].position, field, clearance_m);
+    roadmap.nodes[i].position = pushed_off(roadmap.nodes[i].position, cost);
   }
   for (auto& edge : roadmap.edges) {
     std::vector<Vector2> line = {roadmap.nodes[edge.from].position};
     for (Vector2& point : edge.between) {
-      point = pushed_off(point, field, clearance_m);
+      point = pushed_off(point, cost);
       line.push_back(point);
     }
     line.push_back(roadmap.nodes[edge.to].position);
