@@ -175,6 +175,7 @@ TEST(Ways, KeepTheClassThatIsDrivenEvenWhereItIsDear) {
   fill_box(hall.grid, {4.0, 0.0}, {4.2, 2.8});
   fill_box(hall.grid, {4.0, 3.6}, {4.2, 5.0});
   hall.rules.classes = 1;
+  hall.rules.longest_ratio = 1.05;
   for (const RoadmapKind kind : kinds()) {
     hall.query.driven.clear();
     const Ways without = hall.ways(kind);
@@ -232,6 +233,21 @@ TEST(Ways, PassABlockedDiscOnEitherSide) {
     }
     EXPECT_EQ(above.size(), 2u);
   }
+}
+
+TEST(Ways, PassABlockedDiscThatLeavesLittleRoom) {
+  Hall hall;
+  fill_box(hall.grid, {0.0, 0.0}, {8.0, 0.2});
+  fill_box(hall.grid, {0.0, 5.8}, {8.0, 6.0});
+  hall.query.blocked = {{{4.0, 3.0}, 2.4}};  // which leaves 10 cm to the robot's centre
+  const RoadmapKind best = roadmap_kind("best");
+  const Ways found = hall.ways(best);
+  expect_sound(found, hall.query, *terrain_of(hall.grid), hall.rules);
+  if (best == RoadmapKind::kApollonius) {
+    EXPECT_EQ(found.ways.size(), 2u);
+  }
+  hall.query.blocked[0].radius_m = 2.6;
+  EXPECT_EQ(hall.ways(best).outcome, Outcome::kNoPath);
 }
 
 TEST(Ways, LeadOutOfADiscThatOneStandsIn) {
