@@ -99,11 +99,13 @@ class Contraction {
 }  // namespace
 
 Vector2 pushed_off(Vector2 p, const TravelCost& cost) {
-  const double clearance_m = cost.rules().required_clearance_m + kPushed_m;
+  const double required_m = cost.rules().required_clearance_m;
   for (int i = 0; i < kPushes; ++i) {
     const auto nearest = cost.terrain().field().sample(p);
-    if (!(nearest.distance_m < clearance_m)) break;
-    p += (clearance_m - nearest.distance_m) * nearest.gradient;
+    const double lack_m = required_m + kPushed_m - nearest.distance_m;
+    const bool escapes = nearest.distance_m < required_m && std::isfinite(cost.at(p));
+    if (!(lack_m > 0.0) || escapes) break;
+    p += lack_m * nearest.gradient;
   }
   return p;
 }

@@ -5,7 +5,8 @@
 
 namespace mocha {
 
-/// A place moved off obstacles that are closer than required, if a few steps suffice.
+/// A place moved off obstacles that are closer than required, if a few steps suffice. Around a
+/// narrow start what is allowed stays.
 Vector2 pushed_off(Vector2 p, const TravelCost& cost);
 
 /// Gives edges their cost instead of their length, and leaves out those that are impossible. Where

@@ -15,6 +15,7 @@
 #include "topology/length_bound.h"
 #include "topology/path_shortening.h"
 #include "topology/roadmap_tidying.h"
+#include "topology/static_space.h"
 #include "topology/visibility_prm.h"
 
 namespace mocha {
@@ -22,6 +23,7 @@ namespace {
 
 constexpr int kSpare = 2;                // ways that are shortened, for each one that is kept
 constexpr double kCircleError_m = 0.12;  // of the circles that stand for solid matter, at most
+constexpr double kNarrowest = 0.5;  // passage that obstacles are told apart by, of the required
 
 /// Obstacles and their cuts as seen by one robot.
 struct Scenery {
@@ -29,12 +31,19 @@ struct Scenery {
   Cuts<2> cuts;
 };
 
+/// Who stands inside may leave.
+double radius_of(const BlockedDisc& disc, const TravelCost& cost) {
+  return std::min(disc.radius_m, (cost.start() - disc.centre).norm());
+}
+
 Scenery scenery_of(const TravelCost& cost) {
   const double required_m = cost.rules().required_clearance_m;
-  std::vector<ObstacleGroup> groups = cost.terrain().groups(required_m);
+  // What one starts between can be passed, though it be too narrow elsewhere.
+  const double start_m = cost.terrain().field().sample(cost.start()).distance_m;
+  std::vector<ObstacleGroup> groups =
+      cost.terrain().groups(std::clamp(start_m, kNarrowest * required_m, required_m));
   for (const BlockedDisc& disc : cost.blocked()) {
-    const double radius_m =
-        std::min(disc.radius_m, (cost.start() - disc.centre).norm()) - required_m;
+    const double radius_m = radius_of(disc, cost) - required_m;
     groups.push_back({disc.centre, {{disc.centre, std::max(0.0, radius_m)}}});
   }
   std::vector<Vector2> representatives;
@@ -42,22 +51,40 @@ Scenery scenery_of(const TravelCost& cost) {
   return {std::move(groups), Cuts<2>(representatives)};
 }
 
+/// The terrain and the discs.
+class TravelSpace : public StaticSpace<2> {
+ public:
+  TravelSpace(const TravelCost& cost, const Cuts<2>& cuts)
+      : StaticSpace<2>(cost.terrain().field(), cuts, cost.terrain().bounds(), cost.start(),
+                       {cost.rules().required_clearance_m, cost.rules().escape_radius_m}),
+        cost_(cost) {}
+
+  using StaticSpace<2>::clearance_m;
+  std::optional<double> clearance_m(const Vector2& p, const Vector2& q) const override {
+    for (const BlockedDisc& disc : cost_.blocked()) {
+      const double apart_m = (nearest_on_segment(disc.centre, p, q) - disc.centre).norm();
+      if (apart_m < radius_of(disc, cost_)) return std::nullopt;
+    }
+    return StaticSpace<2>::clearance_m(p, q);
+  }
+
+ private:
+  const TravelCost& cost_;
+};
+
 Roadmap<2> roadmap_of(const TravelCost& cost, const Scenery& scenery, const Vector2& goal,
                       const WayRules& rules) {
-  const Terrain& terrain = cost.terrain();
-  const TravelRules& travel = rules.travel;
 #ifdef MOCHA_WITH_CGAL
   if (rules.roadmap == RoadmapKind::kApollonius) {
-    const double relaxed_m =
-        std::max(0.5 * travel.required_clearance_m, travel.required_clearance_m - kCircleError_m);
-    return apollonius_roadmap(scenery.groups, terrain.bounds(), cost.start(), goal,
-                              {relaxed_m, travel.escape_radius_m});
+    const double required_m = rules.travel.required_clearance_m;
+    const double relaxed_m = std::max(kNarrowest * required_m, required_m - kCircleError_m);
+    return apollonius_roadmap(scenery.groups, cost.terrain().bounds(), cost.start(), goal,
+                              {relaxed_m, rules.travel.escape_radius_m});
   }
 #endif
   VisibilityPrmRules prm;
   prm.samples = rules.prm_samples;
-  return visibility_prm<2>(terrain.field(), scenery.cuts, terrain.bounds(), cost.start(), goal,
-                           {travel.required_clearance_m, travel.escape_radius_m}, prm);
+  return visibility_prm<2>(TravelSpace(cost, scenery.cuts), cost.start(), goal, prm);
 }
 
 /// From the start that `cost` knows.

@@ -31,7 +31,6 @@ struct Way {
   double cost_m = 0.0;          ///< length, longer where it is narrow
   double least_length_m = 0.0;  ///< of any path of this class, proved
   Signature signature;          ///< lead-in included
-  bool driven = false;          ///< of the class that is being driven
 };
 
 struct Ways {

@@ -140,6 +140,27 @@ TEST(PathShortening, LeavesAPathWoundRoundAnObstacle) {
   EXPECT_LT(length_of(shorter), 6.6 + round_m + 0.2);
 }
 
+/// Straight ways beyond it are free and shorter, but of another class.
+TEST(PathShortening, DoesNotJumpOverAPost) {
+  OccupancyGrid grid = free_grid({0.0, 0.0}, {32.0, 32.0}, 0.1);
+  const Vector2 post(16.05, 16.05);
+  fill_box(grid, post - Vector2(0.05, 0.05), post + Vector2(0.05, 0.05));
+  const auto terrain = terrain_of(grid);
+  const TravelRules rules;
+  const Cuts<2> cuts = cuts_of(*terrain, rules.required_clearance_m);
+  for (double from = 0.0; from < 2.0 * M_PI; from += 0.3) {
+    std::vector<Vector2> path;
+    for (double angle = 0.0; angle < 1.7 * M_PI; angle += 0.05)
+      path.push_back(post + 14.0 * Vector2(std::cos(from + angle), std::sin(from + angle)));
+    const TravelCost cost(*terrain, path.front(), {}, rules);
+    const auto shorter = shortened(path, cost, cuts);
+    EXPECT_EQ(signature_of<2>(cuts, shorter), signature_of<2>(cuts, path)) << from;
+    EXPECT_LT(length_of(shorter), 30.0) << from;
+    const auto direct = shortened(path, cost, Cuts<2>({}));
+    EXPECT_LT(length_of(direct), 14.0) << from;
+  }
+}
+
 TEST(PathShortening, IsNearlyAsShortAsCanBe) {
   OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0});
   fill_box(grid, {4.0, 0.0}, {4.05, 4.0});
