@@ -7,9 +7,10 @@
 namespace mocha {
 namespace {
 
-constexpr int kPoints = 50;      // from which corners are cut, about
-constexpr double kFinest = 4.0;  // such points are at least this many details apart
-constexpr int kRounds = 2;        // to and fro, so even
+constexpr int kPoints = 50;           // from which corners are cut, about
+constexpr double kFinest = 4.0;       // such points are at least this many details apart
+constexpr int kRounds = 3;            // to and fro, at most
+constexpr double kWorthwhile = 0.01;  // another round is, after one that gained this share
 constexpr double kNoDearer_m = 1e-6;
 
 /// The same path with more points on it.
@@ -99,6 +100,17 @@ double length_of(const std::vector<Vector2>& path) {
   return length_m;
 }
 
+/// One round of cutting; returns the path from its end to its start.
+std::vector<Vector2> cut_back_to_front(const std::vector<Vector2>& path, const TravelCost& cost,
+                                       const Cuts<2>& cuts) {
+  const double spacing_m = std::max(kFinest * cost.terrain().detail_m(), length_of(path) / kPoints);
+  std::vector<Vector2> next = CornerCutter(refined(path, spacing_m), cost, cuts).run();
+  // In the narrowest places a part of a line may fail where the whole has passed.
+  if (!(cost_of(next, cost) < TravelCost::kInfinity)) next = CornerCutter(path, cost, cuts).run();
+  std::reverse(next.begin(), next.end());
+  return next;
+}
+
 }  // namespace
 
 double cost_of(const std::vector<Vector2>& path, const TravelCost& cost) {
@@ -111,16 +123,14 @@ std::vector<Vector2> shortened(const std::vector<Vector2>& path, const TravelCos
                                const Cuts<2>& cuts) {
   if (path.size() < 2) return path;
   std::vector<Vector2> shorter = path;
-  // Backwards as well, as what is cut first bends what is cut later.
+  double length_m = length_of(path);
   for (int round = 0; round < kRounds; ++round) {
-    const double spacing_m =
-        std::max(kFinest * cost.terrain().detail_m(), length_of(shorter) / kPoints);
-    std::vector<Vector2> next = CornerCutter(refined(shorter, spacing_m), cost, cuts).run();
-    // In the narrowest places a part of a line may fail where the whole has passed.
-    if (!(cost_of(next, cost) < TravelCost::kInfinity))
-      next = CornerCutter(shorter, cost, cuts).run();
-    std::reverse(next.begin(), next.end());
-    shorter = std::move(next);
+    // Backwards as well, as what is cut first bends what is cut later.
+    for (int direction = 0; direction < 2; ++direction)
+      shorter = cut_back_to_front(shorter, cost, cuts);
+    const double gained_m = length_m - length_of(shorter);
+    length_m -= gained_m;
+    if (gained_m < kWorthwhile * length_m) break;
   }
   // What is sampled anew may come out dearer by a trifle.
   return cost_of(shorter, cost) <= cost_of(path, cost) ? shorter : path;

@@ -56,12 +56,11 @@ struct Rooms {
     Vector2 to;
   };
   static std::vector<Door> doors() {
-    return {
-        {"sw-corridor ", {2.05, 5.0}, {2.95, 5.0}},   {"s-corridor ", {7.55, 5.0}, {8.45, 5.0}},
-        {"se-corridor ", {13.05, 5.0}, {13.95, 5.0}}, {"nw-corridor ", {2.55, 7.0}, {3.45, 7.0}},
-        {"n-corridor ", {8.05, 7.0}, {8.95, 7.0}},    {"ne-corridor ", {12.55, 7.0}, {13.45, 7.0}},
-        {"sw-s ", {5.3, 2.05}, {5.3, 2.95}},          {"nw-n ", {5.3, 9.05}, {5.3, 9.95}},
-        {"n-ne ", {10.7, 9.55}, {10.7, 10.45}}};
+    return {{"sw-corridor ", {2.0, 5.0}, {3.1, 5.0}},   {"s-corridor ", {7.5, 5.0}, {8.6, 5.0}},
+            {"se-corridor ", {13.0, 5.0}, {14.1, 5.0}}, {"nw-corridor ", {2.5, 7.0}, {3.6, 7.0}},
+            {"n-corridor ", {8.0, 7.0}, {9.1, 7.0}},    {"ne-corridor ", {12.5, 7.0}, {13.6, 7.0}},
+            {"sw-s ", {5.3, 2.0}, {5.3, 3.1}},          {"nw-n ", {5.3, 9.0}, {5.3, 10.1}},
+            {"n-ne ", {10.7, 9.5}, {10.7, 10.6}}};
   }
   /// By which doors, in the order of doors().
   static std::string route(const std::vector<Vector2>& path) {
