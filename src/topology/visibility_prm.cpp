@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <nanoflann.hpp>
+#include <optional>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -15,6 +16,8 @@
 
 namespace mocha {
 namespace {
+
+constexpr double kBridge = 0.05;  // shares that the ends of a bridge are apart at most, each way
 
 template <int D>
 using PointOf = Eigen::Matrix<double, D, 1>;
@@ -68,11 +71,9 @@ class Sampler {
   }
 
   void draw() {
-    PointOf<D> shares;
-    // Written out, as the distributions of the standard library differ from one to the next.
-    for (double& share : shares) share = static_cast<double>(random_() >> 11) * 0x1p-53;
-    const PointOf<D> sample = space_.at(shares);
-    if (!space_.clearance_m(sample)) return;
+    const std::optional<PointOf<D>> free = free_sample();
+    if (!free) return;
+    const PointOf<D>& sample = *free;
     const std::vector<int> guards = guards_that_see(sample);
     if (guards.empty()) guards_.add(std::array{sample});
     for (int from : guards) {
@@ -95,6 +96,27 @@ class Sampler {
   }
 
  private:
+  /// Written out, as the distributions of the standard library differ from one to the next.
+  PointOf<D> random_shares() {
+    PointOf<D> shares;
+    for (double& share : shares) share = static_cast<double>(random_() >> 11) * 0x1p-53;
+    return shares;
+  }
+
+  /// Where it is narrow, few samples are free, but many are in the middle between two that are not:
+  /// the bridge test of Hsu, Jiang, Reif, Sun 2003 gives what is forbidden a second chance.
+  std::optional<PointOf<D>> free_sample() {
+    const PointOf<D> shares = random_shares();
+    const PointOf<D> sample = space_.at(shares);
+    if (space_.clearance_m(sample)) return sample;
+    const PointOf<D> aside = kBridge * (2.0 * random_shares() - PointOf<D>::Ones());
+    const PointOf<D> across = shares + aside;
+    if (across.minCoeff() < 0.0 || across.maxCoeff() >= 1.0) return std::nullopt;
+    const PointOf<D> middle = space_.at(shares + 0.5 * aside);
+    if (space_.clearance_m(space_.at(across)) || !space_.clearance_m(middle)) return std::nullopt;
+    return middle;
+  }
+
   using Link = std::tuple<int, int, SignatureKey>;  // from guard to guard, in which class
   struct Connector {
     PointOf<D> position;

@@ -19,6 +19,7 @@ struct VisibilityPrmRules {
 /// class that they showed (visibility PRM of Simeon, Laumond, Nissoux 2000; with classes by Zhou,
 /// Pan, Gao, Shen 2021).
 ///
+/// Where a sample is forbidden, the middle between it and a forbidden one nearby is tried instead.
 /// Start and goal are the first guards. A sample that sees no guard becomes one. Another one
 /// connects each pair of guards that it sees, if the way from guard to guard through it has a class
 /// that no connector of the two has yet, or is shorter than that connector's way. Guards and

@@ -26,7 +26,7 @@ OccupancyGrid gate(int cells, double resolution_m = 0.05) {
   return grid;
 }
 
-double smallest_turn(const std::vector<Vector2>& loop, const Vector2& about) {
+double winding_number(const std::vector<Vector2>& loop, const Vector2& about) {
   double sum = 0.0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const Vector2 a = loop[i] - about;
@@ -151,7 +151,7 @@ TEST(MapTerrain, CoversTheRimAndLittleElse) {
   }
 }
 
-/// How far apart two groups are, from the circles that cover them.
+/// Whether the same circles cover both corners.
 bool same_group(const std::vector<ObstacleGroup>& groups, const Vector2& a, const Vector2& b) {
   const auto owners = groups_at(groups, a);
   return !owners.empty() && owners == groups_at(groups, b);
@@ -161,13 +161,13 @@ bool same_group(const std::vector<ObstacleGroup>& groups, const Vector2& a, cons
 void expect_not_parted(const OccupancyGrid& grid, const std::vector<Vector2>& loop,
                        const std::vector<ObstacleGroup>& groups, int seed) {
   for (std::size_t r = 0; r < groups.size(); ++r) {
-    const double turns = smallest_turn(loop, groups[r].representative);
+    const double turns = winding_number(loop, groups[r].representative);
     for (int y = 0; y < grid.height; ++y) {
       for (int x = 0; x < grid.width; ++x) {
         if (grid.at(x, y) != OccupancyGrid::kOccupied) continue;
         const Vector2 corner = grid.cell_centre(x, y) - Vector2::Constant(0.5 * grid.resolution_m);
         if (!same_group(groups, corner, groups[r].representative)) continue;
-        EXPECT_NEAR(smallest_turn(loop, corner), turns, 1e-6) << seed;
+        EXPECT_NEAR(winding_number(loop, corner), turns, 1e-6) << seed;
       }
     }
   }
