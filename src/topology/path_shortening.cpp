@@ -7,10 +7,10 @@
 namespace mocha {
 namespace {
 
-constexpr int kPoints = 50;           // from which corners are cut, about
-constexpr double kFinest = 4.0;       // such points are at least this many details apart
-constexpr int kRounds = 3;            // to and fro, at most
-constexpr double kWorthwhile = 0.01;  // another round is, after one that gained this share
+constexpr int kPoints = 50;          // from which corners are cut, about
+constexpr double kFinest = 4.0;      // such points are at least this many details apart
+constexpr int kRounds = 3;           // to and fro, at most
+constexpr double kWorthwhile = 0.1;  // another round is, after one that gained this share
 constexpr double kNoDearer_m = 1e-6;
 
 /// The same path with more points on it.

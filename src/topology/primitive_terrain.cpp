@@ -9,7 +9,7 @@
 namespace mocha {
 namespace {
 
-constexpr double kDetail_m = 0.05;
+constexpr double kDetail_m = 0.1;
 
 /// Which of n things belong together.
 class Partition {

@@ -22,6 +22,7 @@ constexpr double kCells = 4096.0;
 constexpr double kCellsEach = 4.0;
 constexpr std::size_t kEntries = 65536;
 constexpr std::size_t kEntriesEach = 32;
+constexpr double kShareOfListed = 0.25;  // of the listed radius: cells finer than that do not pay
 
 Eigen::AlignedBox2d grown(const Eigen::AlignedBox2d& box, double by_m) {
   const Eigen::Vector2d by = Eigen::Vector2d::Constant(by_m);
@@ -47,8 +48,9 @@ PrimitiveField<D>::PrimitiveField(std::vector<Primitive> primitives, double reac
   listed_m_ = std::max(listed_m_, std::sqrt(all.volume() / count));
   all = grown(all, listed_m_);
   const double most_cells = kCells + kCellsEach * count;
-  double cell_m = std::max(
-      {reach_m, std::sqrt(all.volume() / most_cells), all.sizes().maxCoeff() / most_cells});
+  double cell_m =
+      std::max({reach_m, kShareOfListed * listed_m_, std::sqrt(all.volume() / most_cells),
+                all.sizes().maxCoeff() / most_cells});
   while (!fill(all, cell_m)) cell_m *= 2.0;
 }
 
