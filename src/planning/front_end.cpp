@@ -37,11 +37,17 @@ bool is_under_way(const PlanQuery& query, const Vector2& goal) {
 }  // namespace
 
 std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_speed) {
-  std::vector<Vector2> points;
-  constexpr double kStep_m = 0.2;
-  const double step_s = kStep_m / max_speed;
-  for (double t = from_s; t < motion.end_time(); t += step_s)
-    points.push_back(motion.at(t).pose.position);
+  const double step_s = 0.2 / max_speed;
+  std::vector<Vector2> points = {motion.at(from_s).pose.position};
+  double start_s = motion.start_time();
+  for (const Phase& phase : motion.phases()) {
+    if (const auto* drive = std::get_if<DrivePhase>(&phase)) {
+      const double end_s = drive->path.duration();
+      for (double t = std::max(0.0, from_s - start_s) + step_s; t < end_s; t += step_s)
+        points.push_back(drive->path.position(t));
+    }
+    start_s += duration_s(phase);
+  }
   points.push_back(motion.end_pose().position);
   return points;
 }

@@ -24,7 +24,7 @@ struct Approaches {
   std::optional<Signature> driven;  ///< class of the plan that is being driven to the same goal
 };
 
-/// Places on a motion from a time on to its end, at most 0.2 m apart.
+/// Places on a motion from a time on to its end, at most 0.2 m apart at speeds up to `max_speed`.
 std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_speed);
 
 /// Finds the ways to the goal, cheapest first (IV-E).

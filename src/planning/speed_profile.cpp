@@ -10,7 +10,7 @@ namespace mocha {
 namespace {
 
 constexpr double kStep_m = 0.05;      // of the sampled path, at least
-constexpr double kSteps = 40.0;       // in the window that rounds corners
+constexpr double kSteps = 25.0;       // in the window that rounds corners
 constexpr double kMostSamples = 2e4;  // very long paths are sampled more coarsely
 constexpr int kMostPieces = 2000;
 constexpr double kShareOfAcceleration = 0.6;  // leaves room for the curve's own shape

@@ -40,7 +40,7 @@ PlannerRules rules() {
   rules.goal_search_radius_m = 0.4;
   rules.back_out_m = 1.0;
   rules.roadmap = roadmap_kind("best");
-  rules.classes = 6;
+  rules.classes = 5;
   rules.longest_ratio = 2.0;
   rules.switch_margin = 0.0;
   return rules;
