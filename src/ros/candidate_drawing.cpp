@@ -58,7 +58,7 @@ std::string label(const PlanCandidate& candidate) {
   char cost[32];
   std::snprintf(cost, sizeof(cost), "%.1f", candidate.cost);
   if (candidate.reason == PlanReason::kSolved) return cost;
-  if (candidate.reason == PlanReason::kCannotWin) return std::string("at least ") + cost;
+  if (candidate.reason == PlanReason::kCannotWin) return std::string("> ") + cost;
   return candidate.violation ? describe(candidate.violation) : "not found";
 }
 
@@ -79,7 +79,8 @@ void draw_candidates(const std::string& name, const std::vector<PlanCandidate>& 
     own.a = candidates[i].selected ? 1.0F : 0.7F;
     const bool dashed = candidates[i].reason != PlanReason::kSolved;
     drawing.add_line(name, paths[i], candidates[i].selected ? 0.07 : 0.035, own, dashed);
-    drawing.add_label(name, label(candidates[i]), label_place(paths, i), own);
+    drawing.add_label(name, label(candidates[i]), label_place(paths, i),
+                      candidates[i].selected ? 0.35 : 0.22, own);
   }
 }
 

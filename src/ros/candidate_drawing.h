@@ -10,7 +10,7 @@ namespace mocha {
 
 /// Draws every candidate in a colour of its own with its cost (as in Fig. 14), each label where its
 /// line is farthest from the others. The selected one is broad; what is not certified is dashed and
-/// says why; what was given up because it cannot win shows its least cost.
+/// says why; what was given up because it cannot win shows what it costs at least (> 12.3).
 void draw_candidates(const std::string& name, const std::vector<PlanCandidate>& candidates,
                      Drawing& drawing);
 

@@ -168,8 +168,10 @@ void Drawing::add_line(const std::string& name, const std::vector<Vector2>& poin
 }
 
 void Drawing::add_label(const std::string& name, const std::string& text, const Vector2& place,
-                        const std_msgs::ColorRGBA& color) {
-  add_text(name, text, place + Vector2(0.0, 0.5 * kTextHeight_m)).color = color;
+                        double height_m, const std_msgs::ColorRGBA& color) {
+  Marker& marker = add_text(name, text, place + Vector2(0.0, 0.7 * height_m));
+  marker.scale.z = height_m;
+  marker.color = color;
 }
 
 void Drawing::add_robot(const std::string& name, const std::string& base_frame,

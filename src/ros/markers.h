@@ -37,7 +37,7 @@ class Drawing {
                 const std_msgs::ColorRGBA& color, bool dashed);
 
   void add_label(const std::string& name, const std::string& text, const Vector2& place,
-                 const std_msgs::ColorRGBA& color);
+                 double height_m, const std_msgs::ColorRGBA& color);
 
   /// Outline, heading and name of a robot, fixed to its frame.
   void add_robot(const std::string& name, const std::string& base_frame,

@@ -44,7 +44,7 @@ TEST(CandidateDrawing, ShowsCostsReasonsAndTheSelectedOne) {
   EXPECT_NE(lines[0].color.r, lines[1].color.r);
   EXPECT_EQ(texts[0].text, "9.7");
   EXPECT_EQ(texts[1].text, "12.0");
-  EXPECT_EQ(texts[2].text, "at least 13.0");
+  EXPECT_EQ(texts[2].text, "> 13.0");
   EXPECT_GT(texts[1].pose.position.y, 1.5);  // where it is far from the others
   EXPECT_LT(texts[2].pose.position.y, -1.0);
 }

@@ -60,7 +60,7 @@ TEST(Markers, DrawingReplacesTheLastAndNumbersUniquely) {
   const Motion motion = there_and_turn();
   drawing.add_motion("committed", motion, 1.0);
   drawing.add_line("line", {{0.0, 0.0}, {1.0, 0.0}, {2.0, 1.0}}, 0.1, color(1.0, 0.0, 0.0), true);
-  drawing.add_label("line", "12.3", {1.0, 2.0}, color(1.0, 0.0, 0.0));
+  drawing.add_label("line", "12.3", {1.0, 2.0}, 0.3, color(1.0, 0.0, 0.0));
   drawing.add_robot("ugv1", "ugv1/base_link", Footprint::rectangle(0.5, 0.4));
   drawing.add_goal("goal", {3.0, 4.0}, 1.0);
   drawing.add_obstacle(PredictedDisc("person", 0.0, {1.0, 0.0}, {0.5, 0.0}, 0.3, 0.1), 0.0, 2.0);
