@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The perception node from outside: map, stamps, services and what it says when something is missing."""
 
 import math
@@ -100,6 +100,12 @@ class PerceptionTest(unittest.TestCase):
         self.assertEqual(self.cell(HALF_ROOM + 0.01, 0.5), 100)
         self.assertEqual(self.cell(HALF_ROOM + 0.3, 0.5), -1)
 
+        # Zones to keep out of look occupied, seen or not, and nothing around them does.
+        self.assertEqual(self.cell(-1.25, 0.75), 100)
+        self.assertEqual(self.cell(-1.25, 1.2), 0)
+        self.assertEqual(self.cell(4.9, 0.5), 100)
+        self.assertEqual(self.cell(4.1, 0.8), -1)
+
         # An unchanged map gets a fresh stamp as long as scans come in, and only then.
         newest = self.maps[-1].header.stamp
         self.assertTrue(self.wait_for(lambda: (self.maps[-1].header.stamp - newest).to_sec() > 2.0, 5.0, scan_of_room()))
@@ -116,10 +122,11 @@ class PerceptionTest(unittest.TestCase):
         saved = rospy.ServiceProxy("/ugv1/save_map", SaveMap)(path)
         self.assertTrue(saved.success, saved.message)
         self.assertTrue(rospy.ServiceProxy("/ugv1/clear_map", Trigger)().success)
-        self.assertTrue(self.wait_for(lambda: max(self.maps[-1].data) == -1), "a cleared map is published")
+        self.assertTrue(self.wait_for(lambda: self.cell(0.0, 0.0) == -1), "a cleared map is published")
+        self.assertEqual(self.cell(-1.25, 0.75), 100)
         loaded = rospy.ServiceProxy("/ugv1/load_map", LoadMap)(path)
         self.assertTrue(loaded.success, loaded.message)
-        self.assertTrue(self.wait_for(lambda: max(self.maps[-1].data) == 100))
+        self.assertTrue(self.wait_for(lambda: self.cell(0.0, 0.0) == 0))
         self.assertEqual(self.cell(HALF_ROOM + 0.01, 0.5), 100)
         missing = rospy.ServiceProxy("/ugv1/load_map", LoadMap)(path + ".none.bt")
         self.assertFalse(missing.success)
