@@ -205,9 +205,9 @@ std::vector<Phase> Motion::phases_between(double t0, double t1) const {
     const double to = t1 >= phase_starts_[i + 1] ? whole : std::min(t1 - begin, whole);
     if (to - from < kShortestPhase_s) continue;
     if (const auto* drive = std::get_if<DrivePhase>(&phases_[i])) {
-      parts.emplace_back(DrivePhase{drive->direction, drive->path.slice(from, to)});
+      parts.push_back(DrivePhase{drive->direction, drive->path.slice(from, to)});
     } else if (const auto* stand = std::get_if<StandPhase>(&phases_[i])) {
-      parts.emplace_back(StandPhase{stand->pose, to - from});
+      parts.push_back(StandPhase{stand->pose, to - from});
     } else {
       const auto& turn = std::get<TurnPhase>(phases_[i]);
       require(to - from > turn.duration_s - 2.0 * kShortestPhase_s,
