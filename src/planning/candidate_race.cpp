@@ -42,19 +42,18 @@ std::vector<PlanCandidate> race(const CandidatePlanner& planner, const PlanQuery
     const auto cannot_win = [&] { return !driven && least_cost >= to_beat.get(); };
     PlanCandidate& candidate = candidates[i];
     candidate = planner.plan(query, approach, scene, [&] { return cannot_win() || should_stop(); });
+    candidate.driven = driven;
     // An optimiser may leave its class.
     if (!candidate.motion.empty()) {
       candidate.signature = signature_of<2>(
           approaches.cuts, path_of(candidate.motion, query.start_time_s, planner.max_speed()));
     }
-    candidate.driven = candidate.signature == approaches.driven;
     if (candidate.reason == PlanReason::kBudgetExhausted && cannot_win()) {
       candidate.reason = PlanReason::kCannotWin;
       candidate.cost = std::max(candidate.cost, least_cost);
     }
     if (candidate.reason == PlanReason::kSolved)
-      to_beat.lower_to(candidate.driven ? (1.0 - rules.switch_margin) * candidate.cost
-                                        : candidate.cost);
+      to_beat.lower_to(driven ? (1.0 - rules.switch_margin) * candidate.cost : candidate.cost);
   };
   const int cores = tbb::info::default_concurrency();
   tbb::task_arena arena(rules.threads > 0 ? std::min(rules.threads, cores) : cores);

@@ -64,12 +64,18 @@ PlanResult GlobalPlanner::turn_only(const PlanQuery& query, const PlanningScene&
   } else {
     phases.emplace_back(StandPhase{pose, kStand_s});
   }
+  Motion motion(query.start_time_s, std::move(phases));
   PlanResult result;
-  result.motion = Motion(query.start_time_s, std::move(phases));
   result.goal = query.goal;
-  result.violation = certify(result.motion, scene.terrain->field(), query.start_time_s);
-  result.reason = result.violation ? PlanReason::kNotCertified : PlanReason::kSolved;
-  result.message = result.violation ? describe(result.violation) : "turns at the goal";
+  result.violation = certify(motion, scene.terrain->field(), query.start_time_s);
+  if (result.violation) {
+    result.reason = PlanReason::kNotCertified;
+    result.message = describe(result.violation);
+    return result;
+  }
+  result.reason = PlanReason::kSolved;
+  result.message = "turns at the goal";
+  result.motion = std::move(motion);
   return result;
 }
 
@@ -117,7 +123,7 @@ void GlobalPlanner::run(const PlanQuery& query, const Approaches& approaches,
   result.message = "solved";
   result.violation = {};
   result.motion = chosen.motion;
-  result.switches_class = approaches.driven && !chosen.driven;
+  result.switches_class = approaches.driven && chosen.signature != *approaches.driven;
 }
 
 PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scene,

@@ -29,7 +29,7 @@ class GlobalPlanner {
   std::optional<PlanResult> refusal(const PlanQuery& query, const PlanningScene& scene) const;
   std::optional<Vector2> free_goal(const Vector2& goal, const ObstacleField<2>& obstacles) const;
   PlanResult turn_only(const PlanQuery& query, const PlanningScene& scene) const;
-  /// Adds candidates, and takes the winner of all, if there is one.
+  /// Sets the candidates, and takes their winner, if there is one.
   void run(const PlanQuery& query, const Approaches& approaches, const PlanningScene& scene,
            const std::function<bool()>& should_stop, PlanResult& result) const;
   std::optional<Motion> back_out(const PlanQuery& query, const Vector2& goal,

@@ -38,7 +38,7 @@ struct PlanCandidate {
   int evaluations = 0;
   std::vector<Vector2> way;  ///< of the front end, from which the optimisation started
   Motion motion;
-  bool driven = false;  ///< of the class of the plan that is being driven
+  bool driven = false;  ///< began on a way of the class that is being driven; at most one does
   bool selected = false;
 };
 

@@ -296,6 +296,19 @@ TEST_F(GlobalPlannerTest, WhoStandsTooCloseToAWallMayLeave) {
                                MarginBudget::of(robot_).static_margin_m(), kStart_s + 2.0));
 }
 
+TEST_F(GlobalPlannerTest, ATurnAtTheGoalThatCannotBeProvedIsNotHandedOut) {
+  OccupancyGrid grid = open_;
+  fill_box(grid, {-2.0, 0.20}, {12.0, 0.5});  // inside of the body
+  const RobotModel robot = jackal();
+  const GlobalPlanner planner(robot, default_rules());
+  PlanQuery query = from_standing({0.0, 0.0}, 0.0, {0.01, 0.0});
+  query.goal_yaw_rad = M_PI / 2.0;  // its nose would be in the wall
+  const PlanResult result = planner.plan(query, {terrain_of(grid), {}}, kGoOn);
+  EXPECT_EQ(result.reason, PlanReason::kNotCertified);
+  EXPECT_TRUE(result.motion.empty());
+  EXPECT_FALSE(result.message.empty());
+}
+
 TEST_F(GlobalPlannerTest, StopsWorkingWhenToldTo) {
   const PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
   std::atomic<int> calls{0};
