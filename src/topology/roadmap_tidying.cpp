@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kPushes = 3;          // of a corner off the obstacles
 constexpr double kPushed_m = 0.02;  // beyond the clearance that is required
-constexpr int kNeighbours = 8;     // of a node, that shortcuts are tried to
+constexpr int kNeighbours = 8;      // of a node, that shortcuts are tried to
 
 /// Merges the edges of a roadmap into longer ones.
 class Contraction {
