@@ -117,7 +117,7 @@ void CandidatePlanner::drive(const PlanQuery& query, const Opening& opening,
     }
     const double beside_s =
         candidate.motion.end_time() - candidate.motion.start_time() - found.curve.duration();
-    candidate.terms.emplace_back("beside the drive", rules_.weight_duration * beside_s);
+    candidate.terms.emplace_back("beside_drive", rules_.weight_duration * beside_s);
     candidate.cost = found.cost + candidate.terms.back().second;
     if (!candidate.violation) return;
     effort = raised(effort, candidate.violation);
