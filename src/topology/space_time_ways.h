@@ -11,13 +11,6 @@
 
 namespace mocha {
 
-/// A moving thing to be kept away from.
-struct MovingThing {
-  std::shared_ptr<const MovingObstacle> obstacle;
-  double keep_m;   ///< own radius and required distance: what its radius is enlarged by
-  double until_s;  ///< absolute; afterwards it does not count
-};
-
 struct SpaceTimeQuery {
   TimedPoint start;
   TimedPoint goal;
