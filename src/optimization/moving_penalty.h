@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <utility>
 #include <vector>
 
 #include "optimization/penalty.h"
@@ -9,50 +9,41 @@
 namespace mocha {
 
 /// (33)(39): phi(1 - d_n^2 / d_s^2) for each moving disc at the absolute time of the sample, where
-/// d_s = own radius + its radius + clearance.
+/// d_s is its radius and what is to be kept from its rim.
 class MovingPenalty : public Penalty<2> {
  public:
-  struct Other {
-    std::shared_ptr<const MovingObstacle> obstacle;
-    double until_s;  ///< absolute time after which it is not counted any more (infinity: for ever)
-  };
-
   /// `start_time_s`: absolute time at which the trajectory begins.
-  MovingPenalty(double weight, double start_time_s, double own_radius_m, double clearance_m,
-                std::vector<Other> others)
-      : weight_(weight),
-        start_time_s_(start_time_s),
-        reach_m_(own_radius_m + clearance_m),
-        others_(std::move(others)) {}
+  MovingPenalty(double weight, double start_time_s, std::vector<MovingThing> others)
+      : weight_(weight), start_time_s_(start_time_s), others_(std::move(others)) {}
 
   const char* name() const override { return "moving"; }
 
   Derivatives wanted(const PieceBounds<2>& piece) const override {
     const double begin_s = start_time_s_ + piece.start_s;
     const double half_s = 0.5 * piece.duration_s;
-    for (const Other& other : others_) {
+    for (const MovingThing& other : others_) {
       if (begin_s > other.until_s) continue;
       const MovingObstacle::Disc disc = other.obstacle->at(begin_s + half_s);
       const double reach_m =
-          reach_m_ + disc.radius_m + other.obstacle->max_closing_speed(begin_s) * half_s;
+          other.keep_m + disc.radius_m + other.obstacle->max_closing_speed(begin_s) * half_s;
       if (!(piece.box.exteriorDistance(disc.centre) > reach_m)) return kPosition | kTime;
     }
     return kNone;
   }
 
   void add(const PieceSamples<2>& samples, PenaltyRows<2>& rows) const override {
-    for (const Other& other : others_) {
+    for (const MovingThing& other : others_) {
       for (int j = 0; j < samples.size(); ++j) add_one(other, samples, j, rows);
     }
   }
 
  private:
-  void add_one(const Other& other, const PieceSamples<2>& samples, int j,
+  void add_one(const MovingThing& other, const PieceSamples<2>& samples, int j,
                PenaltyRows<2>& rows) const {
     const double now = start_time_s_ + samples.time_s[j];
     if (now > other.until_s) return;
     const MovingObstacle::Disc disc = other.obstacle->at(now);
-    const double safety = reach_m_ + disc.radius_m;
+    const double safety = other.keep_m + disc.radius_m;
     const double inverse_ds2 = 1.0 / (safety * safety);
     const Eigen::Vector2d apart = samples.position().row(j).transpose() - disc.centre;
     const double ratio = apart.squaredNorm() * inverse_ds2;
@@ -67,8 +58,7 @@ class MovingPenalty : public Penalty<2> {
 
   double weight_;
   double start_time_s_;
-  double reach_m_;
-  std::vector<Other> others_;
+  std::vector<MovingThing> others_;
 };
 
 }  // namespace mocha

@@ -92,15 +92,19 @@ void CandidatePlanner::drive(const PlanQuery& query, const Opening& opening,
                              const PlanningScene& scene, const std::function<bool()>& should_stop,
                              PlanCandidate& candidate) const {
   const ObstacleField<2>& obstacles = scene.terrain->field();
-  DriveQuery drive{opening.path, opening.state, query.start_time_s + opening.duration_s, {}};
+  DriveQuery drive;
+  drive.path = opening.path;
+  drive.start = opening.state;
+  drive.start_time_s = query.start_time_s + opening.duration_s;
   for (const auto& peer : scene.peers) {
     const bool standing = stands(*peer, query.start_time_s);
     const BlockedDisc disc = kept_from(*peer, query.start_time_s, robot_, 0.0);
     // A team-mate that stands on the goal will hardly stay: drive up, and let the promises keep
     // apart.
     if (standing && (disc.centre - opening.path.back()).norm() <= disc.radius_m) continue;
-    drive.peers.push_back(
-        {peer, standing ? std::numeric_limits<double>::infinity() : peer->rest_time()});
+    drive.moving.push_back(
+        {peer, distance_to_peers_m(robot_),
+         standing ? std::numeric_limits<double>::infinity() : peer->rest_time()});
   }
   Effort effort;
   for (int attempt = 0; attempt < kAttempts && !should_stop(); ++attempt) {

@@ -10,8 +10,7 @@
 #include "optimization/obstacle_penalty.h"
 #include "optimization/turning_penalty.h"
 #include "optimization/wheel_penalty.h"
-#include "planning/speed_profile.h"
-#include "safety/margin_budget.h"
+#include "trajectory/timed_path.h"
 
 namespace mocha {
 namespace {
@@ -24,6 +23,8 @@ constexpr double kShareOfYawRate = 0.92;
 constexpr double kShareOfWheelSpeed = 0.97;
 constexpr double kSpacingOfRoom = 1.5;  // knots apart, over the room beside the path
 constexpr double kLeastPieces = 10.0;   // of a drive, for its ramps
+constexpr double kLeastTimedPieces = 3.0;
+constexpr double kMostTimedPieces = 60.0;
 constexpr double kSoftSpeed =
     0.05;  // [m/s] below which heading and turning fade out of the penalties
 
@@ -41,6 +42,7 @@ Vector2 final_direction(const std::vector<Vector2>& path, double length_m) {
 bool is_sound(const DriveQuery& query) {
   constexpr double kFarthest = 1e6;  // [m], [m/s], [m/s^2]; beyond, nothing can be computed
   if (query.path.size() < 2 || !std::isfinite(query.start_time_s)) return false;
+  if (!query.times_s.empty() && query.times_s.size() != query.path.size()) return false;
   for (const Vector2& point : query.path) {
     if (!(point.cwiseAbs().maxCoeff() < kFarthest)) return false;
   }
@@ -54,25 +56,43 @@ void undo(const Effort& effort, OptimizedTrajectory<2, 3>& found) {
   found.cost = 0.0;
   for (auto& [name, value] : found.terms) {
     if (name == "obstacle") value /= effort.obstacle_weight;
+    if (name == "moving") value /= effort.moving_weight;
     if (name == "dynamics" || name == "turning" || name == "wheels") value /= effort.limit_weight;
     found.cost += value;
   }
 }
 
-double peer_distance_m(const RobotModel& robot) {
-  return robot.peer_clearance_m + MarginBudget::of(robot).peer_margin_m();
+/// Knots at even times of a path whose times are given.
+InitialKnots<2> even_knots(const DriveQuery& query, int pieces) {
+  TimedPath timed;
+  for (std::size_t i = 0; i < query.path.size(); ++i)
+    timed.push_back({query.path[i], query.times_s[i]});
+  const double whole_s = query.times_s.back();
+  InitialKnots<2> knots;
+  knots.path.resize(2, pieces + 1);
+  knots.durations_s.setConstant(pieces, whole_s / pieces);
+  for (int k = 0; k <= pieces; ++k) knots.path.col(k) = position_at(timed, whole_s * k / pieces);
+  return knots;
 }
 
 }  // namespace
 
-DriveOptimizer::DriveOptimizer(const RobotModel& robot, const PlannerRules& rules,
+DriveOptimizer::DriveOptimizer(const RobotModel& robot, const DriveRules& rules,
                                double static_margin_m)
     : robot_(robot), rules_(rules), static_margin_m_(static_margin_m) {}
 
 Effort raised(const Effort& effort, const Violation& violation) {
   Effort more = effort;
-  const bool clearance = violation.term == ViolatedTerm::kClearance;
-  (clearance ? more.obstacle_weight : more.limit_weight) *= 20.0;
+  switch (violation.term) {
+    case ViolatedTerm::kClearance:
+      more.obstacle_weight *= 20.0;
+      break;
+    case ViolatedTerm::kSeparation:
+      more.moving_weight *= 20.0;
+      break;
+    default:
+      more.limit_weight *= 20.0;
+  }
   more.camouflage = effort.camouflage && effort.spacing == 1.0;
   more.spacing = std::max(0.4, 0.7 * effort.spacing);
   if (!more.camouflage) more.speed *= 0.8;
@@ -138,31 +158,53 @@ std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQu
     penalties.push_back(std::make_unique<WheelPenalty>(rules_.weight_dynamics * effort.limit_weight,
                                                        wheels, kSoftSpeed));
   }
-  if (!query.peers.empty()) {
-    penalties.push_back(std::make_unique<MovingPenalty>(
-        rules_.weight_moving, query.start_time_s, robot_.footprint.circumscribed_radius_m(),
-        peer_distance_m(robot_) + rules_.peer_soft_margin_m, query.peers));
+  if (!query.moving.empty()) {
+    std::vector<MovingThing> others = query.moving;
+    for (MovingThing& other : others) other.keep_m += rules_.moving_soft_margin_m;
+    penalties.push_back(std::make_unique<MovingPenalty>(rules_.weight_moving * effort.moving_weight,
+                                                        query.start_time_s, std::move(others)));
   }
   return penalties;
+}
+
+InitialKnots<2> DriveOptimizer::initial_knots(const DriveQuery& query,
+                                              const ObstacleField<2>& field,
+                                              const Effort& effort) const {
+  MotionLimits limits = robot_.limits;
+  limits.max_speed *= effort.speed;
+  if (query.times_s.empty()) {
+    return spread_knots<2>(query.path, query.start.col(1).norm(), limits,
+                           effort.spacing * knot_spacing_m(query.path, field));
+  }
+  const double piece_s = effort.spacing * rules_.knot_spacing_m / limits.max_speed;
+  const double pieces = std::ceil(query.times_s.back() / piece_s);
+  return even_knots(query,
+                    static_cast<int>(std::clamp(pieces, kLeastTimedPieces, kMostTimedPieces)));
+}
+
+PlanarMinco::State DriveOptimizer::end_state(const DriveQuery& query) const {
+  if (query.anchor) return query.anchor->state;
+  PlanarMinco::State end;
+  end.col(0) = query.path.back();
+  end.col(1).setZero();
+  end.col(2) = -rest_acceleration() * final_direction(query.path, 0.3);
+  return end;
 }
 
 OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
     const DriveQuery& query, const ObstacleField<2>& field, const Effort& effort,
     const std::function<bool()>& should_stop) const {
   if (!is_sound(query)) return {};
-  MotionLimits limits = robot_.limits;
-  limits.max_speed *= effort.speed;
-  const InitialKnots<2> knots = spread_knots<2>(query.path, query.start.col(1).norm(), limits,
-                                                effort.spacing * knot_spacing_m(query.path, field));
+  const InitialKnots<2> knots = initial_knots(query, field, effort);
   const double a_max = robot_.limits.max_acceleration;
   TrajectoryObjective<2, 3>::Setup setup;
   setup.start = query.start;
-  setup.end.col(0) = query.path.back();
-  setup.end.col(1).setZero();
-  setup.end.col(2) = -rest_acceleration() * final_direction(query.path, 0.3);
+  setup.end = end_state(query);
   setup.knot_map = knot_map(knots.path, field, effort.camouflage);
   setup.effort_weight = rules_.weight_effort / (a_max * a_max);
-  setup.duration_cost = DurationCost::total(rules_.weight_duration);
+  setup.duration_cost = query.anchor
+                            ? DurationCost::anchored(rules_.weight_duration, query.anchor->mu_s)
+                            : DurationCost::total(rules_.weight_duration);
   setup.penalties = penalties(query, field, effort);
   setup.kappa = rules_.samples_per_piece;
   setup.metres_per_eta = knots.metres_per_eta();

@@ -1,23 +1,35 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "optimization/moving_penalty.h"
 #include "optimization/trajectory_optimizer.h"
-#include "planning/planner_rules.h"
+#include "planning/drive_rules.h"
+#include "planning/speed_profile.h"
 #include "safety/certificate.h"
 #include "world/obstacle_field.h"
 #include "world/robot_model.h"
 
 namespace mocha {
 
-/// A drive to be found: from a state of the base along a front-end path to rest at its end.
+/// Where a drive meets a motion that is under way (38), instead of coming to rest.
+struct Anchor {
+  PlanarMinco::State state;  ///< position, velocity, acceleration
+  double mu_s;               ///< the drive should take about this long (40)
+};
+
+/// A drive to be found: from a state of the base along a front-end path to rest at its end, or to
+/// the anchor there.
 struct DriveQuery {
-  std::vector<Vector2> path;  ///< at least two points; the first is the start's position
-  PlanarMinco::State start;   ///< position, velocity, acceleration
-  double start_time_s;        ///< absolute
-  std::vector<MovingPenalty::Other> peers;
+  std::vector<Vector2> path;        ///< at least two points; the first is the start's position
+  PlanarMinco::State start;         ///< position, velocity, acceleration
+  double start_time_s;              ///< absolute
+  std::vector<MovingThing> moving;  ///< and what is proved to be kept from it
+  /// When the path is at its points, from 0 [s], increasing; empty: as early as the limits allow.
+  std::vector<double> times_s;
+  std::optional<Anchor> anchor;
 };
 
 /// How hard the optimiser tries to satisfy the constraints; raised step by step where a result is
@@ -26,17 +38,19 @@ struct Effort {
   bool camouflage = true;        ///< one variable a knot, else waypoints
   double spacing = 1.0;          ///< of the knots, relative
   double obstacle_weight = 1.0;  ///< relative
+  double moving_weight = 1.0;    ///< relative
   double limit_weight = 1.0;     ///< of speed, acceleration and yaw rate, relative
   double speed = 1.0;            ///< relative to the robot's limit
 };
 
-/// More effort, where it is missing: against obstacles or against the limits of the robot.
+/// More effort, where it is missing: against obstacles, against what moves, or against the limits
+/// of the robot.
 Effort raised(const Effort& effort, const Violation& violation);
 
 /// Turns front-end paths into smooth drives: MINCO through knots that camouflage moves (14).
 class DriveOptimizer {
  public:
-  DriveOptimizer(const RobotModel& robot, const PlannerRules& rules, double static_margin_m);
+  DriveOptimizer(const RobotModel& robot, const DriveRules& rules, double static_margin_m);
 
   /// `field` are the static obstacles. The result's curve is empty only if nothing finite was
   /// found (kNotFinite), or the query is none (kInvalidInput): values that are not finite or beyond
@@ -55,6 +69,9 @@ class DriveOptimizer {
   double knot_spacing_m(const std::vector<Vector2>& path, const ObstacleField<2>& field) const;
 
  private:
+  InitialKnots<2> initial_knots(const DriveQuery& query, const ObstacleField<2>& field,
+                                const Effort& effort) const;
+  PlanarMinco::State end_state(const DriveQuery& query) const;
   std::shared_ptr<const KnotMap<2>> knot_map(const Eigen::Matrix2Xd& path,
                                              const ObstacleField<2>& field, bool camouflage) const;
   std::vector<std::unique_ptr<Penalty<2>>> penalties(const DriveQuery& query,
@@ -62,7 +79,7 @@ class DriveOptimizer {
                                                      const Effort& effort) const;
 
   const RobotModel robot_;
-  const PlannerRules rules_;
+  const DriveRules rules_;
   const double static_margin_m_;
 };
 

@@ -10,6 +10,9 @@ namespace mocha {
 /// sides, to be driven around. One that moves is for the optimiser.
 bool stands(const MovingObstacle& peer, double t);
 
+/// What the centre of the robot has to keep from the rim of a team-mate's disc [m].
+double distance_to_peers_m(const RobotModel& robot);
+
 /// Where the centre of the robot must not be because of a team-mate at time t, and `slack_m` more.
 BlockedDisc kept_from(const MovingObstacle& peer, double t, const RobotModel& robot,
                       double slack_m);

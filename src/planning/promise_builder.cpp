@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planning/escape_proof.h"
+#include "planning/peer_discs.h"
 #include "trajectory/stopping.h"
 
 namespace mocha {
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double kStep_s = 0.1;          // between the places where braking is tried
 constexpr double kPeerSlack_m = 0.01;    // so that a proof today still holds tomorrow
+constexpr double kShareInForce = 0.5;    // of the clearance to people
 constexpr double kPeerHorizon_s = 10.0;  // of predictions that never come to rest
 
 }  // namespace
@@ -27,22 +29,42 @@ PromiseBuilder::PromiseBuilder(RobotModel robot)
 
 Violation PromiseBuilder::certify(const Motion& motion, const PromiseScene& scene,
                                   double from_s) const {
-  const double apart_m = robot_.peer_clearance_m + margins_.peer_margin_m();
-  return check(motion, scene, from_s, {margins_.static_margin_m(), apart_m + kPeerSlack_m});
+  return check(motion, scene, from_s, {margins_.static_margin_m(), kPeerSlack_m, 1.0});
 }
 
 Violation PromiseBuilder::certify_in_force(const Motion& motion, const PromiseScene& scene,
                                            double from_s) const {
   // The peers' broadcasters settle with exactly the required distance.
-  const double apart_m = robot_.peer_clearance_m + margins_.peer_margin_m();
   return check(motion, scene, from_s,
-               {margins_.static_margin_m() - margins_.map_m, apart_m - kPeerSlack_m});
+               {margins_.static_margin_m() - margins_.map_m, -kPeerSlack_m, kShareInForce});
+}
+
+double PromiseBuilder::hard_deceleration() const {
+  return std::max(deceleration(), 0.6 * robot_.max_wheel_acceleration);
+}
+
+std::vector<MovingThing> PromiseBuilder::kept_from(const PromiseScene& scene, double now_s,
+                                                   double share) const {
+  return kept_from(scene, now_s, Kept{0.0, kPeerSlack_m, share});
+}
+
+std::vector<MovingThing> PromiseBuilder::kept_from(const PromiseScene& scene, double now_s,
+                                                   const Kept& kept) const {
+  std::vector<MovingThing> things;
+  const double from_peers_m = distance_to_peers_m(robot_) + kept.peer_slack_m;
+  for (const auto& peer : scene.others)
+    things.push_back({peer, from_peers_m, now_s + kPeerHorizon_s});
+  const double from_moving_m = robot_.footprint.circumscribed_radius_m() + margins_.own_margin_m() +
+                               kept.moving_share * robot_.moving_clearance_m;
+  for (const auto& thing : scene.moving)
+    things.push_back({thing, from_moving_m, scene.predicted_until_s});
+  return things;
 }
 
 Violation PromiseBuilder::check(const Motion& motion, const PromiseScene& scene, double from_s,
-                                const Margins& margins) const {
+                                const Kept& kept) const {
   Violation first = check_clearance_or_leaving(motion, robot_.footprint, *scene.obstacles,
-                                               margins.obstacles_m, from_s);
+                                               kept.obstacles_m, from_s);
   const auto keep_earlier = [&first](const Violation& other) {
     if (other && (!first || other.time_s < first.time_s)) first = other;
   };
@@ -50,10 +72,11 @@ Violation PromiseBuilder::check(const Motion& motion, const PromiseScene& scene,
       check_clearance_or_leaving(motion, robot_.footprint, *scene.unseen, 0.0, from_s);
   if (unseen) unseen.term = ViolatedTerm::kUnseenSpace;
   keep_earlier(unseen);
-  for (const auto& other : scene.others) {
-    keep_earlier(check_separation_or_leaving(motion, robot_.footprint.circumscribed_radius_m(),
-                                             *other, margins.others_m, from_s,
-                                             from_s + kPeerHorizon_s));
+  const double radius_m = robot_.footprint.circumscribed_radius_m();
+  for (const MovingThing& thing : kept_from(scene, from_s, kept)) {
+    if (thing.until_s <= from_s) continue;
+    keep_earlier(check_separation_or_leaving(motion, radius_m, *thing.obstacle,
+                                             thing.keep_m - radius_m, from_s, thing.until_s));
   }
   return first;
 }

@@ -13,9 +13,12 @@ namespace mocha {
 
 /// What a promise is proved against.
 struct PromiseScene {
-  std::shared_ptr<const DistanceField> obstacles;  ///< occupied cells
-  std::shared_ptr<const DistanceField> unseen;     ///< occupied or unknown cells
-  std::vector<std::shared_ptr<const MovingObstacle>> others;
+  std::shared_ptr<const DistanceField> obstacles;                  ///< occupied cells
+  std::shared_ptr<const DistanceField> unseen;                     ///< occupied or unknown cells
+  std::vector<std::shared_ptr<const MovingObstacle>> others = {};  ///< team-mates on their promises
+  /// People and other things that promise nothing, as predicted.
+  std::vector<std::shared_ptr<const MovingObstacle>> moving = {};
+  double predicted_until_s = 0.0;  ///< absolute; later, predictions say nothing
 };
 
 /// A certified motion that ends at rest, and how far it follows what it was cut from.
@@ -40,7 +43,8 @@ class PromiseBuilder {
   Violation certify(const Motion& motion, const PromiseScene& scene, double from_s) const;
 
   /// The same for a promise in force: the margin for surfaces nearer than the map said is there to
-  /// be used up as the map gets better.
+  /// be used up as the map gets better, and half the clearance to people as they change their
+  /// minds.
   Violation certify_in_force(const Motion& motion, const PromiseScene& scene, double from_s) const;
 
   /// The longest part of `motion` from `from_s` on that may be promised when braking begins no
@@ -49,16 +53,26 @@ class PromiseBuilder {
   std::optional<CertifiedMotion> longest(const Motion& motion, const PromiseScene& scene,
                                          double from_s, double earliest_s, double latest_s) const;
 
+  /// What moves in the scene, and what the centre of the robot keeps from it: all that a new
+  /// promise must keep from team-mates, and `share` of the clearance that it must keep from other
+  /// things.
+  std::vector<MovingThing> kept_from(const PromiseScene& scene, double now_s, double share) const;
+
   /// Deceleration [m/s^2] of promised braking.
   double deceleration() const { return 0.6 * robot_.limits.max_acceleration; }
+  /// The same where nothing gentler helps: what the wheels can do, with something to spare.
+  double hard_deceleration() const;
 
  private:
-  struct Margins {
-    double obstacles_m;
-    double others_m;
+  struct Kept {
+    double obstacles_m;   ///< margin
+    double peer_slack_m;  ///< beyond what is required
+    double moving_share;  ///< of the clearance required
   };
+  std::vector<MovingThing> kept_from(const PromiseScene& scene, double now_s,
+                                     const Kept& kept) const;
   Violation check(const Motion& motion, const PromiseScene& scene, double from_s,
-                  const Margins& margins) const;
+                  const Kept& kept) const;
 
   RobotModel robot_;
   MarginBudget margins_;

@@ -25,6 +25,10 @@ struct MarginBudget {
   /// To keep from static obstacles.
   double static_margin_m() const { return tracking_m + localisation_m + map_m; }
 
+  /// To keep from things that are seen but promise nothing, on top of what their prediction leaves
+  /// open; the map has no part in it.
+  double own_margin_m() const { return tracking_m + localisation_m; }
+
   /// To keep from a peer's footprint on its promised motion, on top of both bodies; the map has no
   /// part in it.
   double peer_margin_m(const MarginBudget& peer) const;

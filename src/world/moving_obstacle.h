@@ -28,6 +28,13 @@ class MovingObstacle {
   virtual const std::string& name() const = 0;
 };
 
+/// Something that moves, and how far the centre of a base has to stay from it.
+struct MovingThing {
+  std::shared_ptr<const MovingObstacle> obstacle;
+  double keep_m;   ///< from the rim of its disc
+  double until_s;  ///< absolute time after which it is not counted any more (infinity: for ever)
+};
+
 /// A team-mate on its promised motion.
 class PeerObstacle : public MovingObstacle {
  public:

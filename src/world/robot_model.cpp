@@ -76,6 +76,7 @@ RobotModel load_robot_model(const std::string& config_directory, const std::stri
   robot.margins = {values.number("margin_tracking"), values.number("margin_localisation"),
                    values.number("margin_map"), values.number("margin_clock")};
   robot.peer_clearance_m = values.number("peer_clearance");
+  robot.moving_clearance_m = values.number("moving_clearance");
   robot.map_resolution_m = values.number("map_resolution");
   robot.odometry_noise_distance = values.number("odometry_noise_distance");
   robot.odometry_noise_yaw = values.number("odometry_noise_yaw");

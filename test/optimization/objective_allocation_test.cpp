@@ -56,8 +56,7 @@ TrajectoryObjective<2, 3> full_objective(const DistanceField& field, bool camouf
   setup.penalties.push_back(std::make_unique<DynamicsPenalty<2>>(100.0, 0.5, 0.5));
   setup.penalties.push_back(std::make_unique<TurningPenalty>(100.0, 0.1, 0.05));
   setup.penalties.push_back(std::make_unique<MovingPenalty>(
-      100.0, 0.0, 0.3, 0.3,
-      std::vector<MovingPenalty::Other>{{peer, std::numeric_limits<double>::infinity()}}));
+      100.0, 0.0, std::vector<MovingThing>{{peer, 0.6, std::numeric_limits<double>::infinity()}}));
   return TrajectoryObjective<2, 3>(std::move(setup));
 }
 

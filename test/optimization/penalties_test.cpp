@@ -232,7 +232,7 @@ TEST(ObstaclePenalty, GradientMatchesDifferencesAlsoNearStandstill) {
 MovingPenalty moving(double until_s) {
   const auto walker = std::make_shared<PredictedDisc>("walker", 100.0, Vector2(1.0, 0.0),
                                                       Vector2(0.0, 0.5), 0.3, 0.2);
-  return MovingPenalty(10.0, 100.0, 0.4, 0.3, {{walker, until_s}});
+  return MovingPenalty(10.0, 100.0, {{walker, 0.7, until_s}});
 }
 
 TEST(MovingPenalty, HasTheValuesOfHandWhileTheRadiusGrows) {  // (33)
@@ -264,7 +264,7 @@ TEST(MovingPenalty, GradientMatchesDifferences) {
 }
 
 TEST(MovingPenalty, NobodyAroundCostsNothing) {
-  EXPECT_EQ(value_of(MovingPenalty(10.0, 0.0, 0.3, 0.2, {}), sample_at(kZero, kZero, kZero)), 0.0);
+  EXPECT_EQ(value_of(MovingPenalty(10.0, 0.0, {}), sample_at(kZero, kZero, kZero)), 0.0);
 }
 
 TEST(Penalties, ThreeDimensionsAreLikeTwo) {

@@ -213,8 +213,8 @@ TEST(TrajectoryObjective, GradientMatchesDifferencesWithTurningAndMovingTerms) {
     setup.penalties.push_back(std::make_unique<TurningPenalty>(3.0, 0.4, 0.1));
     const auto walker = std::make_shared<PredictedDisc>("walker", 10.0, Vector2(4.0, -1.0),
                                                         Vector2(-0.2, 0.4), 0.3, 0.1);
-    setup.penalties.push_back(std::make_unique<MovingPenalty>(
-        5.0, 10.0, 0.3, 0.4, std::vector<MovingPenalty::Other>{{walker, 1e9}}));
+    setup.penalties.push_back(
+        std::make_unique<MovingPenalty>(5.0, 10.0, std::vector<MovingThing>{{walker, 0.7, 1e9}}));
     TrajectoryObjective<2, 3> objective(std::move(setup));
     expect_gradient(objective, objective.initial(Eigen::VectorXd::Constant(6, 0.9)));
   }

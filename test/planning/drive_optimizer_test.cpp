@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "planning/peer_discs.h"
 #include "planning/worlds.h"
 #include "safety/circle_field.h"
 #include "safety/margin_budget.h"
@@ -16,7 +17,7 @@ const std::function<bool()> kGoOn = [] { return false; };
 class DriveOptimizerTest : public ::testing::Test {
  protected:
   DriveQuery from_rest(const std::vector<Vector2>& path) const {
-    DriveQuery query{path, PlanarMinco::State::Zero(), 0.0, {}};
+    DriveQuery query{path, PlanarMinco::State::Zero(), 0.0, {}, {}, {}};
     query.start.col(0) = path.front();
     query.start.col(2) = optimizer_.rest_acceleration() * (path[1] - path[0]).normalized();
     return query;
@@ -81,7 +82,8 @@ TEST(DriveOptimizerWheels, SlowDownInBendsWhereTheWheelsAskForIt) {
   robot.limits.max_wheel_speed = robot.limits.max_speed;  // none to spare for turning
   robot.limits.track_m = 0.5;
   const DriveOptimizer optimizer(robot, default_rules(), MarginBudget::of(robot).static_margin_m());
-  DriveQuery query{{{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}}, PlanarMinco::State::Zero(), 0.0, {}};
+  DriveQuery query{
+      {{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}}, PlanarMinco::State::Zero(), 0.0, {}, {}, {}};
   query.start.col(2) = Vector2(optimizer.rest_acceleration(), 0.0);
   const CircleField open({});
   const auto found = optimizer.optimize_drive(query, open, {}, kGoOn);
@@ -126,7 +128,7 @@ TEST_F(DriveOptimizerTest, WaitsOrSwervesForAPeer) {
     return least;
   };
   EXPECT_LT(nearest(drive(query, open_)), 0.3);
-  query.peers = {{peer, kForever_s}};
+  query.moving = {{peer, distance_to_peers_m(robot_), kForever_s}};
   EXPECT_GT(nearest(drive(query, open_)), 0.6 + robot_.peer_clearance_m);
 }
 
@@ -134,7 +136,7 @@ TEST_F(DriveOptimizerTest, NamesTheTermsOfTheCost) {
   DriveQuery query = from_rest({{0.0, 0.0}, {4.0, 0.0}});
   const auto peer =
       std::make_shared<PredictedDisc>("peer", 0.0, Vector2(2.0, 9.0), Vector2(0.0, 0.4), 0.3, 0.0);
-  query.peers = {{peer, kForever_s}};
+  query.moving = {{peer, distance_to_peers_m(robot_), kForever_s}};
   std::string names;
   for (const auto& term : optimizer_.optimize_drive(query, open_, {}, kGoOn).terms)
     names += term.first + " ";

@@ -115,7 +115,7 @@ TEST(DriveRobustness, APathThroughAnObstacleIsNotCertified) {
   // A wall without an end: no way round.
   const Polygon wall{{{4.0, -500.0}, {4.5, -500.0}, {4.5, 500.0}, {4.0, 500.0}}};
   const PrimitiveField<2> field({wall}, 1.0);
-  DriveQuery query{{{0.0, 0.0}, {8.0, 0.0}}, PlanarMinco::State::Zero(), 0.0, {}};
+  DriveQuery query{{{0.0, 0.0}, {8.0, 0.0}}, PlanarMinco::State::Zero(), 0.0, {}, {}, {}};
   query.start.col(2) = Vector2(optimizer.rest_acceleration(), 0.0);
   const auto result = optimizer.optimize_drive(query, field, {}, [] { return false; });
   ASSERT_GT(result.curve.pieces(), 0);

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "config/parameter_table.h"
+
+namespace mocha {
+
+/// Weights and sizes of the optimisation of a drive (14). Each stands with unit, range and default
+/// in the config of the node that plans.
+struct DriveRules {
+  double weight_effort;
+  double weight_duration;
+  double weight_obstacle;
+  double weight_dynamics;
+  double weight_turning;
+  double weight_moving;
+  int samples_per_piece;
+  double knot_spacing_m;
+  double open_knot_spacing_m;
+  double knot_travel_m;
+  double soft_margin_m;
+  double moving_soft_margin_m;
+  int max_evaluations;
+
+  static DriveRules from(const ParameterTable& values);
+};
+
+}  // namespace mocha
