@@ -107,6 +107,9 @@ class Maker {
     for (int i = 0; i < pillars; ++i) {
       const double radius_m = draw_.between(0.12, 0.2);
       const double x = draw_.between(0.2, 0.85) * scene_.goal.x();
+      const bool in_door = std::any_of(doors_.begin(), doors_.end(),
+                                       [&](double door) { return std::abs(x - door) < kDoor_m; });
+      if (in_door) continue;
       scene_.obstacles.push_back(Circle{{x, draw_.sign() * (half_m_ - radius_m)}, radius_m});
     }
   }
