@@ -26,3 +26,5 @@ if(ompl_FOUND)
     target_link_libraries(benchmark_${name} ${OMPL_LIBRARIES})
   endforeach()
 endif()
+
+mocha_benchmark(replan test/benchmarks/replan_scene.cpp test/benchmarks/replan_run.cpp test/benchmarks/space_time_solver.cpp)

@@ -15,6 +15,9 @@ foreach(folder ${core_folders})
   endif()
 endforeach()
 
+# The scenes and the judge of scripts/bench replan.
+target_sources(test_planning PRIVATE test/benchmarks/replan_scene.cpp test/benchmarks/space_time_solver.cpp)
+
 file(GLOB rostests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/rostest/*.test)
 foreach(test ${rostests})
   add_rostest(${test})

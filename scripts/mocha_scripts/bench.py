@@ -2,10 +2,10 @@
 import argparse
 import sys
 
-from mocha_scripts import bench_barn, bench_evaluation, bench_table1, bench_table2
+from mocha_scripts import bench_barn, bench_crossing, bench_evaluation, bench_replan, bench_table1, bench_table2
 
-BENCHES = {"barn": bench_barn, "evaluation": bench_evaluation, "table1": bench_table1,
-           "table2": bench_table2}
+BENCHES = {"barn": bench_barn, "crossing": bench_crossing, "evaluation": bench_evaluation, "replan": bench_replan,
+           "table1": bench_table1, "table2": bench_table2}
 
 
 def main(arguments):

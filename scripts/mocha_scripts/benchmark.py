@@ -11,7 +11,7 @@ def run(name, *arguments):
     subprocess.run([os.path.join(ROOT, "scripts/build"), f"benchmark_{name}"], check=True)
     build = os.environ.get("MOCHA_BUILD", os.path.join(ROOT, "_build"))
     program = os.path.join(build, "devel/lib/mocha_ugv", f"benchmark_{name}")
-    printed = subprocess.run([program, *map(str, arguments)], check=True, stdout=subprocess.PIPE).stdout
+    printed = subprocess.run([program, *map(str, arguments)], check=True, stdout=subprocess.PIPE, cwd=ROOT).stdout
     return json.loads(printed)
 
 

@@ -1,5 +1,5 @@
 """Draws a recorded drive (map with trajectories, speed, acceleration and yaw rate against limits, clearance, separation), or the paper's
-Figs. 6 to 9 with our own data, or the ways of all classes on a map, or what moves in recorded laser scans."""
+Figs. 6 to 11 with our own data, or the ways of all classes on a map, or what moves in recorded laser scans."""
 import argparse
 import os
 import sys
@@ -60,6 +60,15 @@ def add_tracks(what):
     return tracks
 
 
+def add_replan(what):
+    replan = what.add_parser("replan", help="a drive around what moves, as in the paper's Figs. 10 and 11",
+                             description="Drives one scene of scripts/bench replan in closed loop. Writes replan.png: the plan, the drive and "
+                             "the movers, and below the clearance over time.")
+    replan.add_argument("--scene", type=int, default=1, metavar="N", help="number of the scene (default 1)")
+    replan.set_defaults(draw=draw_replan)
+    return replan
+
+
 # The imports stand in the functions, as the help needs no matplotlib.
 def draw_drive(options):
     from mocha_scripts import drive_plots
@@ -86,10 +95,15 @@ def draw_tracks(options):
     tracks_plots.draw_tracks(options.bag, options.mount, options.out)
 
 
+def draw_replan(options):
+    from mocha_scripts import replan_plots
+    replan_plots.draw_replan(options.scene, options.out)
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
     what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
-    for plots in (add_drive(what), add_table1(what), add_table2(what), add_classes(what), add_tracks(what)):
+    for plots in (add_drive(what), add_table1(what), add_table2(what), add_classes(what), add_tracks(what), add_replan(what)):
         plots.add_argument("--out", default=".", metavar="DIR", help="PNG files go there (default: here)")
     options = parser.parse_args(arguments)
     os.makedirs(options.out, exist_ok=True)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -35,6 +36,7 @@ class ClosedLoop {
   static constexpr double kStep_s = 0.1;
   static constexpr double kLease_s = 0.5;
   static constexpr double kPlanningTime_s = 0.5;
+  static constexpr double kPredicted_s = 5.0;
 
   ClosedLoop(const RobotModel& robot, const OccupancyGrid& world, const Vector2& start,
              const Vector2& goal)
@@ -53,7 +55,10 @@ class ClosedLoop {
     const PromiseScene scene = this->scene();
     plan(scene);
     deliver_plan();
+    const auto begin = std::chrono::steady_clock::now();
     output = replanner_.step(now_s, state_, scene);
+    replanner_took_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     ++reasons[output.reason];
     requested_ = requested_ || output.request_plan;
     if (output.renew_lease) leased_until_s_ = now_s + kLease_s;
@@ -61,6 +66,13 @@ class ClosedLoop {
     ++proposals;
     emergencies += output.proposal->emergency;
     waiting_.push_back(*output.proposal);
+  }
+
+  /// Under way on a promise that is in force, before the first step.
+  void begin_with(const Motion& promised) {
+    bind(promised);
+    pose_ = promised.at(now_s).pose;
+    replanner_.set_committed(0, *chain_.composed(now_s));
   }
 
   /// Until the robot stands at its goal; false if that takes too long.
@@ -93,9 +105,11 @@ class ClosedLoop {
   bool answers = true;
   Vector2 kidnapped = Vector2::Zero();  ///< [m] added to where the motion says that the robot is
   std::vector<std::shared_ptr<const MovingObstacle>> others;
+  std::vector<std::shared_ptr<const MovingObstacle>> moving;
 
   double now_s = 1.7e9;
   LocalReplanner::Output output;
+  double replanner_took_s = 0.0;  ///< wall time of its last step
   int proposals = 0;
   int emergencies = 0;
   int plans = 0;
@@ -113,6 +127,8 @@ class ClosedLoop {
       scene_ = {occupied_field(seen), unseen_field(seen), {}};
     }
     scene_.others = others;
+    scene_.moving = moving;
+    scene_.predicted_until_s = now_s + kPredicted_s;
     return scene_;
   }
 
@@ -140,14 +156,18 @@ class ClosedLoop {
         replanner_.on_refusal(proposal.sequence);
         continue;
       }
-      Promise promise;
-      promise.agent = "ugv1";
-      promise.motion = std::make_shared<const Motion>(proposal.motion);
-      chain_.bind(promise);
-      chain_.prune(now_s);
+      bind(proposal.motion);
       replanner_.set_committed(proposal.sequence, *chain_.composed(now_s));
       leased_until_s_ = std::max(leased_until_s_, now_s + kLease_s);
     }
+  }
+
+  void bind(const Motion& motion) {
+    Promise promise;
+    promise.agent = "ugv1";
+    promise.motion = std::make_shared<const Motion>(motion);
+    chain_.bind(promise);
+    chain_.prune(now_s);
   }
 
   void move() {

@@ -1,0 +1,125 @@
+#include "benchmarks/replan_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "planning/closed_loop.h"
+#include "world/prediction.h"
+#include "world/primitive_field.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kSample_s = 0.02;
+constexpr double kFarthest_m = 20.0;  // of clearances
+
+/// What a tracker says of the movers after a second.
+std::vector<std::shared_ptr<const MovingObstacle>> predictions(const ReplanScene& scene, double t,
+                                                               double now_s) {
+  constexpr double kPlace_m = 0.03;  // standard deviations
+  constexpr double kVelocity = 0.05;
+  constexpr double kConfidence = 0.95;
+  const Eigen::Vector4d variances(kPlace_m * kPlace_m, kPlace_m * kPlace_m, kVelocity * kVelocity,
+                                  kVelocity * kVelocity);
+  const RadiusGrowth growth = growth_of(Eigen::Matrix4d(variances.asDiagonal()), kConfidence);
+  std::vector<std::shared_ptr<const MovingObstacle>> discs;
+  for (std::size_t i = 0; i < scene.movers.size(); ++i) {
+    const SceneMover& mover = scene.movers[i];
+    const MoverTruth now = truth(mover, t);
+    discs.push_back(std::make_shared<PredictedDisc>("mover" + std::to_string(i + 1), now_s,
+                                                    now.centre, now.velocity,
+                                                    mover.radius_m + growth.radius_m, growth.rate));
+  }
+  return discs;
+}
+
+/// What the last step changed on account of something in the way.
+std::optional<Replan> replan_of(const ClosedLoop& loop, double t) {
+  if (!loop.output.proposal || !loop.output.violation) return std::nullopt;
+  return Replan{t, loop.replanner_took_s, loop.output.proposal->motion};
+}
+
+/// Straight along x, at the origin at `begin_s` with the given speed, for a while.
+Motion under_way(double begin_s, double speed) {
+  constexpr double kAcceleration = 0.5;
+  const Motion drive = straight_drive(begin_s, Vector2::Zero(), 0.0, 4.0, speed, kAcceleration);
+  const double ramp_s = speed / kAcceleration;
+  const double behind_m = drive.at(begin_s + ramp_s).pose.position.x();
+  return straight_drive(begin_s - ramp_s, {-behind_m, 0.0}, 0.0, 4.0, speed, kAcceleration);
+}
+
+class Run {
+ public:
+  Run(const ReplanScene& scene, const RobotModel& robot)
+      : scene_(scene),
+        walls_(scene.obstacles, 1.0),
+        loop_(robot, scene.grid(), Vector2::Zero(), scene.goal),
+        begin_s_(loop_.now_s) {
+    if (scene.start_speed > 0.0) loop_.begin_with(under_way(begin_s_, scene.start_speed));
+  }
+
+  ReplanRun until(double longest_s) {
+    while (elapsed_s() < longest_s && !run_.reached && !run_.contact) {
+      const double next_s = elapsed_s() + ClosedLoop::kStep_s;
+      loop_.moving = predictions(scene_, next_s, begin_s_ + next_s);
+      loop_.step();
+      if (auto replan = replan_of(loop_, elapsed_s())) run_.replans.push_back(std::move(*replan));
+      watch();
+      const Vector2 to_goal = loop_.state().pose.position - scene_.goal;
+      run_.reached = to_goal.norm() < 0.15 && loop_.state().twist.speed < 0.01;
+    }
+    run_.time_s = elapsed_s();
+    return std::move(run_);
+  }
+
+ private:
+  double elapsed_s() const { return loop_.now_s - begin_s_; }
+
+  /// What happens until the next step. What is promised until then is driven.
+  void watch() {
+    const Motion& motion = loop_.committed();
+    if (motion.empty()) return;
+    for (double late_s = 0.0; late_s < ClosedLoop::kStep_s - 1e-6; late_s += kSample_s) {
+      const double t = elapsed_s() + late_s;
+      const MotionState state = motion.at(begin_s_ + t);
+      const Vector2& place = state.pose.position;
+      const double radius_m = ReplanScene::kRobotRadius_m;
+      double to_movers_m = kFarthest_m;
+      for (const SceneMover& mover : scene_.movers) {
+        const double apart_m = (truth(mover, t).centre - place).norm();
+        to_movers_m = std::min(to_movers_m, apart_m - mover.radius_m - radius_m);
+      }
+      const double to_walls_m = std::min(kFarthest_m, walls_.distance_bound(place) - radius_m);
+      run_.samples.push_back({t, state.pose, state.speed, to_walls_m, to_movers_m});
+      run_.min_clearance_m = std::min({run_.min_clearance_m, to_walls_m, to_movers_m});
+      run_.contact = run_.contact || std::min(to_walls_m, to_movers_m) < 0.0;
+    }
+  }
+
+  const ReplanScene& scene_;
+  const PrimitiveField<2> walls_;
+  ClosedLoop loop_;
+  const double begin_s_;
+  ReplanRun run_;
+};
+
+}  // namespace
+
+ReplanRun run_closed_loop(const ReplanScene& scene, double longest_s) {
+  return Run(scene, rover()).until(longest_s);
+}
+
+bool would_meet(const ReplanRun& undisturbed, const ReplanScene& scene) {
+  for (const RunSample& sample : undisturbed.samples) {
+    for (const SceneMover& mover : scene.movers) {
+      const double apart_m = (truth(mover, sample.t).centre - sample.pose.position).norm();
+      if (apart_m < mover.radius_m + ReplanScene::kRobotRadius_m) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace mocha

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "benchmarks/replan_scene.h"
+#include "trajectory/motion.h"
+
+namespace mocha {
+
+/// The robot of a scene at a time.
+struct RunSample {
+  double t;  ///< [s] since the scene began
+  Pose pose;
+  double speed;
+  double to_walls_m;   ///< footprint to the nearest static obstacle
+  double to_movers_m;  ///< footprint to the nearest true disc
+};
+
+/// A step in which the replanner changed what it was doing.
+struct Replan {
+  double t;
+  double t_plan_s;  ///< wall time
+  Motion motion;    ///< proposed; absolute times
+};
+
+/// How a scene went in closed loop.
+struct ReplanRun {
+  bool reached = false;
+  bool contact = false;  ///< ends the run
+  double time_s = 0.0;   ///< until the end
+  double min_clearance_m = std::numeric_limits<double>::infinity();
+  int switches = 0;  ///< of the class while avoiding the same movers
+  std::vector<Replan> replans;
+  std::vector<RunSample> samples;
+};
+
+/// The planners of a rover against a scene, ten steps a second, with a perfect tracker. In each
+/// step they get the movers' true places and velocities with the covariance of a tracker.
+ReplanRun run_closed_loop(const ReplanScene& scene, double longest_s);
+
+/// Whether the robot would have touched a mover on a run that heeds none.
+bool would_meet(const ReplanRun& undisturbed, const ReplanScene& scene);
+
+}  // namespace mocha
