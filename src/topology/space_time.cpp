@@ -1,7 +1,6 @@
 #include "topology/space_time.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -14,22 +13,18 @@ constexpr double kLeastLater_m = 1e-6;
 constexpr double kRounding = 1e-9;
 constexpr double kSlack_m = 0.003;  // as in the proofs of who leaves
 constexpr double kLeaving = 0.1;    // of max_speed
-constexpr int kPlanes = 3;          // of projection in space
 
 template <int D>
 constexpr int entries_each() {
-  return D == 2 ? 1 : kPlanes;
+  return D == 2 ? 1 : static_cast<int>(kProjectionPlanes.size());
 }
-
-/// The axes of the planes in which windings are counted.
-constexpr std::array<std::pair<int, int>, kPlanes> kAxes = {{{0, 1}, {0, 2}, {1, 2}}};
 
 /// The crossings of a relative path with the cut of an obstacle at the origin.
 template <typename Place, typename Visit>
 void cross_origin(const Place& from, const Place& to, int first_entry, const Visit& visit) {
   static const Cuts<2> kOrigin({Eigen::Vector2d::Zero()});
   for (int i = 0; i < entries_each<Place::RowsAtCompileTime>(); ++i) {
-    const auto [a, b] = kAxes[i];
+    const auto [a, b] = kProjectionPlanes[i];
     kOrigin.cross({from[a], from[b]}, {to[a], to[b]},
                   [&](int, int sign) { visit(first_entry + i, sign); });
   }

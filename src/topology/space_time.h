@@ -1,11 +1,20 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "topology/space_time_tube.h"
 #include "topology/static_space.h"
 
 namespace mocha {
+
+/// The axes of a plane.
+struct ProjectionPlane {
+  int first;
+  int second;
+};
+/// The plane in which windings are counted, for D = 2, and the others, for D = 3.
+inline constexpr std::array<ProjectionPlane, 3> kProjectionPlanes = {{{0, 1}, {0, 2}, {1, 2}}};
 
 /// Where and when ways begin and end.
 template <int D>
@@ -74,13 +83,15 @@ class SpaceTime : public SampledSpace<D + 1> {
   /// Of a path in order, with straight lines between its points.
   Signature signature_of(const std::vector<Point>& path) const;
 
- private:
   struct Moving {
-    int entry;     // its first one
-    Tube<D> tube;  // in time since the start
+    int entry;     ///< in signatures, its first one
+    Tube<D> tube;  ///< in time since the start, as one has to keep away from it
   };
-
+  /// What can be met.
+  const std::vector<Moving>& moving() const { return moving_; }
   double since_start_s(const Point& p) const { return p[D] / max_speed_; }
+
+ private:
   double duration_s() const { return ends_.goal_s - ends_.start_s; }
   Tube<D> forgiven(const Tube<D>& tube) const;
   bool reachable(const TubePiece<D>& piece) const;
@@ -95,7 +106,7 @@ class SpaceTime : public SampledSpace<D + 1> {
   const StaticSpace<D> still_;
   const Cuts<D>& cuts_;
   int entries_;
-  std::vector<Moving> moving_;         // those that can be met
+  std::vector<Moving> moving_;
   std::vector<TubePiece<D>> threats_;  // their pieces that can be met, in time since the start
 };
 

@@ -1,10 +1,8 @@
 #include "topology/visibility_prm.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <nanoflann.hpp>
 #include <optional>
 #include <random>
 #include <set>
@@ -22,60 +20,31 @@ constexpr double kBridge = 0.05;  // shares that the ends of a bridge are apart 
 template <int D>
 using PointOf = Eigen::Matrix<double, D, 1>;
 
-/// Points that can be asked who is near; they are numbered as they come.
+/// In ascending order.
 template <int D>
-class Neighbourhood {
- public:
-  Neighbourhood() : tree_(D, *this) {}
-
-  int size() const { return static_cast<int>(points_.size()); }
-  const PointOf<D>& operator[](int i) const { return points_[i]; }
-
-  template <typename Points>
-  void add(const Points& points) {
-    points_.insert(points_.end(), points.begin(), points.end());
-    tree_.buildIndex();  // anew, which for the few guards there are takes less than keeping several
+std::vector<int> within(double radius_m, const PointOf<D>& p,
+                        const std::vector<PointOf<D>>& points) {
+  std::vector<int> near;
+  near.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if ((points[i] - p).squaredNorm() <= radius_m * radius_m) near.push_back(static_cast<int>(i));
   }
-
-  /// In ascending order.
-  std::vector<int> within(double radius_m, const PointOf<D>& p) const {
-    std::vector<std::pair<std::size_t, double>> found;
-    tree_.radiusSearch(p.data(), radius_m * radius_m, found, nanoflann::SearchParams());
-    std::vector<int> near;
-    for (const auto& [point, squared] : found) near.push_back(static_cast<int>(point));
-    std::sort(near.begin(), near.end());
-    return near;
-  }
-
-  // What the tree asks.
-  std::size_t kdtree_get_point_count() const { return points_.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points_[i][axis]; }
-  template <typename Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-
- private:
-  using Metric = nanoflann::L2_Simple_Adaptor<double, Neighbourhood>;
-  std::vector<PointOf<D>> points_;
-  nanoflann::KDTreeSingleIndexAdaptor<Metric, Neighbourhood, D, std::size_t> tree_;
-};
+  return near;
+}
 
 template <int D>
 class Sampler {
  public:
-  Sampler(const SampledSpace<D>& space, const std::vector<PointOf<D>>& first_guards,
+  Sampler(const SampledSpace<D>& space, std::vector<PointOf<D>> first_guards,
           const VisibilityPrmRules& rules)
-      : space_(space), rules_(rules), random_(rules.seed) {
-    guards_.add(first_guards);
-  }
+      : space_(space), rules_(rules), random_(rules.seed), guards_(std::move(first_guards)) {}
 
   void draw() {
     const std::optional<PointOf<D>> free = free_sample();
     if (!free) return;
     const PointOf<D>& sample = *free;
     const std::vector<int> guards = guards_that_see(sample);
-    if (!is_between(guards, sample)) return guards_.add(std::array{sample});
+    if (!is_between(guards, sample)) return guards_.push_back(sample);
     for (int from : guards) {
       for (int to : guards) {
         if (from < to) connect(from, sample, to);
@@ -84,15 +53,15 @@ class Sampler {
   }
 
   /// Guards first.
-  const Neighbourhood<D>& collect_nodes() {
+  std::vector<PointOf<D>> nodes() const {
     const auto before = [](const PointOf<D>& a, const PointOf<D>& b) {
       return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
     };
     std::set<PointOf<D>, decltype(before)> connectors(before);  // one may serve several links
     for (const auto& [link, connector] : connectors_) connectors.insert(connector.position);
-    connectors_.clear();
-    guards_.add(connectors);
-    return guards_;
+    std::vector<PointOf<D>> nodes = guards_;
+    nodes.insert(nodes.end(), connectors.begin(), connectors.end());
+    return nodes;
   }
 
  private:
@@ -129,7 +98,7 @@ class Sampler {
   }
 
   std::vector<int> guards_that_see(const PointOf<D>& p) const {
-    std::vector<int> guards = guards_.within(rules_.reach_m, p);
+    std::vector<int> guards = within<D>(rules_.reach_m, p, guards_);
     const auto hidden = [&](int guard) { return !see_each_other(guards_[guard], p); };
     guards.erase(std::remove_if(guards.begin(), guards.end(), hidden), guards.end());
     return guards;
@@ -158,7 +127,7 @@ class Sampler {
   const SampledSpace<D>& space_;
   const VisibilityPrmRules rules_;
   std::mt19937_64 random_;
-  Neighbourhood<D> guards_;
+  std::vector<PointOf<D>> guards_;
   std::map<Link, Connector> connectors_;
 };
 
@@ -203,10 +172,10 @@ Roadmap<D> visibility_prm(const SampledSpace<D>& space, const PointOf<D>& start,
   Sampler<D> sampler(space, {start, goal}, rules);
   for (int i = 0; i < rules.samples; ++i) sampler.draw();
 
-  const Neighbourhood<D>& nodes = sampler.collect_nodes();
-  for (int i = Roadmap<D>::kGoal + 1; i < nodes.size(); ++i) {
+  const std::vector<PointOf<D>> nodes = sampler.nodes();
+  for (int i = Roadmap<D>::kGoal + 1; i < static_cast<int>(nodes.size()); ++i) {
     add_node(nodes[i]);
-    for (int other : nodes.within(rules.reach_m, nodes[i])) {
+    for (int other : within<D>(rules.reach_m, nodes[i], nodes)) {
       if (other < i) join(other, i, space, roadmap);
     }
   }

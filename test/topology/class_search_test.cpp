@@ -359,5 +359,48 @@ TEST(ClassSearch, DoesNotLoseItselfWhereNoWayLeadsOn) {
   }
 }
 
+TEST(ClassSearch, TakesClassesFromASpace) {
+  class Plane : public SampledSpace<2> {
+   public:
+    Plane(const Cuts<2>& cuts, bool forward_only) : cuts_(cuts), forward_only_(forward_only) {}
+    Vector2 at(const Vector2& shares) const override { return shares; }
+    std::optional<double> clearance_m(const Vector2&) const override { return 1.0; }
+    std::optional<double> clearance_m(const Vector2&, const Vector2&) const override { return 1.0; }
+    bool in_order(const Vector2& p, const Vector2& q) const override {
+      return !forward_only_ || p.x() < q.x();
+    }
+    SignatureKey key(const Vector2& p, const Vector2& q) const override {
+      return key_of(cuts_, p, q);
+    }
+
+   private:
+    const Cuts<2>& cuts_;
+    bool forward_only_;
+  };
+  int forward = 0;
+  int all = 0;
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    Network network = random_network(seed, 8, 3, 0.5);
+    auto& edges = network.roadmap.edges;
+    edges.erase(std::remove_if(edges.begin(), edges.end(),
+                               [](const auto& edge) { return !edge.between.empty(); }),
+                edges.end());
+    const ClassSearchRules rules{5, 3.0};
+    const auto expected = network.shortest(rules.classes, rules.longest_ratio);
+    const auto found = shortest_classes<2>(network.roadmap, Plane(network.cuts, false), rules);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].points, expected[i].points);
+    for (const auto& path :
+         shortest_classes<2>(network.roadmap, Plane(network.cuts, true), rules)) {
+      for (std::size_t i = 1; i < path.points.size(); ++i)
+        EXPECT_LT(path.points[i - 1].x(), path.points[i].x());
+      ++forward;
+    }
+    all += static_cast<int>(found.size());
+  }
+  EXPECT_GT(forward, 10);
+  EXPECT_GT(all, forward);
+}
+
 }  // namespace
 }  // namespace mocha

@@ -223,5 +223,29 @@ TEST(MapTerrain, KeepsUpWithLargeMaps) {
   EXPECT_LT(circles, 9000u);
 }
 
+TEST(MapTerrain, SeesOnlyTheWindow) {
+  OccupancyGrid grid = free_grid({0.0, 0.0}, {10.0, 10.0});
+  // A fork whose prongs meet outside of the window, and something else.
+  fill_box(grid, {2.0, 2.0}, {2.3, 8.0});
+  fill_box(grid, {5.0, 2.0}, {5.3, 8.0});
+  fill_box(grid, {2.0, 2.0}, {5.3, 2.3});
+  fill_disc(grid, {9.0, 9.0}, 0.4, OccupancyGrid::kOccupied);
+  const MapTerrain terrain(occupied_field(grid));
+  EXPECT_EQ(terrain.groups(0.3).size(), 2u);
+  const Eigen::AlignedBox2d window(Vector2(1.0, 4.0), Vector2(7.0, 9.0));
+  const auto groups = terrain.groups_within(window, 0.3);
+  ASSERT_EQ(groups.size(), 2u);
+  for (const ObstacleGroup& group : groups) {
+    EXPECT_TRUE(window.contains(group.representative));
+    EXPECT_LE(terrain.field().sample(group.representative).distance_m, 0.0);
+    for (const Circle& circle : group.cover) EXPECT_LT(window.exteriorDistance(circle.centre), 0.2);
+  }
+  EXPECT_GT(std::abs(groups[0].representative.x() - groups[1].representative.x()), 2.5);
+  const Vector2 far(1e300, 1e300);
+  EXPECT_EQ(terrain.groups_within({-far, far}, 0.3).size(), 2u);
+  EXPECT_TRUE(terrain.groups_within({far, far}, 0.3).empty());
+  EXPECT_TRUE(terrain.groups_within({Vector2(5.6, 0.0), Vector2(8.0, 8.0)}, 0.3).empty());
+}
+
 }  // namespace
 }  // namespace mocha

@@ -155,5 +155,19 @@ TEST(PrimitiveTerrain, NobodyFitsBetweenThePointsOnAPolygonsRim) {
   }
 }
 
+TEST(PrimitiveTerrain, SeesOnlyTheWindow) {
+  // A chain whose middle is outside of the window.
+  const std::vector<Obstacle> obstacles = {Circle{{2.0, 5.0}, 0.5}, Circle{{2.0, 3.5}, 0.8},
+                                           box(2.5, 2.5, 2.5, 0.5), Circle{{5.0, 4.0}, 0.9},
+                                           Circle{{5.0, 5.2}, 0.5}};
+  const Eigen::AlignedBox2d bounds(Vector2(0.0, 0.0), Vector2(10.0, 10.0));
+  const PrimitiveTerrain terrain(std::make_shared<PrimitiveField<2>>(obstacles, 2.0), bounds);
+  EXPECT_EQ(terrain.groups(kClearance_m).size(), 1u);
+  const auto groups = terrain.groups_within({Vector2(0.0, 4.95), Vector2(9.0, 9.0)}, kClearance_m);
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_EQ(groups[0].representative, Vector2(2.0, 5.0));
+  EXPECT_EQ(groups[1].representative, Vector2(5.0, 5.2));
+}
+
 }  // namespace
 }  // namespace mocha
