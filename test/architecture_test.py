@@ -28,7 +28,6 @@ LIBRARIES = {
             r"|xmlrpcpp|\w+_msgs|std_srvs|mocha_ugv)/|XmlRpc", r"(ros|nodes)/"),
     "OctoMap": (r"octomap", r"perception/"),
     "CGAL": (r"CGAL/", r"topology/apollonius_roadmap\.cpp"),
-    "nanoflann": (r"nanoflann", r"topology/visibility_prm\."),
     "LCM": (r"lcm/", r"fleet/wire_format\.|nodes/trajectory_broadcaster_node\."),
 }
 NOT_IN_CORE = {
@@ -131,7 +130,6 @@ class Architecture(unittest.TestCase):
             ("src/planning/a.h", "#include <mocha_ugv/Trajectory.h>", "ROS has no business"),
             ("src/ros/a.h", "#include <octomap/OcTree.h>", "OctoMap has no business"),
             ("src/topology/apollonius_roadmap.h", "#include <CGAL/Apollonius_graph_2.h>", "CGAL has no business"),
-            ("src/topology/roadmap.h", "#include <nanoflann.hpp>", "nanoflann has no business"),
             ("src/fleet/commitment.h", "#include <lcm/lcm-cpp.hpp>", "LCM has no business"),
             ("src/world/a.cpp", "auto t = std::chrono::steady_clock::now();", "reads a clock"),
             ("src/safety/a.cpp", 'std::cout << "proved";', "prints"),

@@ -42,16 +42,25 @@ class Cuts<2> {
   template <typename Visit>
   void cross(const Point& p, const Point& q, const Visit& visit) const {
     const auto before = [](double x, const Ray& ray) { return x < ray.foot.x(); };
-    const bool leftward = q.x() < p.x();
-    // Half-open, so that a corner on a cut counts for one of its two neighbours.
     const auto first = std::upper_bound(rays_.begin(), rays_.end(), std::min(p.x(), q.x()), before);
     const auto last = std::upper_bound(first, rays_.end(), std::max(p.x(), q.x()), before);
     for (auto ray = first; ray != last; ++ray) {
-      const Point along = q - p;
-      const Point to_foot = ray->foot - p;
-      const double turn = along.x() * to_foot.y() - along.y() * to_foot.x();
-      if (leftward ? turn > 0.0 : turn < 0.0) visit(ray->obstacle, leftward ? 1 : -1);
+      if (const int sign = crossing(ray->foot, p, q); sign != 0) visit(ray->obstacle, sign);
     }
+  }
+
+  /// The sign with which the straight way from p to q crosses the cut of an obstacle at `foot`; 0
+  /// where it does not.
+  static int crossing(const Point& foot, const Point& p, const Point& q) {
+    const bool leftward = q.x() < p.x();
+    // Half-open, so that a corner on a cut counts for one of its two neighbours.
+    if (!(leftward ? q.x() < foot.x() && foot.x() <= p.x() : p.x() < foot.x() && foot.x() <= q.x()))
+      return 0;
+    const Point along = q - p;
+    const Point to_foot = foot - p;
+    const double turn = along.x() * to_foot.y() - along.y() * to_foot.x();
+    if (leftward) return turn > 0.0 ? 1 : 0;
+    return turn < 0.0 ? -1 : 0;
   }
 
  private:

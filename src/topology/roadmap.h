@@ -27,8 +27,8 @@ struct Roadmap {
   static constexpr int kGoal = 1;
 
   std::vector<Node> nodes;  ///< the first two are start and goal
-  std::vector<Edge>
-      edges;  ///< two nodes may share several; undirected, but in time from first to last
+  /// Two nodes may share several. Undirected, except in a space with an order, such as time.
+  std::vector<Edge> edges;
 };
 
 }  // namespace mocha

@@ -22,11 +22,10 @@ constexpr int entries_each() {
 /// The crossings of a relative path with the cut of an obstacle at the origin.
 template <typename Place, typename Visit>
 void cross_origin(const Place& from, const Place& to, int first_entry, const Visit& visit) {
-  static const Cuts<2> kOrigin({Eigen::Vector2d::Zero()});
   for (int i = 0; i < entries_each<Place::RowsAtCompileTime>(); ++i) {
     const auto [a, b] = kProjectionPlanes[i];
-    kOrigin.cross({from[a], from[b]}, {to[a], to[b]},
-                  [&](int, int sign) { visit(first_entry + i, sign); });
+    const int sign = Cuts<2>::crossing({0.0, 0.0}, {from[a], from[b]}, {to[a], to[b]});
+    if (sign != 0) visit(first_entry + i, sign);
   }
 }
 
@@ -166,6 +165,7 @@ std::optional<double> SpaceTime<D>::clearance_m(const Point& p, const Point& q) 
   const double to_s = since_start_s(q);
   double least_m = std::numeric_limits<double>::infinity();
   for (const TubePiece<D>& piece : threats_) {
+    if (piece.end_s < from_s || piece.start_s > to_s) continue;
     const double gap_m = least_gap_m<D>(piece, from, from_s, to, to_s);
     if (!(gap_m >= 0.0)) return std::nullopt;
     least_m = std::min(least_m, gap_m);
