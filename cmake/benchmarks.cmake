@@ -12,6 +12,9 @@ endforeach()
 mocha_benchmark(classes)
 target_link_libraries(benchmark_classes mocha_perception)
 
+mocha_benchmark(tracks)
+target_link_libraries(benchmark_tracks mocha_ros)
+
 # Table II has planners of OMPL beside ours.
 find_package(ompl QUIET)
 if(ompl_FOUND)

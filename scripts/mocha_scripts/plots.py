@@ -1,5 +1,5 @@
 """Draws a recorded drive (map with trajectories, speed, acceleration and yaw rate against limits, clearance, separation), or the paper's
-Figs. 6 to 11 with our own data, or the ways of all classes on a map."""
+Figs. 6 to 11 with our own data, or the ways of all classes on a map, or what moves in recorded laser scans."""
 import argparse
 import os
 import sys
@@ -49,6 +49,17 @@ def add_classes(what):
     return classes
 
 
+def add_tracks(what):
+    tracks = what.add_parser("tracks", help="what moves in the laser scans of a bag",
+                             description="Runs perception's tracker over all laser scans of a bag whose lidars stand still. Writes tracks.png: "
+                             "the map, the hits on moving things, their tracks with velocities, and their speeds over time.")
+    tracks.add_argument("bag", help="bag with sensor_msgs/LaserScan")
+    tracks.add_argument("--mount", action="append", default=[], metavar="FRAME:X,Y,YAW",
+                        help="where the lidar with that frame_id is [m, rad]; give it once for each lidar (default: all at the origin)")
+    tracks.set_defaults(draw=draw_tracks)
+    return tracks
+
+
 def add_replan(what):
     replan = what.add_parser("replan", help="a drive around what moves, as in the paper's Figs. 10 and 11",
                              description="Drives one scene of scripts/bench replan in closed loop. Writes replan.png: the plan, the drive and "
@@ -79,6 +90,11 @@ def draw_classes(options):
     classes_plots.draw_classes(options.file, options.classes, options.drive, options.out)
 
 
+def draw_tracks(options):
+    from mocha_scripts import tracks_plots
+    tracks_plots.draw_tracks(options.bag, options.mount, options.out)
+
+
 def draw_replan(options):
     from mocha_scripts import replan_plots
     replan_plots.draw_replan(options.scene, options.out)
@@ -87,7 +103,7 @@ def draw_replan(options):
 def main(arguments):
     parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
     what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
-    for plots in (add_drive(what), add_table1(what), add_table2(what), add_classes(what), add_replan(what)):
+    for plots in (add_drive(what), add_table1(what), add_table2(what), add_classes(what), add_tracks(what), add_replan(what)):
         plots.add_argument("--out", default=".", metavar="DIR", help="PNG files go there (default: here)")
     options = parser.parse_args(arguments)
     os.makedirs(options.out, exist_ok=True)

@@ -15,6 +15,7 @@
 #include "ros/parameters.h"
 #include "ros/peer_source.h"
 #include "ros/pose_source.h"
+#include "ros/prediction_source.h"
 #include "ros/robot_identity.h"
 #include "ros/run_node.h"
 #include "ros/status_conversions.h"
@@ -41,6 +42,7 @@ LocalReplannerRules replanner_rules(const ParameterTable& values, const RobotMod
   // The tracker brakes at e_track; a little later the promise itself is given up.
   rules.max_error_m = 1.5 * robot.margins.tracking_m;
   rules.max_error_rad = values.number("max_heading_error");
+  rules.mu_pre_s = values.number("trigger_horizon");
   return rules;
 }
 
@@ -53,10 +55,13 @@ class LocalReplannerNode {
         lease_(values.number("lease")),
         max_map_age_s_(values.number("max_map_age")),
         max_fleet_age_s_(values.number("max_fleet_age")),
-        replanner_(model_, replanner_rules(values, model_)),
+        max_prediction_age_s_(values.number("max_prediction_age")),
+        prediction_horizon_(values.number("prediction_horizon")),
+        replanner_(model_, replanner_rules(values, model_), LocalRules::from(values)),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
+        predictions_(node, identity_.map_frame, values.number("confidence")),
         proposals_(node.advertise<mocha_ugv::Trajectory>("proposed_trajectory", 10)),
         leases_(node.advertise<mocha_ugv::Lease>("lease", 10)),
         requests_(node.advertise<mocha_ugv::PlannerStatus>("replan_request", 10)),
@@ -114,6 +119,8 @@ class LocalReplannerNode {
     scene.obstacles = map_.field(DistanceField::Solid::kOccupied, {here}, kMapBorder_m);
     scene.unseen = map_.field(DistanceField::Solid::kOccupiedOrUnknown, {here}, kMapBorder_m);
     scene.others = peers_.obstacles();
+    scene.moving = predictions_.obstacles();
+    scene.predicted_until_s = (now + prediction_horizon_).toSec();
     const auto output = replanner_.step(now.toSec(), *reading.state, scene);
     if (output.proposal) propose(now, *output.proposal);
     if (output.renew_lease) renew(now);
@@ -139,6 +146,11 @@ class LocalReplannerNode {
       return {PlanReason::kBraking, "fleet: no word from trajectory_broadcaster on " +
                                         ros::names::resolve("fleet/trajectories") +
                                         " for more than " + seconds(max_fleet_age_s_)};
+    }
+    if (predictions_.age_s(now) > max_prediction_age_s_) {
+      return {PlanReason::kBraking, "people: no usable word from perception on " +
+                                        ros::names::resolve("predicted_obstacles") +
+                                        " for more than " + seconds(max_prediction_age_s_)};
     }
     return {PlanReason::kSolved, ""};
   }
@@ -187,8 +199,8 @@ class LocalReplannerNode {
     status.add("committed sequence", committed_sequence_);
     status.add("proposals refused", refused_proposals_);
     status.add("last refusal", last_refusal_);
-    status.add("messages refused",
-               refused_messages_ + map_.refused() + peers_.refused() + pose_.refused());
+    status.add("messages refused", refused_messages_ + map_.refused() + peers_.refused() +
+                                       pose_.refused() + predictions_.refused());
     for (const auto& [name, value] : MarginBudget::of(model_).listed()) status.add(name, value);
   }
 
@@ -197,10 +209,13 @@ class LocalReplannerNode {
   const ros::Duration lease_;
   const double max_map_age_s_;
   const double max_fleet_age_s_;
+  const double max_prediction_age_s_;
+  const ros::Duration prediction_horizon_;
   LocalReplanner replanner_;
   PoseSource pose_;
   MapSource map_;
   PeerSource peers_;
+  PredictionSource predictions_;
   ros::Publisher proposals_;
   ros::Publisher leases_;
   ros::Publisher requests_;

@@ -1,6 +1,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <mocha_ugv/FleetTrajectories.h>
 #include <mocha_ugv/LoadMap.h>
+#include <mocha_ugv/PredictedObstacles.h>
 #include <mocha_ugv/SaveMap.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <ros/ros.h>
@@ -19,10 +20,12 @@
 #include "perception/peer_tracks.h"
 #include "perception/planar_scan.h"
 #include "perception/point_cloud.h"
+#include "perception/scan_sorter.h"
 #include "ros/conversions.h"
 #include "ros/live_parameters.h"
 #include "ros/map_conversions.h"
 #include "ros/parameters.h"
+#include "ros/prediction_conversions.h"
 #include "ros/robot_identity.h"
 #include "ros/run_node.h"
 #include "ros/scan_queue.h"
@@ -59,11 +62,13 @@ class PerceptionNode {
         robot_(robot_identity()),
         map_(map_options(values)),
         peers_(values.number("peer_margin"), values.number("peer_timeout")),
+        sorter_(ScanSorterOptions::from(values)),
         timeout_s_(values.number("scan_timeout")),
         queue_(robot_.map_frame, values.number("integration_rate"), timeout_s_),
         listener_(transforms_),
         maps_(node.advertise<nav_msgs::OccupancyGrid>("map", 1, true)),
         cells_(node.advertise<sensor_msgs::PointCloud2>("occupied_cells", 1)),
+        moving_(node.advertise<mocha_ugv::PredictedObstacles>("predicted_obstacles", 5)),
         scans_(node.subscribe("scan", 20, &PerceptionNode::on_scan, this)),
         points_(node.subscribe("points", 5, &PerceptionNode::on_points, this)),
         fleet_(node.subscribe("fleet/trajectories", 10, &PerceptionNode::on_fleet, this)),
@@ -78,6 +83,7 @@ class PerceptionNode {
     diagnostics_.setHardwareID(robot_.name);
     diagnostics_.add("sensors", this, &PerceptionNode::diagnose_sensors);
     diagnostics_.add("map", this, &PerceptionNode::diagnose_map);
+    diagnostics_.add("moving things", this, &PerceptionNode::diagnose_moving);
   }
 
  private:
@@ -127,6 +133,7 @@ class PerceptionNode {
   void forget_time() {
     transforms_.clear();
     queue_.clear();
+    sorter_.clear();
     started_ = integrated_ = stamp_ = published_ = cells_published_ = ros::Time();
   }
 
@@ -137,7 +144,9 @@ class PerceptionNode {
         auto beams = to_beams(*scan, measurement.poses,
                               {values_.number("max_range"), values_.number("max_clearing_range")});
         peers_.ignore_peers(beams);
+        sorter_.sort(beams, map_);
         map_.insert_scan(beams);
+        publish_moving();
       } else {
         auto beams = to_beams(std::get<1>(measurement.data), measurement.poses.first,
                               measurement.first.toSec(), values_.number("max_points_range"),
@@ -191,6 +200,11 @@ class PerceptionNode {
     return slice;
   }
 
+  /// At every scan, though nothing moves: their age tells that they can be relied on.
+  void publish_moving() {
+    moving_.publish(to_message(sorter_.moving(), robot_.map_frame, ros::Time(sorter_.time_s())));
+  }
+
   void publish_cells() {
     if (cells_.getNumSubscribers() == 0 ||
         (now_ - cells_published_).toSec() < 1.0 / values_.number("cells_rate"))
@@ -208,11 +222,17 @@ class PerceptionNode {
   }
 
   bool on_load(mocha_ugv::LoadMap::Request& request, mocha_ugv::LoadMap::Response& response) {
-    return answer(response, "loaded " + request.path, [&] { map_.load(request.path); });
+    return answer(response, "loaded " + request.path, [&] {
+      map_.load(request.path);
+      sorter_.clear();
+    });
   }
 
   bool on_clear(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-    return answer(response, "cleared", [&] { map_.clear(); });
+    return answer(response, "cleared", [&] {
+      map_.clear();
+      sorter_.clear();
+    });
   }
 
   template <class Response, class Work>
@@ -261,11 +281,20 @@ class PerceptionNode {
     status.add("team-mates known", peers_.at(now_.toSec()).size());
   }
 
+  void diagnose_moving(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    const std::size_t tracks = sorter_.moving().size();
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK,
+                   tracks == 0 ? "nothing moves" : "tracked");
+    status.add("tracks", tracks);
+    status.add("hits of the newest scan on moving things", sorter_.moving_hits());
+  }
+
   ParameterTable values_;
   const RobotIdentity robot_;
   OccupancyMap map_;
   std::vector<Polygon> keep_out_;
   PeerTracks peers_;
+  ScanSorter sorter_;
   const double timeout_s_;
 
   ScanQueue queue_;
@@ -286,6 +315,7 @@ class PerceptionNode {
   diagnostic_updater::Updater diagnostics_;
   ros::Publisher maps_;
   ros::Publisher cells_;
+  ros::Publisher moving_;
   ros::Subscriber scans_;
   ros::Subscriber points_;
   ros::Subscriber fleet_;

@@ -21,4 +21,11 @@ struct Beam {
   double time_s;  ///< when it was measured
 };
 
+/// False for coordinates that are not finite, or so large that indices of cells would overflow.
+inline bool is_usable(const Beam& beam) {
+  constexpr double kFarthest_m = 1e5;
+  return (beam.origin.array().abs() < kFarthest_m).all() &&
+         (beam.end.array().abs() < kFarthest_m).all();
+}
+
 }  // namespace mocha

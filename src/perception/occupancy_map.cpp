@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "perception/cell_disc.h"
 #include "perception/column_grid.h"
 #include "perception/grid_beam.h"
 #include "perception/map_image.h"
@@ -51,12 +52,6 @@ ColumnGrid columns_of(const OccupancyMapOptions& o) {
   return ColumnGrid(o.resolution_m, std::min(first, scan), std::max(last, scan));
 }
 
-bool is_usable(const Beam& beam) {
-  constexpr double kFarthest_m = 1e5;  // beyond, cell indices would overflow
-  return (beam.origin.array().abs() < kFarthest_m).all() &&
-         (beam.end.array().abs() < kFarthest_m).all();
-}
-
 /// What `read` throws then names the file.
 template <class Read>
 void name_file(const std::string& path, Read read) {
@@ -66,35 +61,6 @@ void name_file(const std::string& path, Read read) {
     throw MapError(path + ": " + error.what());
   }
 }
-
-/// The cells that a disc may touch, in cell indices.
-struct CellDisc {
-  CellDisc(const Vector2& centre_m, double radius_m, double resolution_m)
-      : centre(centre_m / resolution_m), radius(radius_m / resolution_m) {}
-
-  VoxelIndex low() const {
-    return {static_cast<int>(std::floor(centre.x() - radius)),
-            static_cast<int>(std::floor(centre.y() - radius)), 0};
-  }
-  VoxelIndex high() const {
-    return {static_cast<int>(std::floor(centre.x() + radius)),
-            static_cast<int>(std::floor(centre.y() + radius)), 0};
-  }
-
-  /// Calls visit(x, y) for the cells with centres in the disc.
-  template <class Visit>
-  void for_each(Visit visit) const {
-    const VoxelIndex last = high();
-    for (int y = low()[1]; y <= last[1]; ++y) {
-      for (int x = low()[0]; x <= last[0]; ++x) {
-        if ((Vector2(x + 0.5, y + 0.5) - centre).norm() <= radius) visit(x, y);
-      }
-    }
-  }
-
-  Vector2 centre;
-  double radius;
-};
 
 }  // namespace
 
@@ -245,6 +211,21 @@ void OccupancyMap::clear_disc(const Vector2& centre, double radius_m) {
 
 OccupancyGrid OccupancyMap::slice(double border_m) const {
   return voxels_->columns.slice(static_cast<int>(std::ceil(border_m / options_.resolution_m)));
+}
+
+bool OccupancyMap::is_surely_free(const Vector2& point) const {
+  const VoxelIndex voxel{layer_of(point.x(), options_.resolution_m),
+                         layer_of(point.y(), options_.resolution_m), voxels_->scan_layer};
+  return voxels_->columns.at(voxel) == VoxelState::kFreeSure;
+}
+
+bool OccupancyMap::is_occupied_within(const Vector2& centre, double radius_m, bool surely) const {
+  bool found = false;
+  CellDisc(centre, radius_m, options_.resolution_m).for_each([&](int x, int y) {
+    const VoxelState state = voxels_->columns.at({x, y, voxels_->scan_layer});
+    found = found || (surely ? state == VoxelState::kOccupiedSure : is_occupied(state));
+  });
+  return found;
 }
 
 std::uint64_t OccupancyMap::version() const { return version_before_ + voxels_->columns.version(); }

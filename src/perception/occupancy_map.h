@@ -54,6 +54,14 @@ class OccupancyMap {
   /// become free.
   void clear_disc(const Vector2& centre, double radius_m);
 
+  /// Whether so many planar scans have passed the point's cell that one more changes nothing. The
+  /// point must be usable, see is_usable().
+  bool is_surely_free(const Vector2& point) const;
+
+  /// Whether a cell of the planar scans with its centre within the disc is occupied; `surely`: was
+  /// hit so often that one more hit changes nothing.
+  bool is_occupied_within(const Vector2& centre, double radius_m, bool surely) const;
+
   /// The planar slice: occupied if any voxel of the height band is, free if none is and any is
   /// free. Its known part, with a border of unknown cells [m] around it.
   OccupancyGrid slice(double border_m) const;

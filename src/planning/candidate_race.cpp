@@ -1,12 +1,10 @@
 #include "planning/candidate_race.h"
 
-#include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <limits>
+
+#include "planning/parallel.h"
 
 namespace mocha {
 namespace {
@@ -34,7 +32,6 @@ std::vector<PlanCandidate> race(const CandidatePlanner& planner, const PlanQuery
   const std::size_t count = approaches.list.size();
   std::vector<PlanCandidate> candidates(count);
   CostToBeat to_beat;
-  std::atomic<std::size_t> next{0};
   const auto run = [&](std::size_t i) {
     const Approach& approach = approaches.list[i];
     const bool driven = approach.signature == approaches.driven;
@@ -55,27 +52,9 @@ std::vector<PlanCandidate> race(const CandidatePlanner& planner, const PlanQuery
     if (candidate.reason == PlanReason::kSolved)
       to_beat.lower_to(driven ? (1.0 - rules.switch_margin) * candidate.cost : candidate.cost);
   };
-  const int cores = tbb::info::default_concurrency();
-  tbb::task_arena arena(rules.threads > 0 ? std::min(rules.threads, cores) : cores);
-  arena.execute([&] {
-    // One at a time each, cheapest way first, so that what is to beat is known early.
-    tbb::parallel_for(
-        std::size_t{0}, count, [&](std::size_t) { run(next++); }, tbb::simple_partitioner());
-  });
+  // Cheapest way first, so that what is to beat is known early.
+  in_parallel(count, rules.threads, run);
   return candidates;
-}
-
-int winner(const std::vector<PlanCandidate>& candidates, double switch_margin) {
-  int best = -1;
-  int driven = -1;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (candidates[i].reason != PlanReason::kSolved) continue;
-    if (best < 0 || candidates[i].cost < candidates[best].cost) best = static_cast<int>(i);
-    if (candidates[i].driven) driven = static_cast<int>(i);
-  }
-  const bool stays =
-      driven >= 0 && candidates[best].cost >= (1.0 - switch_margin) * candidates[driven].cost;
-  return stays ? driven : best;
 }
 
 }  // namespace mocha

@@ -21,6 +21,18 @@ std::vector<PlanCandidate> race(const CandidatePlanner& planner, const PlanQuery
 
 /// Index of the one to be driven: the cheapest certified one, but that of the class that is being
 /// driven if no other is cheaper by the share `switch_margin` of its cost. -1 if none is certified.
-int winner(const std::vector<PlanCandidate>& candidates, double switch_margin);
+template <typename Candidate>
+int winner(const std::vector<Candidate>& candidates, double switch_margin) {
+  int best = -1;
+  int driven = -1;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].reason != PlanReason::kSolved) continue;
+    if (best < 0 || candidates[i].cost < candidates[best].cost) best = static_cast<int>(i);
+    if (candidates[i].driven) driven = static_cast<int>(i);
+  }
+  const bool stays =
+      driven >= 0 && candidates[best].cost >= (1.0 - switch_margin) * candidates[driven].cost;
+  return stays ? driven : best;
+}
 
 }  // namespace mocha

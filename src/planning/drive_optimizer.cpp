@@ -10,7 +10,6 @@
 #include "optimization/obstacle_penalty.h"
 #include "optimization/turning_penalty.h"
 #include "optimization/wheel_penalty.h"
-#include "trajectory/timed_path.h"
 
 namespace mocha {
 namespace {
@@ -64,14 +63,18 @@ void undo(const Effort& effort, OptimizedTrajectory<2, 3>& found) {
 
 /// Knots at even times of a path whose times are given.
 InitialKnots<2> even_knots(const DriveQuery& query, int pieces) {
-  TimedPath timed;
-  for (std::size_t i = 0; i < query.path.size(); ++i)
-    timed.push_back({query.path[i], query.times_s[i]});
   const double whole_s = query.times_s.back();
   InitialKnots<2> knots;
   knots.path.resize(2, pieces + 1);
   knots.durations_s.setConstant(pieces, whole_s / pieces);
-  for (int k = 0; k <= pieces; ++k) knots.path.col(k) = position_at(timed, whole_s * k / pieces);
+  std::size_t i = 1;
+  for (int k = 0; k <= pieces; ++k) {
+    const double t = whole_s * k / pieces;
+    while (i + 1 < query.path.size() && query.times_s[i] < t) ++i;
+    const double span_s = query.times_s[i] - query.times_s[i - 1];
+    const double share = span_s > 0.0 ? std::min(1.0, (t - query.times_s[i - 1]) / span_s) : 1.0;
+    knots.path.col(k) = query.path[i - 1] + share * (query.path[i] - query.path[i - 1]);
+  }
   return knots;
 }
 

@@ -12,7 +12,6 @@ DriveRules DriveRules::from(const ParameterTable& values) {
   rules.weight_moving = values.number("weight_moving");
   rules.samples_per_piece = values.integer("samples_per_piece");
   rules.knot_spacing_m = values.number("knot_spacing");
-  rules.open_knot_spacing_m = values.number("open_knot_spacing");
   rules.knot_travel_m = values.number("knot_travel");
   rules.soft_margin_m = values.number("soft_margin");
   rules.moving_soft_margin_m = values.number("moving_soft_margin");

@@ -14,8 +14,9 @@ struct DriveRules {
   double weight_turning;
   double weight_moving;
   int samples_per_piece;
-  double knot_spacing_m;
-  double open_knot_spacing_m;
+  double knot_spacing_m;  ///< of knots at full speed
+  /// The same where there is plenty of room, on paths without times.
+  double open_knot_spacing_m = 0.0;
   double knot_travel_m;
   double soft_margin_m;
   double moving_soft_margin_m;

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <sstream>
 #include <utility>
 
+#include "planning/conflict.h"
+#include "topology/map_terrain.h"
 #include "trajectory/stopping.h"
 
 namespace mocha {
@@ -16,11 +19,23 @@ constexpr double kStandPhase_s = 0.1;
 constexpr double kJoinTolerance_m = 0.01;
 constexpr double kJoinTolerance_rad = 0.03;
 constexpr double kJoinTolerance_mps = 0.03;
+constexpr double kSamePlace_m = 0.5;      // of two plans' ends
+constexpr double kOffPlan_m = 0.5;        // farther from the plan, it is not come back to
+constexpr double kAgain_s = 0.19;         // between two local plans
+constexpr double kShareOfTrigger = 0.75;  // of the clearance to what moves, below which (37) is met
 constexpr double kWorthwhile_s =
     0.15;  // a promise that reaches less farther is not worth a message
 
 Motion standing(double now_s, const Pose& pose) {
   return Motion(now_s, {StandPhase{pose, kStandPhase_s}});
+}
+
+/// The phases of a motion between two times; where it has ended before, it stands.
+std::vector<Phase> phases_until(const Motion& motion, double begin_s, double end_s) {
+  std::vector<Phase> phases = motion.phases_between(begin_s, end_s);
+  const double stands_from = std::max(begin_s, motion.end_time());
+  if (stands_from < end_s) phases.emplace_back(StandPhase{motion.end_pose(), end_s - stands_from});
+  return phases;
 }
 
 bool agree(const MotionState& a, const MotionState& b) {
@@ -31,13 +46,14 @@ bool agree(const MotionState& a, const MotionState& b) {
 
 }  // namespace
 
-LocalReplanner::LocalReplanner(const RobotModel& robot, const LocalReplannerRules& rules)
-    : builder_(robot), rules_(rules) {}
+LocalReplanner::LocalReplanner(const RobotModel& robot, const LocalReplannerRules& rules,
+                               const LocalRules& local_rules)
+    : own_radius_m_(robot.footprint.circumscribed_radius_m()),
+      builder_(robot),
+      planner_(robot, local_rules),
+      rules_(rules) {}
 
-void LocalReplanner::set_plan(Motion plan) {
-  plan_ = std::move(plan);
-  ++plan_id_;
-}
+void LocalReplanner::set_plan(Motion plan) { offered_ = std::move(plan); }
 
 void LocalReplanner::set_committed(std::uint32_t sequence, Motion motion) {
   committed_ = std::move(motion);
@@ -58,6 +74,7 @@ void LocalReplanner::propose(double now_s, Motion motion, bool emergency, Source
   ++sequence_;
   proposed_[sequence_] = source;
   pending_until_s_ = now_s + rules_.answer_timeout_s;
+  pending_ = motion;
   pending_brake_ = false;
   output.proposal = ProposedMotion{sequence_, std::move(motion), emergency};
 }
@@ -68,24 +85,54 @@ LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& stat
   // What was measured is a little old, and a fast robot is somewhere else by now.
   const RobotState measured{now_s, predict(state, now_s), state.twist};
   const bool pending = now_s < pending_until_s_;
-  const bool braking = pending && pending_brake_;
+  take_offer(now_s, scene, output);
   if (committed_.empty()) {
     if (!pending) start(now_s, measured, output);
     return output;
   }
   if (off_track(now_s, measured)) {
-    if (!braking) stop_here(now_s, measured, output);
+    if (!(pending && pending_brake_)) stop_here(now_s, measured, output);
     return output;
   }
   const Violation violation = builder_.certify_in_force(committed_, scene, now_s);
   output.renew_lease = !violation;
   const bool stands = committed_.end_time() <= now_s;
+  if ((violation && !stands) || conflict(plan_, now_s, scene)) {
+    if (waits_for_answer(now_s, scene) || swerve(now_s, scene, output)) return output;
+  }
   if (violation && !stands) {
-    if (!braking) shorten(now_s, violation, scene, output);
+    shorten(now_s, violation, scene, output);
   } else if (!pending && !plan_.empty()) {
     extend(now_s, scene, output);
   }
   return output;
+}
+
+void LocalReplanner::take_offer(double now_s, const PromiseScene& scene, Output& output) {
+  if (!offered_) return;
+  const bool to_the_same_place =
+      !plan_.empty() && !offered_->empty() &&
+      (plan_.end_pose().position - offered_->end_pose().position).norm() < kSamePlace_m;
+  output.keeps_plan = to_the_same_place && follows_plan_at(now_s) &&
+                      !conflict(plan_, now_s, scene) && conflict(*offered_, now_s, scene);
+  if (!output.keeps_plan) {
+    plan_ = std::move(*offered_);
+    ++plan_id_;
+  }
+  offered_.reset();
+}
+
+Violation LocalReplanner::conflict(const Motion& plan, double now_s,
+                                   const PromiseScene& scene) const {
+  if (plan.empty()) return {};
+  return conflict_of(plan, builder_.kept_from(scene, now_s, kShareOfTrigger), own_radius_m_, now_s,
+                     rules_.mu_pre_s);
+}
+
+bool LocalReplanner::waits_for_answer(double now_s, const PromiseScene& scene) const {
+  if (now_s >= pending_until_s_) return false;
+  return pending_brake_ ||
+         (!builder_.certify_in_force(pending_, scene, now_s) && !conflict(plan_, now_s, scene));
 }
 
 void LocalReplanner::start(double now_s, const RobotState& measured, Output& output) {
@@ -147,11 +194,69 @@ void LocalReplanner::shorten(double now_s, const Violation& violation, const Pro
     output.message += "; brakes in time";
     return;
   }
-  output.message += "; no certified stop exists, brakes at once all the same";
-  propose(now_s,
-          with_brake(committed_, committed_.cut_time(now_s), soonest, builder_.deceleration()),
-          true, {}, output);
+  const Motion hard =
+      with_brake(committed_, committed_.cut_time(now_s), soonest, builder_.hard_deceleration());
+  if (!builder_.certify_in_force(hard, scene, now_s)) {
+    propose(now_s, hard, true, {}, output);
+    pending_brake_ = true;
+    output.message += "; brakes hard";
+    return;
+  }
+  do_the_least_bad(now_s, scene, output);
+}
+
+void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, Output& output) {
+  ++least_bad_;
+  const auto things = builder_.kept_from(scene, now_s, 1.0);
+  const double until_s = now_s + rules_.mu_pre_s;
+  const Motion stop =
+      with_brake(committed_, committed_.cut_time(now_s),
+                 committed_.switch_time(now_s + rules_.emergency_s), builder_.hard_deceleration());
+  const bool wall = output.violation.term != ViolatedTerm::kSeparation;
+  if (!wall && least_room_m(committed_, things, now_s, until_s) >
+                   least_room_m(stop, things, now_s, until_s)) {
+    output.renew_lease = true;
+    output.message += "; NO CERTIFIED MOTION EXISTS: goes on, which keeps more room than braking";
+    return;
+  }
+  output.message += "; NO CERTIFIED MOTION EXISTS: brakes at once all the same";
+  propose(now_s, stop, true, {}, output);
   pending_brake_ = true;
+}
+
+std::optional<double> LocalReplanner::progress_at(double join_s) const {
+  if (follows_plan_at(join_s)) return join_s;
+  return progress_on(plan_, committed_.at(join_s).pose.position, plan_.start_time(), kOffPlan_m);
+}
+
+bool LocalReplanner::swerve(double now_s, const PromiseScene& scene, Output& output) {
+  if (plan_.empty() || now_s < swerved_s_ + kAgain_s) return false;
+  const double join_s = committed_.switch_time(now_s + rules_.settle_s);
+  const auto progress_s = progress_at(join_s);
+  if (!progress_s) return false;
+  swerved_s_ = now_s;
+  const LocalQuery query{committed_, join_s, plan_, *progress_s,
+                         follows_plan_at(join_s) ? plan_ : Motion()};
+  const LocalScene around{std::make_shared<MapTerrain>(scene.obstacles),
+                          builder_.kept_from(scene, now_s, 1.0)};
+  output.local = planner_.plan(query, around);
+  const LocalPlan& local = *output.local;
+  if (local.reason != PlanReason::kSolved) return false;
+  const double begin_s = std::max(committed_.cut_time(now_s), committed_.start_time());
+  std::vector<Phase> phases = phases_until(committed_, begin_s, join_s);
+  for (const Phase& phase : local.motion.phases()) phases.push_back(phase);
+  const Motion onward(begin_s, std::move(phases));
+  const auto promise = builder_.longest(onward, scene, now_s, join_s, now_s + rules_.horizon_s);
+  if (!promise || promise->follows_until_s < join_s + kWorthwhile_s) return false;
+  plan_ = local.motion;
+  ++plan_id_;
+  propose(now_s, remainder(promise->motion, join_s), false, {plan_id_, promise->follows_until_s},
+          output);
+  output.message = "swerves";
+  if (local.late || local.beyond)
+    ask_for_plan(local.beyond, local.late ? "the swerve takes long" : describe(local.beyond),
+                 output);
+  return true;
 }
 
 std::optional<Motion> LocalReplanner::joined(double now_s, double& join_s) const {
@@ -160,10 +265,7 @@ std::optional<Motion> LocalReplanner::joined(double now_s, double& join_s) const
       committed_source_.plan == plan_id_ && committed_source_.follows_until_s >= join_s;
   if (!same_plan && !agree(committed_.at(join_s), plan_.at(join_s))) return std::nullopt;
   const double begin_s = std::max(committed_.cut_time(now_s), committed_.start_time());
-  std::vector<Phase> phases = committed_.phases_between(begin_s, join_s);
-  const double stands_from = std::max(begin_s, committed_.end_time());
-  if (stands_from < join_s)
-    phases.emplace_back(StandPhase{committed_.end_pose(), join_s - stands_from});
+  std::vector<Phase> phases = phases_until(committed_, begin_s, join_s);
   for (Phase& phase : plan_.phases_between(join_s, plan_.end_time()))
     phases.push_back(std::move(phase));
   return Motion(begin_s, std::move(phases));
@@ -195,6 +297,7 @@ void LocalReplanner::extend(double now_s, const PromiseScene& scene, Output& out
     // The ends agree by tolerance but not closely enough for one motion: the same as not agreeing.
   }
   if (!onward) {
+    if (swerve(now_s, scene, output)) return;
     ask_for_plan({}, "the plan does not join the promised motion any more", output);
     return;
   }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "control/robot_state.h"
-#include "planning/plan_result.h"
+#include "planning/local_planner.h"
 #include "planning/promise_builder.h"
 
 namespace mocha {
@@ -20,6 +20,7 @@ struct LocalReplannerRules {
   double answer_timeout_s;  ///< a proposal without answer is given up after this time
   double max_error_m;       ///< actual against promised position
   double max_error_rad;     ///< the same for the heading
+  double mu_pre_s;          ///< (37): so far ahead the plan is held against what moves
 };
 
 /// A motion to take over from the one in force at its start time once it is settled with the peers,
@@ -31,7 +32,9 @@ struct ProposedMotion {
 };
 
 /// Turns plans into promises: proposes certified motions that follow the newest plan, keeps the
-/// promise in force under proof, and brakes when the proof fails. Pure decisions: time and
+/// promise in force under proof, and where the plan or the promise meets something that moves,
+/// swerves around it and comes back (V). Where no swerve can be proved it brakes in time; where no
+/// stop can be proved either, it does what keeps the most room. Pure decisions: time and
 /// measurements come in, proposals go out.
 class LocalReplanner {
  public:
@@ -42,11 +45,16 @@ class LocalReplanner {
     PlanReason reason = PlanReason::kSolved;
     Violation violation;
     std::string message;
+    /// What local planning found, if there was need for it; its motion is then the plan.
+    std::optional<LocalPlan> local;
+    bool keeps_plan = false;  ///< an offered plan was no improvement
   };
 
-  LocalReplanner(const RobotModel& robot, const LocalReplannerRules& rules);
+  LocalReplanner(const RobotModel& robot, const LocalReplannerRules& rules,
+                 const LocalRules& local_rules);
 
-  /// The newest plan to the goal. An empty motion means there is none.
+  /// The newest plan to the goal. An empty motion means there is none. One that leads to where the
+  /// plan at hand leads is passed over where it meets something that moves and that one does not.
   void set_plan(Motion plan);
   /// The motion in force, as the broadcaster says. Sequences of own proposals continue after it.
   void set_committed(std::uint32_t sequence, Motion motion);
@@ -56,6 +64,10 @@ class LocalReplanner {
   Output step(double now_s, const RobotState& measured, const PromiseScene& scene);
 
   const Motion& committed() const { return committed_; }
+  /// What is being followed: the newest plan, or what local planning made of it.
+  const Motion& plan() const { return plan_; }
+  /// The promise in force cannot be proved and no other motion either.
+  int least_bad() const { return least_bad_; }
 
  private:
   /// What a promise was made from.
@@ -64,10 +76,16 @@ class LocalReplanner {
     double follows_until_s = 0.0;
   };
 
+  void take_offer(double now_s, const PromiseScene& scene, Output& output);
+  Violation conflict(const Motion& plan, double now_s, const PromiseScene& scene) const;
+  bool waits_for_answer(double now_s, const PromiseScene& scene) const;
   void start(double now_s, const RobotState& measured, Output& output);
   bool off_track(double now_s, const RobotState& measured) const;
   void stop_here(double now_s, const RobotState& measured, Output& output);
+  bool swerve(double now_s, const PromiseScene& scene, Output& output);
+  std::optional<double> progress_at(double join_s) const;
   void shorten(double now_s, const Violation& violation, const PromiseScene& scene, Output& output);
+  void do_the_least_bad(double now_s, const PromiseScene& scene, Output& output);
   void extend(double now_s, const PromiseScene& scene, Output& output);
   /// A plan from rest that came too late for its own times is as good later, while the robot stands
   /// where it begins.
@@ -76,8 +94,15 @@ class LocalReplanner {
   std::optional<Motion> joined(double now_s, double& join_s) const;
   void propose(double now_s, Motion motion, bool emergency, Source source, Output& output);
 
+  bool follows_plan_at(double t) const {
+    return committed_source_.plan == plan_id_ && committed_source_.follows_until_s >= t;
+  }
+
+  const double own_radius_m_;
   PromiseBuilder builder_;
+  LocalPlanner planner_;
   LocalReplannerRules rules_;
+  std::optional<Motion> offered_;
   Motion plan_;
   std::uint32_t plan_id_ = 0;
   Motion committed_;
@@ -85,7 +110,10 @@ class LocalReplanner {
   std::uint32_t sequence_ = 0;
   std::map<std::uint32_t, Source> proposed_;  // by sequence, until answered
   double pending_until_s_ = 0.0;
+  Motion pending_;
   bool pending_brake_ = false;  // what is pending brakes for a violation
+  double swerved_s_ = 0.0;      // when local planning was last tried
+  int least_bad_ = 0;
 };
 
 }  // namespace mocha

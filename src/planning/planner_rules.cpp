@@ -5,6 +5,7 @@ namespace mocha {
 PlannerRules PlannerRules::from(const ParameterTable& values) {
   PlannerRules rules;
   static_cast<DriveRules&>(rules) = DriveRules::from(values);
+  rules.open_knot_spacing_m = values.number("open_knot_spacing");
   rules.preferred_clearance_m = values.number("preferred_clearance");
   rules.clearance_weight = values.number("clearance_weight");
   rules.smooth_start_rad = values.number("smooth_start");

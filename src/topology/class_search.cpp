@@ -50,8 +50,36 @@ Arcs arcs_of(const Roadmap<D>& roadmap, const Cuts<D>& cuts) {
   return arcs;
 }
 
+template <int D>
+Arcs arcs_of(const Roadmap<D>& roadmap, const SampledSpace<D>& space) {
+  Arcs arcs(roadmap.nodes.size());
+  const auto add = [&](int from, int to, std::size_t edge) {
+    const auto& p = roadmap.nodes[from].position;
+    const auto& q = roadmap.nodes[to].position;
+    if (!space.in_order(p, q)) return;
+    const double length_m = roadmap.edges[edge].length_m;
+    arcs[from].push_back({to, static_cast<int>(edge), length_m, space.key(p, q)});
+  };
+  for (std::size_t i = 0; i < roadmap.edges.size(); ++i) {
+    add(roadmap.edges[i].from, roadmap.edges[i].to, i);
+    add(roadmap.edges[i].to, roadmap.edges[i].from, i);
+  }
+  return arcs;
+}
+
+/// The arcs that lead to each node; only their ends and lengths.
+Arcs reversed(const Arcs& arcs) {
+  Arcs back(arcs.size());
+  for (std::size_t from = 0; from < arcs.size(); ++from) {
+    for (const Arc& arc : arcs[from])
+      back[arc.to].push_back({static_cast<int>(from), arc.edge, arc.length_m, 0});
+  }
+  return back;
+}
+
 /// Shortest distance of every node to `goal`.
 std::vector<double> distances_to(int goal, const Arcs& arcs) {
+  const Arcs back = reversed(arcs);
   std::vector<double> distance_m(arcs.size(), kInfinity);
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
@@ -61,7 +89,7 @@ std::vector<double> distances_to(int goal, const Arcs& arcs) {
     const auto [reached_m, node] = queue.top();
     queue.pop();
     if (reached_m > distance_m[node]) continue;
-    for (const Arc& arc : arcs[node]) {
+    for (const Arc& arc : back[node]) {
       const double next_m = reached_m + arc.length_m;
       if (next_m >= distance_m[arc.to]) continue;
       distance_m[arc.to] = next_m;
@@ -159,11 +187,7 @@ ClassPath<D> trace(const Search& search, int last, const Roadmap<D>& roadmap) {
   return path;
 }
 
-}  // namespace
-
-template <int D>
-std::vector<ClassPath<D>> shortest_classes(const Roadmap<D>& roadmap, const Cuts<D>& cuts,
-                                           const ClassSearchRules& rules) {
+void check(const ClassSearchRules& rules) {
   if (rules.classes < 1) {
     throw std::invalid_argument("classes = " + std::to_string(rules.classes) + ", at least 1");
   }
@@ -171,16 +195,43 @@ std::vector<ClassPath<D>> shortest_classes(const Roadmap<D>& roadmap, const Cuts
     throw std::invalid_argument("longest_ratio = " + std::to_string(rules.longest_ratio) +
                                 ", at least 1");
   }
-  const Arcs arcs = arcs_of(roadmap, cuts);
+}
+
+/// `classes`: the cuts, or the space.
+template <int D, typename Classes>
+std::vector<ClassPath<D>> search(const Roadmap<D>& roadmap, const Classes& classes,
+                                 const ClassSearchRules& rules) {
+  check(rules);
+  const Arcs arcs = arcs_of(roadmap, classes);
   Search search(arcs, distances_to(Roadmap<D>::kGoal, arcs), rules);
   std::vector<ClassPath<D>> paths;
   for (const int last : search.run()) paths.push_back(trace(search, last, roadmap));
   return paths;
 }
 
+}  // namespace
+
+template <int D>
+std::vector<ClassPath<D>> shortest_classes(const Roadmap<D>& roadmap, const Cuts<D>& cuts,
+                                           const ClassSearchRules& rules) {
+  return search(roadmap, cuts, rules);
+}
+
+template <int D>
+std::vector<ClassPath<D>> shortest_classes(const Roadmap<D>& roadmap, const SampledSpace<D>& space,
+                                           const ClassSearchRules& rules) {
+  return search(roadmap, space, rules);
+}
+
 template std::vector<ClassPath<2>> shortest_classes(const Roadmap<2>&, const Cuts<2>&,
                                                     const ClassSearchRules&);
 template std::vector<ClassPath<3>> shortest_classes(const Roadmap<3>&, const Cuts<3>&,
+                                                    const ClassSearchRules&);
+template std::vector<ClassPath<2>> shortest_classes(const Roadmap<2>&, const SampledSpace<2>&,
+                                                    const ClassSearchRules&);
+template std::vector<ClassPath<3>> shortest_classes(const Roadmap<3>&, const SampledSpace<3>&,
+                                                    const ClassSearchRules&);
+template std::vector<ClassPath<4>> shortest_classes(const Roadmap<4>&, const SampledSpace<4>&,
                                                     const ClassSearchRules&);
 
 }  // namespace mocha

@@ -4,6 +4,7 @@
 
 #include "topology/h_signature.h"
 #include "topology/roadmap.h"
+#include "topology/sampled_space.h"
 
 namespace mocha {
 
@@ -32,9 +33,24 @@ template <int D>
 std::vector<ClassPath<D>> shortest_classes(const Roadmap<D>& roadmap, const Cuts<D>& cuts,
                                            const ClassSearchRules& rules);
 
+/// Likewise through a roadmap of straight edges, by the classes of the space in which it was
+/// sampled. Edges lead whichever way is in order.
+template <int D>
+std::vector<ClassPath<D>> shortest_classes(const Roadmap<D>& roadmap, const SampledSpace<D>& space,
+                                           const ClassSearchRules& rules);
+
 extern template std::vector<ClassPath<2>> shortest_classes(const Roadmap<2>&, const Cuts<2>&,
                                                            const ClassSearchRules&);
 extern template std::vector<ClassPath<3>> shortest_classes(const Roadmap<3>&, const Cuts<3>&,
+                                                           const ClassSearchRules&);
+extern template std::vector<ClassPath<2>> shortest_classes(const Roadmap<2>&,
+                                                           const SampledSpace<2>&,
+                                                           const ClassSearchRules&);
+extern template std::vector<ClassPath<3>> shortest_classes(const Roadmap<3>&,
+                                                           const SampledSpace<3>&,
+                                                           const ClassSearchRules&);
+extern template std::vector<ClassPath<4>> shortest_classes(const Roadmap<4>&,
+                                                           const SampledSpace<4>&,
                                                            const ClassSearchRules&);
 
 }  // namespace mocha

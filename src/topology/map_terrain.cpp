@@ -14,13 +14,33 @@ constexpr double kJitter_m = 1e-4;
 constexpr double kSlackCells = 0.5;  // of a gap: between corners, distances are interpolated
 constexpr int kNone = -1;
 
-/// Numbers the components of what a map's solid matter and the impassable gaps between it make up.
+/// Corners of a map, from the first to before the end.
+struct Window {
+  int x0, y0, x1, y1;
+
+  Window(const DistanceField& field, const Eigen::AlignedBox2d& box) {
+    const auto index = [&](double m, int axis, int corners) {
+      const double cells = (m - field.origin()[axis]) / field.resolution_m();
+      return static_cast<int>(std::clamp(cells, 0.0, static_cast<double>(corners)));
+    };
+    x0 = index(box.min().x(), 0, field.columns());
+    y0 = index(box.min().y(), 1, field.rows());
+    x1 = index(box.max().x() + 1.5 * field.resolution_m(), 0, field.columns());
+    y1 = index(box.max().y() + 1.5 * field.resolution_m(), 1, field.rows());
+  }
+};
+
+/// Numbers the components of what a map's solid matter and the impassable gaps between it make up,
+/// as far as a window shows.
 class Components {
  public:
-  Components(const DistanceField& field, double clearance_m)
-      : field_(field), clearance_m_(clearance_m), number_(field.columns() * field.rows(), kNone) {
-    for (int y = 0; y < field.rows(); ++y) {
-      for (int x = 0; x < field.columns(); ++x) {
+  Components(const DistanceField& field, const Window& window, double clearance_m)
+      : field_(field),
+        window_(window),
+        clearance_m_(clearance_m),
+        number_(static_cast<std::size_t>(window.x1 - window.x0) * (window.y1 - window.y0), kNone) {
+    for (int y = window.y0; y < window.y1; ++y) {
+      for (int x = window.x0; x < window.x1; ++x) {
         if (field.at_corner(x, y) <= 0.0 && number_[index(x, y)] == kNone) spread(x, y);
       }
     }
@@ -33,7 +53,7 @@ class Components {
 
  private:
   std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * field_.columns() + x;
+    return static_cast<std::size_t>(y - window_.y0) * (window_.x1 - window_.x0) + (x - window_.x0);
   }
 
   /// Whether a robot may come through between two neighbouring corners: no point between them is
@@ -54,8 +74,8 @@ class Components {
       const auto [cx, cy] = front_.back();
       front_.pop_back();
       if (field_.at_corner(cx, cy) <= 0.0) solid.push_back(field_.corner(cx, cy));
-      for (int ny = std::max(0, cy - 1); ny <= std::min(field_.rows() - 1, cy + 1); ++ny) {
-        for (int nx = std::max(0, cx - 1); nx <= std::min(field_.columns() - 1, cx + 1); ++nx) {
+      for (int ny = std::max(window_.y0, cy - 1); ny < std::min(window_.y1, cy + 2); ++ny) {
+        for (int nx = std::max(window_.x0, cx - 1); nx < std::min(window_.x1, cx + 2); ++nx) {
           if (number_[index(nx, ny)] != kNone || passable(cx, cy, nx, ny)) continue;
           number_[index(nx, ny)] = number;
           front_.push_back({nx, ny});
@@ -76,6 +96,7 @@ class Components {
   }
 
   const DistanceField& field_;
+  const Window window_;
   double clearance_m_;
   std::vector<int> number_;
   std::vector<std::pair<int, int>> front_;
@@ -95,20 +116,22 @@ MapTerrain::MapTerrain(std::shared_ptr<const DistanceField> field)
     : field_(std::move(field)),
       bounds_(field_->origin(), field_->corner(field_->columns() - 1, field_->rows() - 1)) {}
 
-std::vector<ObstacleGroup> MapTerrain::groups(double clearance_m) const {
+std::vector<ObstacleGroup> MapTerrain::groups_within(const Eigen::AlignedBox2d& box,
+                                                     double clearance_m) const {
   const DistanceField& field = *field_;
   const double cell_m = field.resolution_m();
-  const Components components(field, clearance_m);
+  const Window window(field, box);
+  const Components components(field, window, clearance_m);
   std::vector<ObstacleGroup> groups(components.representatives().size());
   for (std::size_t r = 0; r < groups.size(); ++r)
     groups[r].representative = components.representatives()[r];
   const int tile = std::max(1, static_cast<int>(std::lround(kTile_m / cell_m)));
   std::map<int, Eigen::AlignedBox2d> parts;  // of the tile, by component
-  for (int y = 0; y < field.rows(); y += tile) {
-    for (int x = 0; x < field.columns(); x += tile) {
+  for (int y = window.y0; y < window.y1; y += tile) {
+    for (int x = window.x0; x < window.x1; x += tile) {
       parts.clear();
-      for (int cy = y; cy < std::min(y + tile, field.rows()); ++cy) {
-        for (int cx = x; cx < std::min(x + tile, field.columns()); ++cx) {
+      for (int cy = y; cy < std::min(y + tile, window.y1); ++cy) {
+        for (int cx = x; cx < std::min(x + tile, window.x1); ++cx) {
           const double distance_m = field.at_corner(cx, cy);
           if (distance_m > 0.0 || distance_m < -kRimCells * cell_m) continue;
           parts[components.at(cx, cy)].extend(field.corner(cx, cy));

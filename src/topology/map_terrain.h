@@ -17,7 +17,8 @@ class MapTerrain : public Terrain {
   const DistanceField& field() const override { return *field_; }
   const Eigen::AlignedBox2d& bounds() const override { return bounds_; }
   double detail_m() const override { return 0.5 * field_->resolution_m(); }
-  std::vector<ObstacleGroup> groups(double clearance_m) const override;
+  std::vector<ObstacleGroup> groups_within(const Eigen::AlignedBox2d& window,
+                                           double clearance_m) const override;
 
  private:
   std::shared_ptr<const DistanceField> field_;

@@ -1,6 +1,8 @@
 #include "topology/primitive_terrain.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -69,8 +71,12 @@ PrimitiveTerrain::PrimitiveTerrain(std::shared_ptr<const PrimitiveField<2>> fiel
 
 double PrimitiveTerrain::detail_m() const { return kDetail_m; }
 
-std::vector<ObstacleGroup> PrimitiveTerrain::groups(double clearance_m) const {
-  const auto& obstacles = field_->primitives();
+std::vector<ObstacleGroup> PrimitiveTerrain::groups_within(const Eigen::AlignedBox2d& window,
+                                                           double clearance_m) const {
+  std::vector<Obstacle> obstacles;
+  std::copy_if(field_->primitives().begin(), field_->primitives().end(),
+               std::back_inserter(obstacles),
+               [&](const Obstacle& obstacle) { return extent(obstacle).intersects(window); });
   Partition partition = impassable(obstacles, clearance_m);
   std::vector<ObstacleGroup> groups;
   std::vector<std::size_t> group_of(obstacles.size());

@@ -16,7 +16,8 @@ class PrimitiveTerrain : public Terrain {
   const PrimitiveField<2>& field() const override { return *field_; }
   const Eigen::AlignedBox2d& bounds() const override { return bounds_; }
   double detail_m() const override;
-  std::vector<ObstacleGroup> groups(double clearance_m) const override;
+  std::vector<ObstacleGroup> groups_within(const Eigen::AlignedBox2d& window,
+                                           double clearance_m) const override;
 
  private:
   std::shared_ptr<const PrimitiveField<2>> field_;

@@ -27,7 +27,8 @@ struct Roadmap {
   static constexpr int kGoal = 1;
 
   std::vector<Node> nodes;  ///< the first two are start and goal
-  std::vector<Edge> edges;  ///< undirected; two nodes may share several
+  std::vector<Edge>
+      edges;  ///< two nodes may share several; undirected, but in time from first to last
 };
 
 }  // namespace mocha

@@ -20,7 +20,13 @@ class Terrain {
   virtual double detail_m() const = 0;
   /// The obstacles, for a robot whose centre keeps `clearance_m` > 0. Nowhere can it pass between
   /// two parts of one group; whether it can pass between two groups, the field says.
-  virtual std::vector<ObstacleGroup> groups(double clearance_m) const = 0;
+  std::vector<ObstacleGroup> groups(double clearance_m) const {
+    return groups_within(bounds(), clearance_m);
+  }
+  /// Likewise for who stays inside of `window`, at the cost of what is there: obstacles that only
+  /// meet outside of it are two.
+  virtual std::vector<ObstacleGroup> groups_within(const Eigen::AlignedBox2d& window,
+                                                   double clearance_m) const = 0;
 };
 
 }  // namespace mocha

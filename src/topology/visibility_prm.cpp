@@ -75,7 +75,7 @@ class Sampler {
     if (!free) return;
     const PointOf<D>& sample = *free;
     const std::vector<int> guards = guards_that_see(sample);
-    if (guards.empty()) guards_.add(std::array{sample});
+    if (!is_between(guards, sample)) return guards_.add(std::array{sample});
     for (int from : guards) {
       for (int to : guards) {
         if (from < to) connect(from, sample, to);
@@ -133,6 +133,15 @@ class Sampler {
     const auto hidden = [&](int guard) { return !see_each_other(guards_[guard], p); };
     guards.erase(std::remove_if(guards.begin(), guards.end(), hidden), guards.end());
     return guards;
+  }
+
+  /// Whether one can come to p from a guard and go on to a guard; both see p. Where there is no
+  /// order, one guard will do.
+  bool is_between(const std::vector<int>& guards, const PointOf<D>& p) const {
+    const auto before = [&](int guard) { return space_.in_order(guards_[guard], p); };
+    const auto after = [&](int guard) { return space_.in_order(p, guards_[guard]); };
+    return std::any_of(guards.begin(), guards.end(), before) &&
+           std::any_of(guards.begin(), guards.end(), after);
   }
 
   void connect(int from, const PointOf<D>& via, int to) {
@@ -208,5 +217,7 @@ template Roadmap<2> visibility_prm(const SampledSpace<2>&, const Eigen::Vector2d
                                    const Eigen::Vector2d&, const VisibilityPrmRules&);
 template Roadmap<3> visibility_prm(const SampledSpace<3>&, const Eigen::Vector3d&,
                                    const Eigen::Vector3d&, const VisibilityPrmRules&);
+template Roadmap<4> visibility_prm(const SampledSpace<4>&, const Eigen::Vector4d&,
+                                   const Eigen::Vector4d&, const VisibilityPrmRules&);
 
 }  // namespace mocha

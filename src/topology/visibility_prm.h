@@ -20,10 +20,11 @@ struct VisibilityPrmRules {
 /// Pan, Gao, Shen 2021).
 ///
 /// Where a sample is forbidden, the middle between it and a forbidden one nearby is tried instead.
-/// Start and goal are the first guards. A sample that sees no guard becomes one. Another one
-/// connects each pair of guards that it sees, if the way from guard to guard through it has a class
-/// that no connector of the two has yet, or is shorter than that connector's way. Guards and
-/// connectors are the nodes; those that see each other share an edge, straight and in order.
+/// Start and goal are the first guards. A sample that sees no guard becomes one (in time, one that
+/// sees none before it or none after it). Another one connects each pair of guards that it sees, if
+/// the way from guard to guard through it has a class that no connector of the two has yet, or is
+/// shorter than that connector's way. Guards and connectors are the nodes; those that see each
+/// other share an edge, straight and in order.
 ///
 /// Start and goal see each other however far apart. Where one must not be at the start or at the
 /// goal, that node has no edges. Throws std::invalid_argument for rules out of range.
@@ -46,5 +47,7 @@ extern template Roadmap<2> visibility_prm(const SampledSpace<2>&, const Eigen::V
                                           const Eigen::Vector2d&, const VisibilityPrmRules&);
 extern template Roadmap<3> visibility_prm(const SampledSpace<3>&, const Eigen::Vector3d&,
                                           const Eigen::Vector3d&, const VisibilityPrmRules&);
+extern template Roadmap<4> visibility_prm(const SampledSpace<4>&, const Eigen::Vector4d&,
+                                          const Eigen::Vector4d&, const VisibilityPrmRules&);
 
 }  // namespace mocha

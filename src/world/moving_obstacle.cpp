@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "trajectory/bernstein.h"
+#include "trajectory/piece_hull.h"
 
 namespace mocha {
 namespace {
@@ -22,6 +23,20 @@ double speed_bound(const PlanarPath& path) {
   return bound;
 }
 
+/// Upper bound on |acceleration| over a drive.
+double acceleration_bound(const PlanarPath& path) {
+  double bound = 0.0;
+  for (int i = 0; i < path.pieces(); ++i) {
+    const auto hull = piece_hull(path.piece(i), path.piece_duration(i));
+    bound = std::max(bound, hull.acceleration.colwise().norm().maxCoeff());
+  }
+  return bound;
+}
+
+// What Motion lets pass where phases meet, and at the end.
+constexpr double kJump_m = 1e-3;
+constexpr double kSpeedJump = 0.01;  // m/s
+
 void require(bool condition, const std::string& name, const char* what) {
   if (!condition) throw std::invalid_argument("moving obstacle " + name + ": " + what);
 }
@@ -34,9 +49,9 @@ PeerObstacle::PeerObstacle(std::string name, std::shared_ptr<const Motion> motio
   require(std::isfinite(radius_m_) && radius_m_ >= 0.0, name_,
           "the radius is not finite and >= 0 m");
   for (const Phase& phase : motion_->phases()) {
-    if (const auto* drive = std::get_if<DrivePhase>(&phase)) {
-      max_speed_ = std::max(max_speed_, speed_bound(drive->path));
-    }
+    const auto* drive = std::get_if<DrivePhase>(&phase);
+    if (drive != nullptr) max_speed_ = std::max(max_speed_, speed_bound(drive->path));
+    max_accelerations_.push_back(drive != nullptr ? acceleration_bound(drive->path) : 0.0);
   }
 }
 
@@ -47,6 +62,31 @@ MovingObstacle::Disc PeerObstacle::at(double t) const {
 
 double PeerObstacle::max_closing_speed(double t) const {
   return t >= rest_time() ? 0.0 : max_speed_;
+}
+
+/// A path with accelerations of up to a is up to a h^2 / 8 off its chord after a time h; a jump of
+/// the speed adds up to a quarter of it times h, a jump of the place all of it.
+double PeerObstacle::chord_error_m(double from_s, double until_s) const {
+  const double span_s = std::max(0.0, until_s - from_s);
+  double acceleration = 0.0;
+  double jumps_m = 0.0;
+  double speed_jumps = 0.0;
+  const auto count_joint = [&](double t, double jump_m, double speed_jump) {
+    if (!(from_s < t && t <= until_s)) return;
+    jumps_m += jump_m;
+    speed_jumps += speed_jump;
+  };
+  const double start_s = motion_->start_time();
+  count_joint(start_s, 0.0, motion_->at(start_s).velocity.norm());
+  count_joint(rest_time(), 0.0, kSpeedJump);
+  for (std::size_t i = 0; i < max_accelerations_.size(); ++i) {
+    const double begin_s = motion_->phase_start_time(static_cast<int>(i));
+    const double end_s = motion_->phase_start_time(static_cast<int>(i) + 1);
+    if (begin_s < until_s && end_s > from_s)
+      acceleration = std::max(acceleration, max_accelerations_[i]);
+    if (i > 0) count_joint(begin_s, kJump_m, kSpeedJump);
+  }
+  return 0.125 * acceleration * span_s * span_s + 0.25 * speed_jumps * span_s + jumps_m;
 }
 
 double PeerObstacle::rest_time() const { return motion_->end_time(); }
@@ -74,6 +114,9 @@ MovingObstacle::Disc PredictedDisc::at(double t) const {
 }
 
 double PredictedDisc::max_closing_speed(double) const { return velocity_.norm() + radius_rate_; }
+
+/// None: the centre moves uniformly, and the radius is convex in time.
+double PredictedDisc::chord_error_m(double, double) const { return 0.0; }
 
 double PredictedDisc::rest_time() const { return std::numeric_limits<double>::infinity(); }
 

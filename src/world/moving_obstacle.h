@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "trajectory/motion.h"
 
@@ -23,6 +24,9 @@ class MovingObstacle {
   /// Upper bounds over all times from t on: on the speed [m/s] of the centre plus the growth of the
   /// radius.
   virtual double max_closing_speed(double t) const = 0;
+  /// Upper bound on how far the disc sticks out, at any time between the two, of one that moves and
+  /// grows uniformly from at(from_s) to at(until_s) [m].
+  virtual double chord_error_m(double from_s, double until_s) const = 0;
   /// From this time on it stands still (infinity if never).
   virtual double rest_time() const = 0;
   virtual const std::string& name() const = 0;
@@ -42,6 +46,7 @@ class PeerObstacle : public MovingObstacle {
   PeerObstacle(std::string name, std::shared_ptr<const Motion> motion, double radius_m);
   Disc at(double t) const override;
   double max_closing_speed(double t) const override;
+  double chord_error_m(double from_s, double until_s) const override;
   double rest_time() const override;
   const std::string& name() const override { return name_; }
   const Motion& motion() const { return *motion_; }
@@ -51,6 +56,7 @@ class PeerObstacle : public MovingObstacle {
   std::shared_ptr<const Motion> motion_;
   double radius_m_;
   double max_speed_;
+  std::vector<double> max_accelerations_;  // of the motion's phases
 };
 
 /// A thing seen at time t0 at constant velocity, its radius growing with the uncertainty of the
@@ -63,6 +69,7 @@ class PredictedDisc : public MovingObstacle {
                 double radius_m, double radius_rate);
   Disc at(double t) const override;
   double max_closing_speed(double t) const override;
+  double chord_error_m(double from_s, double until_s) const override;
   double rest_time() const override;
   const std::string& name() const override { return name_; }
 

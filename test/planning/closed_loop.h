@@ -25,6 +25,7 @@ inline LocalReplannerRules default_replanner_rules(const RobotModel& robot) {
   rules.answer_timeout_s = 0.6;
   rules.max_error_m = 1.5 * robot.margins.tracking_m;
   rules.max_error_rad = 0.5;
+  rules.mu_pre_s = 3.0;
   return rules;
 }
 
@@ -43,7 +44,7 @@ class ClosedLoop {
         goal(goal),
         robot_(robot),
         planner_(robot, default_rules()),
-        replanner_(robot, default_replanner_rules(robot)) {
+        replanner_(robot, default_replanner_rules(robot), default_local_rules()) {
     pose_.position = start;
   }
 

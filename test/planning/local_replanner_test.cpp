@@ -22,13 +22,13 @@ class LocalReplannerTest : public ::testing::Test {
 
   void block(double from_x) {
     OccupancyGrid grid = open_;
-    fill_box(grid, {from_x, -2.0}, {from_x + 0.5, 2.0});
+    fill_box(grid, {from_x, -3.0}, {from_x + 0.5, 3.0});
     scene_ = {occupied_field(grid), unseen_field(grid), {}};
   }
 
   const RobotModel robot_ = rover();
   const LocalReplannerRules rules_ = default_replanner_rules(robot_);
-  LocalReplanner replanner_{robot_, rules_};
+  LocalReplanner replanner_{robot_, rules_, default_local_rules()};
   const OccupancyGrid open_ = free_grid({-2.0, -3.0}, {12.0, 3.0});
   PromiseScene scene_{occupied_field(open_), unseen_field(open_), {}};
   const Motion ahead_ = straight_drive(kNow_s, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5);
@@ -97,7 +97,7 @@ TEST_F(LocalReplannerTest, BrakesAllTheSameWhereNoStopIsSafe) {
   const auto output = step_on_track(now_s);
   ASSERT_TRUE(output.proposal);
   EXPECT_TRUE(output.proposal->emergency);
-  EXPECT_NE(output.message.find("no certified stop"), std::string::npos) << output.message;
+  EXPECT_NE(output.message.find("NO CERTIFIED MOTION"), std::string::npos) << output.message;
   EXPECT_LT(output.proposal->motion.end_time(), now_s + 3.0);
 }
 
@@ -106,7 +106,7 @@ TEST_F(LocalReplannerTest, AnEmergencyDoesNotWaitForAnAnswer) {
   replanner_.set_plan(ahead_);
   const double now_s = kNow_s + 2.0;
   ASSERT_TRUE(step_on_track(now_s).proposal);  // asks for a promise and waits
-  block(6.0);
+  block(4.0);
   const auto brake = step_on_track(now_s + 0.1);
   ASSERT_TRUE(brake.proposal) << "waits with braking for the answer to an older proposal";
   EXPECT_EQ(brake.reason, PlanReason::kBraking);
@@ -152,8 +152,19 @@ TEST_F(LocalReplannerTest, ProposesAPlanThatJoins) {
   EXPECT_FALSE(output.request_plan);
 }
 
-TEST_F(LocalReplannerTest, APlanThatDoesNotJoinIsAskedForAgain) {
+TEST_F(LocalReplannerTest, APlanThatIsNearIsComeBackTo) {
   replanner_.set_committed(1, standing(kNow_s - 5.0, {0.0, 0.2}, 0.0));
+  replanner_.set_plan(straight_drive(kNow_s + 0.5, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5));
+  const auto near_by = step_on_track(kNow_s);
+  ASSERT_TRUE(near_by.proposal) << near_by.message;
+  EXPECT_FALSE(near_by.request_plan);
+  const Motion& plan = replanner_.plan();
+  EXPECT_EQ(plan.at(plan.start_time()).pose.position, Vector2(0.0, 0.2));
+  EXPECT_LT((plan.end_pose().position - Vector2(8.0, 0.0)).norm(), 1e-3);
+}
+
+TEST_F(LocalReplannerTest, APlanThatDoesNotJoinIsAskedForAgain) {
+  replanner_.set_committed(1, standing(kNow_s - 5.0, {0.0, 0.8}, 0.0));
   replanner_.set_plan(straight_drive(kNow_s + 0.5, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5));
   const auto elsewhere = step_on_track(kNow_s);
   EXPECT_FALSE(elsewhere.proposal);
@@ -166,7 +177,7 @@ TEST_F(LocalReplannerTest, APlanFromRestThatCameLateIsDrivenLater) {
   replanner_.set_committed(1, standing(kNow_s - 5.0, {0.0, 0.0}, 0.0));
   for (const double late_s : {0.1, 1.0, 60.0}) {
     const Motion plan = straight_drive(kNow_s - late_s, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5);
-    LocalReplanner replanner(robot_, rules_);
+    LocalReplanner replanner(robot_, rules_, default_local_rules());
     replanner.set_committed(1, standing(kNow_s - 5.0, {0.0, 0.0}, 0.0));
     replanner.set_plan(plan);
     const auto output = replanner.step(kNow_s, {kNow_s, {{0.0, 0.0}, 0.0}, {0.0, 0.0}}, scene_);
@@ -180,13 +191,14 @@ TEST_F(LocalReplannerTest, APlanFromRestThatCameLateIsDrivenLater) {
   }
 }
 
-TEST_F(LocalReplannerTest, APlanFromElsewhereOrOnTheMoveIsNotDrivenLater) {
+TEST_F(LocalReplannerTest, FromRestItFindsIntoAPlanThatIsOnTheMove) {
   const Motion rolling = remainder(ahead_, kNow_s + 3.0);
   replanner_.set_committed(1, standing(kNow_s, rolling.at(kNow_s + 3.0).pose.position, 0.0));
   replanner_.set_plan(rolling);
-  EXPECT_FALSE(step_on_track(kNow_s + 4.0).proposal);
-  replanner_.set_plan(straight_drive(kNow_s, {0.0, 0.5}, 0.0, 8.0, 0.9, 0.5));
-  EXPECT_FALSE(step_on_track(kNow_s + 4.0).proposal);
+  const auto output = step_on_track(kNow_s + 4.0);
+  ASSERT_TRUE(output.proposal) << output.message;
+  EXPECT_TRUE(output.proposal->motion.at(kNow_s).at_rest);
+  EXPECT_FALSE(check_limits(output.proposal->motion, robot_.limits, kNow_s));
 }
 
 TEST_F(LocalReplannerTest, WhatLeadsNowhereIsNotProposed) {

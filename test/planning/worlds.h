@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/parameter_table.h"
+#include "planning/local_rules.h"
 #include "planning/planner_rules.h"
 #include "topology/grid_world.h"
 #include "trajectory/minco.h"
@@ -21,6 +22,10 @@ inline RobotModel jackal() { return load_robot_model("config", "jackal"); }
 
 inline PlannerRules default_rules() {
   return PlannerRules::from(ParameterTable::from_schema("config/global_planner.yaml"));
+}
+
+inline LocalRules default_local_rules() {
+  return LocalRules::from(ParameterTable::from_schema("config/local_replanner.yaml"));
 }
 
 inline Motion standing(double start_s, const Vector2& position, double yaw_rad) {

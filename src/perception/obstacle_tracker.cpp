@@ -1,0 +1,167 @@
+#include "perception/obstacle_tracker.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace mocha {
+namespace {
+
+constexpr double kGate = 9.21;           // chi-squared, two degrees of freedom, 99 %
+constexpr double kFirstSpeed_mps = 1.0;  // standard deviation of an unknown velocity, one axis
+constexpr double kHiddenNoise = 3.0;     // times the noise, if only a part is seen
+constexpr double kGrowth = 0.3;          // of the radius, share of the difference per sighting
+constexpr double kShrinkage = 0.05;
+constexpr int kMissingScans = 2;  // that see a known track's place free end it
+
+void require(bool holds, const std::string& name, double value, const std::string& range) {
+  if (holds) return;
+  throw std::invalid_argument("ObstacleTracker: " + name + " is " + std::to_string(value) +
+                              ", but must be " + range);
+}
+
+}  // namespace
+
+ObstacleTracker::ObstacleTracker(const TrackerOptions& options) : options_(options) {
+  const TrackerOptions& o = options_;
+  require(o.min_radius_m > 0.0, "min_radius", o.min_radius_m, "above 0 m");
+  require(o.max_radius_m >= o.min_radius_m, "max_radius", o.max_radius_m, "at least min_radius");
+  require(o.measurement_noise_m > 0.0, "measurement_noise", o.measurement_noise_m, "above 0 m");
+  require(o.acceleration_psd > 0.0, "acceleration_psd", o.acceleration_psd, "above 0 m^2/s^3");
+  require(o.birth_sightings >= 1, "birth_sightings", o.birth_sightings, "at least 1");
+  require(o.lost_time_s > 0.0, "lost_time", o.lost_time_s, "above 0 s");
+  require(o.hidden_time_s > 0.0, "hidden_time", o.hidden_time_s, "above 0 s");
+  require(o.standing_speed_mps > 0.0, "standing_speed", o.standing_speed_mps, "above 0 m/s");
+  require(o.standing_time_s > 0.0, "standing_time", o.standing_time_s, "above 0 s");
+}
+
+std::vector<bool> ObstacleTracker::update(const std::vector<DiscSighting>& sightings,
+                                          const std::vector<Beam>& beams, double time_s) {
+  const std::vector<int> partners = associate(sightings);
+  std::vector<bool> moving(sightings.size(), true);
+  std::vector<bool> taken(sightings.size(), false);
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (partners[i] < 0) {
+      miss(tracks_[i], beams, time_s);
+      continue;
+    }
+    see(tracks_[i], sightings[partners[i]]);
+    taken[partners[i]] = true;
+    moving[partners[i]] = !tracks_[i].standing;
+  }
+  for (std::size_t j = 0; j < sightings.size(); ++j) {
+    if (!taken[j] && !belongs_to_known(sightings[j])) begin(sightings[j]);
+  }
+  tracks_.erase(
+      std::remove_if(tracks_.begin(), tracks_.end(), [](const Track& t) { return t.lost; }),
+      tracks_.end());
+  return moving;
+}
+
+/// The sighting of each track, -1 for none.
+std::vector<int> ObstacleTracker::associate(const std::vector<DiscSighting>& sightings) const {
+  struct Pair {
+    double cost;  ///< minus the logarithm of the likelihood, but for a factor and a constant
+    int track;
+    int sighting;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    for (std::size_t j = 0; j < sightings.size(); ++j) {
+      ConstantVelocityFilter filter = tracks_[i].filter;
+      filter.predict(sightings[j].time_s, options_.acceleration_psd);
+      const auto mismatch =
+          filter.mismatch(sightings[j].centre(tracks_[i].radius_m), noise_of(sightings[j]));
+      if (mismatch.squared < kGate) {
+        pairs.push_back({mismatch.squared + mismatch.log_determinant, static_cast<int>(i),
+                         static_cast<int>(j)});
+      }
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(),
+            [](const Pair& a, const Pair& b) { return a.cost < b.cost; });
+  std::vector<int> partners(tracks_.size(), -1);
+  std::vector<bool> taken(sightings.size(), false);
+  for (const Pair& pair : pairs) {
+    if (partners[pair.track] >= 0 || taken[pair.sighting]) continue;
+    partners[pair.track] = pair.sighting;
+    taken[pair.sighting] = true;
+  }
+  return partners;
+}
+
+void ObstacleTracker::see(Track& track, const DiscSighting& sighting) {
+  track.filter.predict(sighting.time_s, options_.acceleration_psd);
+  track.filter.update(sighting.centre(track.radius_m), noise_of(sighting));
+  const double growth_m = clamped_radius(sighting) - track.radius_m;
+  if (growth_m > 0.0) track.radius_m += kGrowth * growth_m;
+  if (growth_m < 0.0 && !sighting.is_hidden()) track.radius_m += kShrinkage * growth_m;
+  track.seen_s = std::max(track.seen_s, sighting.time_s);
+  track.missing = 0;
+  track.hidden = false;
+  if (++track.sightings == options_.birth_sightings) track.id = ++last_id_;
+  const double leeway_m = options_.standing_speed_mps * options_.standing_time_s;
+  if ((track.filter.position() - track.anchor).norm() > leeway_m) {
+    track.anchor = track.filter.position();
+    track.anchored_s = sighting.time_s;
+  }
+  track.standing = sighting.time_s - track.anchored_s >= options_.standing_time_s;
+}
+
+void ObstacleTracker::miss(Track& track, const std::vector<Beam>& beams, double time_s) const {
+  track.filter.predict(time_s, options_.acceleration_psd);
+  const View view = view_of(beams, track.filter.position(), track.radius_m);
+  if (view == View::kFree) ++track.missing;
+  if (view != View::kUnseen) track.hidden = view == View::kHidden;
+  const bool known = track.id > 0;
+  const double patience_s = known && track.hidden ? options_.hidden_time_s : options_.lost_time_s;
+  track.lost = time_s - track.seen_s > patience_s || track.missing >= (known ? kMissingScans : 1) ||
+               (track.standing && view == View::kTaken);  // the map has it
+}
+
+/// A part of something that has another part, such as a leg.
+bool ObstacleTracker::belongs_to_known(const DiscSighting& sighting) const {
+  const Vector2 centre = sighting.centre(clamped_radius(sighting));
+  return std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& track) {
+    return track.id > 0 &&
+           (centre - track.filter.position()).norm() < track.radius_m + options_.min_radius_m;
+  });
+}
+
+void ObstacleTracker::begin(const DiscSighting& sighting) {
+  const double radius_m = clamped_radius(sighting);
+  const Vector2 centre = sighting.centre(radius_m);
+  Track track{0,
+              {sighting.time_s, centre, noise_of(sighting), kFirstSpeed_mps},
+              radius_m,
+              1,
+              sighting.time_s,
+              0,
+              false,
+              centre,
+              sighting.time_s};
+  if (options_.birth_sightings == 1) track.id = ++last_id_;
+  tracks_.push_back(track);
+}
+
+double ObstacleTracker::noise_of(const DiscSighting& sighting) const {
+  return (sighting.is_hidden() ? kHiddenNoise : 1.0) * options_.measurement_noise_m;
+}
+
+double ObstacleTracker::clamped_radius(const DiscSighting& sighting) const {
+  return std::clamp(sighting.radius_m, options_.min_radius_m, options_.max_radius_m);
+}
+
+std::vector<TrackedObstacle> ObstacleTracker::at(double time_s) const {
+  std::vector<TrackedObstacle> obstacles;
+  for (const Track& track : tracks_) {
+    if (track.id == 0) continue;
+    ConstantVelocityFilter filter = track.filter;
+    filter.predict(time_s, options_.acceleration_psd);
+    obstacles.push_back({track.id, time_s, filter.position(), filter.velocity(), track.radius_m,
+                         filter.covariance(), track.standing});
+  }
+  return obstacles;
+}
+
+}  // namespace mocha

@@ -1,0 +1,122 @@
+#include "perception/scan_sorter.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mocha {
+namespace {
+
+ScanSorterOptions checked(const ScanSorterOptions& o) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(std::string("ScanSorter: ") + what);
+  };
+  require(o.map_tolerance_m >= 0.0 && o.map_tolerance_m <= 2.0, "map_tolerance must be 0 to 2 m");
+  require(o.cluster_gap_m > 0.0, "cluster_gap must be above 0 m");
+  require(o.cluster_points >= 1, "cluster_points must be at least 1");
+  require(o.cluster_extent_m > 0.0, "cluster_extent must be above 0 m");
+  return o;
+}
+
+double time_of(const std::vector<Beam>& beams) {
+  double sum_s = 0.0;
+  for (const Beam& beam : beams) sum_s += beam.time_s / static_cast<double>(beams.size());
+  return sum_s;
+}
+
+}  // namespace
+
+ScanSorterOptions ScanSorterOptions::from(const ParameterTable& values) {
+  ScanSorterOptions options;
+  options.map_tolerance_m = values.number("map_tolerance");
+  options.cluster_gap_m = values.number("cluster_gap");
+  options.cluster_points = values.integer("cluster_points");
+  options.cluster_extent_m = values.number("cluster_extent");
+  TrackerOptions& tracker = options.tracker;
+  tracker.min_radius_m = values.number("moving_min_radius");
+  tracker.max_radius_m = values.number("moving_max_radius");
+  tracker.measurement_noise_m = values.number("measurement_noise");
+  tracker.acceleration_psd = values.number("acceleration_psd");
+  tracker.birth_sightings = values.integer("birth_sightings");
+  tracker.lost_time_s = values.number("lost_time");
+  tracker.hidden_time_s = values.number("hidden_time");
+  tracker.standing_speed_mps = values.number("standing_speed");
+  tracker.standing_time_s = values.number("standing_time");
+  return options;
+}
+
+ScanSorter::ScanSorter(const ScanSorterOptions& options)
+    : options_(checked(options)), tracker_(options.tracker) {}
+
+void ScanSorter::sort(std::vector<Beam>& beams, const OccupancyMap& map) {
+  if (beams.empty()) return;
+  const double time_s = time_of(beams);
+  const std::vector<TrackedObstacle> known = tracker_.at(time_s);
+  const auto clusters = things(beams, candidates(beams, map, known), known);
+  std::vector<DiscSighting> sightings;
+  for (const BeamIndices& cluster : clusters) sightings.push_back(sight_disc(beams, cluster));
+  const std::vector<bool> moving = tracker_.update(sightings, beams, time_s);
+  moving_hits_ = 0;
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    if (!moving[i]) continue;
+    for (int beam : clusters[i]) beams[beam].kind = BeamEnd::kIgnored;
+    moving_hits_ += static_cast<int>(clusters[i].size());
+  }
+  time_s_ = std::max(time_s_, time_s);
+}
+
+BeamIndices ScanSorter::candidates(const std::vector<Beam>& beams, const OccupancyMap& map,
+                                   const std::vector<TrackedObstacle>& known) const {
+  BeamIndices hits;
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    if (beams[i].kind != BeamEnd::kHit || !is_usable(beams[i])) continue;
+    const Vector2 end = beams[i].end.head<2>();
+    const bool on_known = std::any_of(known.begin(), known.end(), [&](const TrackedObstacle& disc) {
+      return !disc.standing &&
+             (end - disc.position).norm() <= disc.radius_m + options_.map_tolerance_m;
+    });
+    // Cells that moving things have hit once or twice are no walls yet, or such things would drag
+    // their walls along.
+    const bool came = map.is_surely_free(end) &&
+                      !map.is_occupied_within(end, 0.5 * options_.map_tolerance_m, false);
+    if ((on_known || came) && !map.is_occupied_within(end, options_.map_tolerance_m, true))
+      hits.push_back(static_cast<int>(i));
+  }
+  return hits;
+}
+
+/// Clusters of hits that are small enough to move. One that holds several known things, which pass
+/// each other, is parted among them.
+std::vector<BeamIndices> ScanSorter::things(const std::vector<Beam>& beams, const BeamIndices& hits,
+                                            const std::vector<TrackedObstacle>& known) const {
+  const auto enough = [&](const BeamIndices& cluster) {
+    return static_cast<int>(cluster.size()) >= options_.cluster_points;
+  };
+  std::vector<BeamIndices> things;
+  for (const BeamIndices& cluster : cluster_hits(beams, hits, options_.cluster_gap_m)) {
+    if (!enough(cluster)) continue;
+    std::vector<Vector2> centres;
+    for (const TrackedObstacle& disc : known) {
+      const bool holds = std::any_of(cluster.begin(), cluster.end(), [&](int i) {
+        return (beams[i].end.head<2>() - disc.position).norm() <= disc.radius_m;
+      });
+      if (holds) centres.push_back(disc.position);
+    }
+    if (centres.size() < 2) {
+      if (extent_m(beams, cluster) <= options_.cluster_extent_m) things.push_back(cluster);
+      continue;
+    }
+    for (BeamIndices& part : part_cluster(beams, cluster, centres)) {
+      if (enough(part) && extent_m(beams, part) <= options_.cluster_extent_m)
+        things.push_back(std::move(part));
+    }
+  }
+  return things;
+}
+
+void ScanSorter::clear() {
+  tracker_.clear();
+  time_s_ = 0.0;
+  moving_hits_ = 0;
+}
+
+}  // namespace mocha

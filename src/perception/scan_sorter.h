@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "config/parameter_table.h"
+#include "perception/obstacle_tracker.h"
+#include "perception/occupancy_map.h"
+
+namespace mocha {
+
+struct ScanSorterOptions {
+  double map_tolerance_m = 0.15;  ///< hits that near to a wall of the map are on it
+  double cluster_gap_m = 0.35;    ///< hits that near to each other are on one thing
+  int cluster_points = 3;         ///< least hits of a moving thing
+  double cluster_extent_m = 1.2;  ///< larger things do not move
+  TrackerOptions tracker;
+
+  /// From the parameters of the same names, without units.
+  static ScanSorterOptions from(const ParameterTable& values);
+};
+
+/// Parts the hits of planar scans into those on the map and those on moving things, and follows the
+/// latter.
+///
+/// A hit is on something that moves if it is where the map is sure to be free and no wall is near,
+/// or on a moving thing known already; unless it belongs to few or too widespread hits. What has
+/// stood for a while goes into the map.
+class ScanSorter {
+ public:
+  /// Throws std::invalid_argument, naming the value and its range.
+  explicit ScanSorter(const ScanSorterOptions& options);
+
+  /// Takes the next scan before it enters the map: hits on moving things become ignored ones.
+  void sort(std::vector<Beam>& beams, const OccupancyMap& map);
+
+  /// Moving things, predicted to the time of the newest scan; that time [s], 0 before the first.
+  std::vector<TrackedObstacle> moving() const { return tracker_.at(time_s_); }
+  double time_s() const { return time_s_; }
+  /// How many hits of the newest scan are on moving things.
+  int moving_hits() const { return moving_hits_; }
+
+  void clear();
+
+ private:
+  BeamIndices candidates(const std::vector<Beam>& beams, const OccupancyMap& map,
+                         const std::vector<TrackedObstacle>& known) const;
+  std::vector<BeamIndices> things(const std::vector<Beam>& beams, const BeamIndices& hits,
+                                  const std::vector<TrackedObstacle>& known) const;
+
+  ScanSorterOptions options_;
+  ObstacleTracker tracker_;
+  double time_s_ = 0.0;
+  int moving_hits_ = 0;
+};
+
+}  // namespace mocha

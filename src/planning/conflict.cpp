@@ -1,0 +1,38 @@
+#include "planning/conflict.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "planning/escape_proof.h"
+
+namespace mocha {
+
+Violation conflict_of(const Motion& plan, const std::vector<MovingThing>& moving,
+                      double own_radius_m, double from_s, double mu_pre_s) {
+  Violation first;
+  for (const MovingThing& thing : moving) {
+    const double until_s = std::min(from_s + mu_pre_s, thing.until_s);
+    if (until_s <= from_s) continue;
+    const Violation violation = check_separation_or_leaving(
+        plan, own_radius_m, *thing.obstacle, thing.keep_m - own_radius_m, from_s, until_s);
+    if (violation && (!first || violation.time_s < first.time_s)) first = violation;
+  }
+  return first;
+}
+
+double least_room_m(const Motion& motion, const std::vector<MovingThing>& moving, double from_s,
+                    double until_s) {
+  constexpr double kStep_s = 0.05;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (double t = from_s; t < until_s; t += kStep_s) {
+    const Vector2 place = motion.at(t).pose.position;
+    for (const MovingThing& thing : moving) {
+      if (t > thing.until_s) continue;
+      const MovingObstacle::Disc disc = thing.obstacle->at(t);
+      least_m = std::min(least_m, (place - disc.centre).norm() - disc.radius_m - thing.keep_m);
+    }
+  }
+  return least_m;
+}
+
+}  // namespace mocha

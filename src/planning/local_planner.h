@@ -1,0 +1,100 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "planning/drive_optimizer.h"
+#include "planning/local_rules.h"
+#include "planning/opening.h"
+#include "planning/plan_result.h"
+#include "planning/rejoining.h"
+#include "topology/space_time_ways.h"
+#include "topology/terrain.h"
+
+namespace mocha {
+
+/// What is around: static obstacles (unknown space counts as free), and what moves, with the
+/// distance that is proved to be kept.
+struct LocalScene {
+  std::shared_ptr<const Terrain> terrain;
+  std::vector<MovingThing> moving;
+};
+
+/// Out of which motion, and back into which plan. Map frame, absolute times.
+struct LocalQuery {
+  Motion committed;
+  double start_time_s = 0.0;  ///< the local drive leaves `committed` here, a switch time of it
+  Motion plan;
+  double progress_s = 0.0;  ///< time of the plan at which it is where the robot is
+  Motion driven;            ///< what is being followed, for its class; may be empty
+};
+
+/// One way through space-time that was optimised, certified or not.
+struct LocalCandidate {
+  TimedPath way;  ///< of the front end, from which the optimisation started
+  Signature signature;
+  PlanReason reason = PlanReason::kNotCertified;
+  Violation violation;  ///< the first one before the anchor
+  double cost = 0.0;    ///< J (14) with (39), (40)
+  CostTerms terms;
+  Motion motion;         ///< up to the plan's end
+  double rejoins_s = 0;  ///< absolute time at which it is back on the plan
+  bool driven = false;   ///< of the class that the plan itself has
+  bool selected = false;
+};
+
+struct LocalPlan {
+  PlanReason reason = PlanReason::kNoPath;
+  std::string message;
+  Violation violation;  ///< of the first candidate, where none is certified
+  /// From start_time_s past everything that moves to the anchor, and on along the plan, shifted in
+  /// time. Certified up to the anchor; empty unless solved.
+  Motion motion;
+  Vector2 anchor = Vector2::Zero();
+  double rejoins_s = 0.0;       ///< absolute time at which the motion is at the anchor
+  double delay_s = 0.0;         ///< by how much it is later there than the plan would have been
+  bool late = false;            ///< (42): the local drive takes longer than T_epsilon
+  Violation beyond;             ///< what the plan violates after the anchor, shifted as it is
+  bool switches_class = false;  ///< other than the plan's
+  std::vector<LocalCandidate> candidates;
+};
+
+/// Section V: leaves a plan in order to avoid what moves, and comes back to it.
+class LocalPlanner {
+ public:
+  LocalPlanner(const RobotModel& robot, const LocalRules& rules);
+
+  LocalPlan plan(const LocalQuery& query, const LocalScene& scene) const;
+
+  /// The stages of plan(), for whoever wants to look in between. The ways from the start to one
+  /// anchor.
+  struct Task {
+    RejoiningPoint anchor;
+    double earliest_s;  ///< about the least time that the robot takes to the anchor
+    SpaceTimeWays ways;
+  };
+  /// With anchors ever farther and arrivals ever later, until a way is found; the number of the
+  /// attempt goes on from `attempt`. Nothing where all are tried.
+  std::optional<Task> next_task(const LocalQuery& query, const LocalScene& scene,
+                                int& attempt) const;
+  std::vector<LocalCandidate> optimised(const LocalQuery& query, const LocalScene& scene,
+                                        const Task& task) const;
+
+ private:
+  LocalCandidate candidate(const LocalQuery& query, const LocalScene& scene, const Task& task,
+                           const SpaceTimeWay& way) const;
+  void drive(const LocalQuery& query, const LocalScene& scene, const Task& task,
+             const Opening& opening, LocalCandidate& candidate) const;
+  Violation certify(const Motion& motion, const LocalScene& scene, double from_s) const;
+  void select(const LocalQuery& query, const LocalScene& scene, const Task& task,
+              LocalPlan& plan) const;
+
+  const RobotModel robot_;
+  const LocalRules rules_;
+  const double margin_m_;
+  const DriveOptimizer optimizer_;
+  const Openings openings_;
+};
+
+}  // namespace mocha

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "planning/drive_rules.h"
+
+namespace mocha {
+
+/// Weights and sizes of local planning; each stands with unit, range and default in
+/// config/local_replanner.yaml.
+struct LocalRules : DriveRules {
+  double mu_s;         ///< how far ahead on the plan the anchor stands
+  double t_epsilon_s;  ///< (42): a local drive that takes longer wants a new global plan
+  int samples;         ///< of the roadmap in space-time
+  int classes;
+  double longest_ratio;
+  double switch_margin;
+  double smooth_start_rad;
+  int threads;
+
+  static LocalRules from(const ParameterTable& values);
+};
+
+}  // namespace mocha

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "trajectory/minco.h"
+#include "trajectory/motion.h"
+
+namespace mocha {
+
+/// Where a local drive meets the plan that it left (38).
+struct RejoiningPoint {
+  double plan_time_s;        ///< absolute time of the plan at which it is there
+  PlanarMinco::State state;  ///< position, velocity, acceleration of the plan there
+  double drive_s;            ///< what the plan itself drives from the progress to there [s]
+};
+
+/// The time of a plan, not before `from_s`, at which it is nearest to `p`; nothing where that is
+/// farther than `within_m` > 0. Of places about as near, the earliest.
+std::optional<double> progress_on(const Motion& plan, const Vector2& p, double from_s,
+                                  double within_m);
+
+/// `ahead_s` > 0 after the progress on the plan, or where its drive forward ends before. Turns in
+/// place that the plan would begin with are left out: the local drive sees to its own start.
+/// Nothing where the plan drives backward next, or not at all.
+std::optional<RejoiningPoint> rejoining_point(const Motion& plan, double progress_s,
+                                              double ahead_s);
+
+/// From `start_time_s` through `phases`, which end in the state of the point, and on along the
+/// plan, shifted in time. Throws std::invalid_argument where the ends do not meet, as Motion does.
+Motion rejoined(double start_time_s, std::vector<Phase> phases, const Motion& plan,
+                const RejoiningPoint& point);
+
+}  // namespace mocha

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <mocha_ugv/PredictedObstacles.h>
+#include <ros/node_handle.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "world/moving_obstacle.h"
+
+namespace mocha {
+
+/// A prediction as a disc at constant velocity, whose radius grows with the covariance so that it
+/// holds the thing with the probability `confidence`. Throws std::invalid_argument for values that
+/// are not finite or not plausible (faster than 30 m/s, larger than 20 m, farther than 100 km).
+std::shared_ptr<const MovingObstacle> from_message(const mocha_ugv::PredictedObstacle& message,
+                                                   ros::Time stamp, double confidence);
+
+/// What moves around the robot: the newest message on `predicted_obstacles`.
+class PredictionSource {
+ public:
+  /// A message in another frame than `frame`, with more than a thousand obstacles, or with one that
+  /// from_message() refuses, is refused as a whole and counted: what is left out could be what the
+  /// robot runs into, so the former message holds until it is too old.
+  PredictionSource(ros::NodeHandle& node, std::string frame, double confidence);
+
+  const std::vector<std::shared_ptr<const MovingObstacle>>& obstacles() const { return obstacles_; }
+  /// Since the stamp of the newest message [s]; infinity before the first.
+  double age_s(ros::Time now) const;
+  int refused() const { return refused_; }
+  const std::string& refusal() const { return refusal_; }  ///< why, the last time
+
+ private:
+  void on_predictions(const mocha_ugv::PredictedObstacles& message);
+
+  const std::string frame_;
+  const double confidence_;
+  std::vector<std::shared_ptr<const MovingObstacle>> obstacles_;
+  ros::Time stamp_;
+  int refused_ = 0;
+  std::string refusal_;
+  ros::Subscriber predictions_;
+};
+
+}  // namespace mocha

@@ -1,0 +1,182 @@
+#include "topology/space_time_ways.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "topology/class_search.h"
+#include "topology/space_time.h"
+#include "topology/taut_path.h"
+#include "topology/visibility_prm.h"
+
+namespace mocha {
+namespace {
+
+using Point = Eigen::Vector3d;
+
+constexpr int kSpare = 2;           // ways that are shortened, for each one that is kept
+constexpr double kNarrowest = 0.5;  // passage that obstacles are told apart by, of the required
+constexpr double kFinest_m = 1e-3;  // such a passage, at least
+
+/// Around all that can be visited on the way to the goal: an ellipse.
+Eigen::AlignedBox2d reach_of(const SpaceTimeQuery& query, double max_speed) {
+  const double half_m = 0.5 * max_speed * (query.goal.time_s - query.start.time_s);
+  const Vector2 middle = 0.5 * (query.start.position + query.goal.position);
+  const Vector2 focus = 0.5 * (query.goal.position - query.start.position);
+  const double across2 = std::max(0.0, half_m * half_m - focus.squaredNorm());
+  const Vector2 half = (focus.cwiseAbs2() + Vector2::Constant(across2)).cwiseSqrt();
+  return {middle - half, middle + half};
+}
+
+std::vector<Vector2> representatives_near(const Terrain& terrain, const SpaceTimeQuery& query,
+                                          const SpaceTimeRules& rules) {
+  // What one starts between can be passed, though it be too narrow elsewhere.
+  const double required_m = rules.required_clearance_m;
+  const double start_m = terrain.field().sample(query.start.position).distance_m;
+  const double passage_m = std::clamp(start_m, kNarrowest * required_m, required_m);
+  std::vector<Vector2> representatives;
+  for (const ObstacleGroup& group :
+       terrain.groups_within(reach_of(query, rules.max_speed), std::max(kFinest_m, passage_m)))
+    representatives.push_back(group.representative);
+  return representatives;
+}
+
+/// Without a look at how exactly it moves.
+bool out_of_reach(const MovingThing& thing, const SpaceTimeQuery& query, double max_speed) {
+  const double now_s = query.start.time_s;
+  const MovingObstacle::Disc disc = thing.obstacle->at(now_s);
+  const double closing = max_speed + thing.obstacle->max_closing_speed(now_s);
+  const double gap_m = (disc.centre - query.start.position).norm() - disc.radius_m - thing.keep_m;
+  return gap_m > closing * (query.goal.time_s - now_s);
+}
+
+std::vector<Tube<2>> tubes_of(const SpaceTimeQuery& query, double max_speed) {
+  std::vector<Tube<2>> tubes(query.moving.size());
+  for (std::size_t i = 0; i < tubes.size(); ++i) {
+    const MovingThing& thing = query.moving[i];
+    if (out_of_reach(thing, query, max_speed)) continue;
+    const double goal_s = query.goal.time_s;
+    const double until_s = thing.until_s < goal_s ? thing.until_s : goal_s;
+    tubes[i] = tube_of(*thing.obstacle, query.start.time_s, until_s, thing.keep_m);
+  }
+  return tubes;
+}
+
+/// What is being driven, led from the start and on to the goal past those of its points from which
+/// that is possible.
+std::vector<Point> driven_path(const SpaceTime<2>& space, const TimedPath& driven) {
+  std::vector<Point> path = {space.start()};
+  for (const TimedPoint& each : driven) {
+    const Point p = space.point(each.position, each.time_s);
+    if (space.in_order(path.back(), p) && space.in_order(p, space.goal())) path.push_back(p);
+  }
+  path.push_back(space.goal());
+  return path;
+}
+
+bool is_clear(const std::vector<Point>& path, const SpaceTime<2>& space) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (!space.clearance_m(path[i - 1], path[i])) return false;
+  }
+  return true;
+}
+
+SpaceTimeWay way_along(const std::vector<Point>& path, const SpaceTime<2>& space,
+                       const SpaceTimeQuery& query) {
+  SpaceTimeWay way{{}, 0.0, space.signature_of(path), false};
+  double action = 0.0;  // integral of the squared speed, in metres as all of space-time
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    way.points.push_back({path[i].head<2>(), space.time_s(path[i])});
+    if (i == 0) continue;
+    const Point step = path[i] - path[i - 1];
+    action += step.head<2>().squaredNorm() / step.z();
+  }
+  way.points.front() = query.start;
+  way.points.back() = query.goal;
+  way.length_m = std::sqrt(action * (path.back() - path.front()).z());
+  return way;
+}
+
+/// Of each class the shortest, shortest first; what is driven stays in any case.
+void keep_best(std::vector<SpaceTimeWay>& ways, const SpaceTimeRules& rules) {
+  std::stable_sort(ways.begin(), ways.end(), [](const SpaceTimeWay& a, const SpaceTimeWay& b) {
+    return a.length_m < b.length_m;
+  });
+  std::vector<SpaceTimeWay> kept;
+  for (SpaceTimeWay& way : ways) {
+    const bool is_twin = std::any_of(kept.begin(), kept.end(), [&](const SpaceTimeWay& other) {
+      return other.signature == way.signature;
+    });
+    if (is_twin) continue;
+    const bool good = static_cast<int>(kept.size()) < rules.classes &&
+                      way.length_m <= rules.longest_ratio * ways.front().length_m;
+    if (good || way.driven) kept.push_back(std::move(way));
+  }
+  ways = std::move(kept);
+}
+
+std::vector<SpaceTimeWay> ways_through(const SpaceTime<2>& space, const SpaceTimeQuery& query,
+                                       const SpaceTimeRules& rules) {
+  VisibilityPrmRules prm;
+  prm.samples = rules.samples;
+  prm.seed = rules.seed;
+  prm.reach_m = M_SQRT2 * space.goal().z();
+  const Roadmap<3> roadmap = visibility_prm<3>(space, space.start(), space.goal(), prm);
+  std::vector<std::vector<Point>> paths;
+  for (auto& path : shortest_classes<3>(roadmap, space, {kSpare * rules.classes, M_SQRT2}))
+    paths.push_back(std::move(path.points));
+  const std::vector<Point> driven = driven_path(space, query.driven);
+  const bool drives = driven.size() > 2;
+  if (drives && is_clear(driven, space)) paths.push_back(driven);
+  std::vector<SpaceTimeWay> ways;
+  for (auto& path : paths) ways.push_back(way_along(taut<3>(std::move(path), space), space, query));
+  if (drives) {
+    const Signature signature = space.signature_of(driven);
+    for (SpaceTimeWay& way : ways) way.driven = way.signature == signature;
+  }
+  keep_best(ways, rules);
+  return ways;
+}
+
+void check(const SpaceTimeRules& rules) {
+  const auto require = [](bool condition, const char* name, double value, const char* range) {
+    if (condition) return;
+    throw std::invalid_argument(std::string("SpaceTimeRules: ") + name + " = " +
+                                std::to_string(value) + ": expected " + range);
+  };
+  require(rules.max_speed > 0.0 && std::isfinite(rules.max_speed), "max_speed", rules.max_speed,
+          "a finite value above 0");
+  require(rules.classes >= 1, "classes", rules.classes, "at least 1");
+  require(rules.longest_ratio >= 1.0, "longest_ratio", rules.longest_ratio, "at least 1");
+}
+
+bool is_finite(const TimedPoint& p) { return p.position.allFinite() && std::isfinite(p.time_s); }
+
+}  // namespace
+
+SpaceTimeWays find_space_time_ways(const Terrain& terrain, const SpaceTimeQuery& query,
+                                   const SpaceTimeRules& rules) {
+  using Outcome = SpaceTimeWays::Outcome;
+  check(rules);
+  const TimedPoint& start = query.start;
+  const TimedPoint& goal = query.goal;
+  if (!is_finite(start)) return {Outcome::kStartBlocked, {}};
+  if (!is_finite(goal)) return {Outcome::kGoalBlocked, {}};
+  if (!(start.time_s < goal.time_s)) return {Outcome::kNoPath, {}};
+  const Cuts<2> cuts(representatives_near(terrain, query, rules));
+  const SpaceTime<2> space(terrain.field(), cuts, terrain.bounds(),
+                           {start.position, goal.position, start.time_s, goal.time_s},
+                           rules.max_speed, tubes_of(query, rules.max_speed),
+                           {rules.required_clearance_m, rules.escape_radius_m});
+  if (!space.clearance_m(space.start())) return {Outcome::kStartBlocked, {}};
+  if (!space.clearance_m(space.goal())) return {Outcome::kGoalBlocked, {}};
+  if (!space.goal().allFinite() || !space.in_order(space.start(), space.goal()))
+    return {Outcome::kNoPath, {}};
+  std::vector<SpaceTimeWay> ways = ways_through(space, query, rules);
+  if (ways.empty()) return {Outcome::kNoPath, {}};
+  return {Outcome::kFound, std::move(ways)};
+}
+
+}  // namespace mocha

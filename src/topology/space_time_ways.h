@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "topology/h_signature.h"
+#include "topology/terrain.h"
+#include "topology/timed_path.h"
+#include "world/moving_obstacle.h"
+
+namespace mocha {
+
+struct SpaceTimeQuery {
+  TimedPoint start;
+  TimedPoint goal;
+  std::vector<MovingThing> moving;
+  /// What is being driven; may begin before the start and end elsewhere than at the goal, or be
+  /// empty.
+  TimedPath driven;
+};
+
+struct SpaceTimeRules {
+  double max_speed;             ///< [m/s], above 0
+  double required_clearance_m;  ///< to static obstacles, at least 0
+  /// Around the start, places that are no closer to static obstacles than the start itself are
+  /// allowed.
+  double escape_radius_m = 0.6;
+  int samples = 400;
+  std::uint64_t seed = 1;
+  int classes = 4;             ///< at most this many ways, at least 1
+  double longest_ratio = 2.0;  ///< a way longer than the shortest by this is none, at least 1
+};
+
+/// A way of one class, as short as that class allows.
+struct SpaceTimeWay {
+  TimedPath points;  ///< from the start to the goal
+  /// Root mean square of the speed, times the duration: the length of a uniform way, more for one
+  /// that stands and hurries.
+  double length_m;
+  Signature signature;  ///< static groups near by first, then what moves in the query's order
+  bool driven;          ///< of the class of what is being driven
+};
+
+struct SpaceTimeWays {
+  enum class Outcome { kFound, kStartBlocked, kGoalBlocked, kNoPath };
+
+  Outcome outcome = Outcome::kNoPath;
+  std::vector<SpaceTimeWay> ways;  ///< of pairwise different classes, shortest first
+};
+
+/// Ways from here and now to there and then, of pairwise different classes, past what stands and
+/// what moves (V-C; see SpaceTime). The straight way, if it is free, is among them, and so is a way
+/// of the class that is being driven, if what is driven, led on to the goal, is free still. All are
+/// as short in space-time as their class allows, so their speed is as uniform as can be. Between
+/// absolute times, speeds are up to max_speed but for the rounding of the times.
+///
+/// Where the start or the goal, or their times, are not finite: blocked. Nowhere else do values of
+/// the query that are not finite make more of a difference than that their thing is in the way
+/// throughout. Throws std::invalid_argument for rules out of range.
+SpaceTimeWays find_space_time_ways(const Terrain& terrain, const SpaceTimeQuery& query,
+                                   const SpaceTimeRules& rules);
+
+}  // namespace mocha
