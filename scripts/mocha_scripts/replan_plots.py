@@ -53,8 +53,15 @@ def draw_robot(axes, trace, moments, colors):
 
 
 def draw_local(axes, trace):
+    """Each local trajectory up to its anchor; of the first one also the ways of the front end."""
     for k, replan in enumerate(trace["replans"]):
-        axes.plot(*np.array(replan["path"]).T, color=LOCAL, lw=1.0, alpha=0.6, zorder=3, label=None if k else "local replans")
+        first = k == 0
+        axes.plot(*np.array(replan["path"]).T, color=LOCAL, lw=2.0 if first else 0.8, alpha=1.0 if first else 0.4, zorder=3,
+                  label="local trajectories" if first else None)
+        axes.plot(*replan["anchor"], "s", color=LOCAL, ms=8 if first else 4, alpha=1.0 if first else 0.4, mec="k" if first else "none",
+                  ls="", zorder=6, label="anchors" if first else None)
+    for way in trace["replans"][0]["ways"] if trace["replans"] else []:
+        axes.plot(*np.array(way["path"]).T, color=LOCAL, lw=0.8, ls="--", zorder=3)
 
 
 def draw_scene(axes, trace, moments, colors):
@@ -72,7 +79,7 @@ def draw_scene(axes, trace, moments, colors):
     end = "contact" if trace["contact"] else "reached" if trace["reached"] else "not reached"
     axes.set_title(f"scene {trace['scene']}: {trace['kind'].replace('_', ' ')}, {trace['group'].replace('_', ' ')}, {end} after"
                    f" {run[-1, 0]:.1f} s (alone: {plan[-1, 0]:.1f} s)")
-    axes.legend(loc="upper left", ncol=4, fontsize=8)
+    axes.legend(loc="upper left", ncol=5, fontsize=8)
 
 
 def draw_clearance(axes, trace):
