@@ -56,7 +56,7 @@ def draw_local(axes, trace):
     """Each local trajectory up to its anchor; of the first one also the ways of the front end."""
     for k, replan in enumerate(trace["replans"]):
         first = k == 0
-        axes.plot(*np.array(replan["path"]).T, color=LOCAL, lw=2.0 if first else 0.8, alpha=1.0 if first else 0.4, zorder=3,
+        axes.plot(*np.array(replan["path"]).T, color=LOCAL, lw=5.0 if first else 0.8, alpha=0.5, zorder=3,
                   label="local trajectories" if first else None)
         axes.plot(*replan["anchor"], "s", color=LOCAL, ms=8 if first else 4, alpha=1.0 if first else 0.4, mec="k" if first else "none",
                   ls="", zorder=6, label="anchors" if first else None)
@@ -89,11 +89,12 @@ def draw_clearance(axes, trace):
     axes.plot(run[:, 0], run[:, 4:6].min(axis=1), color="k", lw=1.8, label="to the nearest of all")
     for replan in trace["replans"]:
         axes.axvline(replan["t"], color=LOCAL, lw=0.5, alpha=0.3, zorder=1)
-    axes.axhline(trace["required_m"], color=LOCAL, ls="--", lw=1.2)
-    axes.text(0.99, trace["required_m"], f"kept from movers by plans: {trace['required_m']:.2f} m ", va="bottom", ha="right", color=LOCAL,
-              transform=axes.get_yaxis_transform())
+    for key, color, what, place in (("required_m", MOVER, "movers", "bottom"), ("wall_margin_m", "#7f7f7f", "static obstacles", "top")):
+        axes.axhline(trace[key], color=color, ls="--", lw=1.2)
+        axes.text(0.99, trace[key], f"plans keep {trace[key]:.2f} m from {what} ", va=place, ha="right", color=color,
+                  transform=axes.get_yaxis_transform())
     axes.axhline(0.0, color="k", lw=0.8)
-    axes.set(xlim=(0, run[-1, 0]), ylim=(-0.1, DEEPEST_M), xlabel="time [s]", ylabel="clearance of the footprint [m]")
+    axes.set(xlim=(0, run[-1, 0]), ylim=(-0.2, DEEPEST_M), xlabel="time [s]", ylabel="clearance of the footprint [m]")
     axes.grid(alpha=0.3)
     axes.legend(loc="upper right")
 

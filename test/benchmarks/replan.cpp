@@ -176,8 +176,11 @@ void print_trace(int number) {
   const SolverRules rules = solver_rules(found.undisturbed.time_s);
   std::printf("{\"scene\": %d, \"group\": \"%s\", \"kind\": \"%s\", \"robot_radius\": %g", number,
               found.scene.group.c_str(), found.scene.kind.c_str(), ReplanScene::kRobotRadius_m);
-  std::printf(", \"max_speed\": %g, \"required_m\": %g, \"contact\": %s, \"reached\": %s",
-              rules.max_speed, rules.to_movers_m, text(found.run.contact), text(found.run.reached));
+  std::printf(
+      ", \"max_speed\": %g, \"required_m\": %g, \"wall_margin_m\": %g, \"contact\": %s, "
+      "\"reached\": %s",
+      rules.max_speed, rules.to_movers_m, rules.to_walls_m, text(found.run.contact),
+      text(found.run.reached));
   std::printf(", \"goal\": [%g, %g]", found.scene.goal.x(), found.scene.goal.y());
   print_obstacles(found.scene);
   print_samples("undisturbed", found.undisturbed);
