@@ -89,9 +89,9 @@ def draw_clearance(axes, trace):
     axes.plot(run[:, 0], run[:, 4:6].min(axis=1), color="k", lw=1.8, label="to the nearest of all")
     for replan in trace["replans"]:
         axes.axvline(replan["t"], color=LOCAL, lw=0.5, alpha=0.3, zorder=1)
-    for key, color, what, place in (("required_m", MOVER, "movers", "bottom"), ("wall_margin_m", "#7f7f7f", "static obstacles", "top")):
+    for key, color, what, side in (("required_m", MOVER, "movers", "right"), ("wall_margin_m", "#7f7f7f", "static obstacles", "left")):
         axes.axhline(trace[key], color=color, ls="--", lw=1.2)
-        axes.text(0.99, trace[key], f"plans keep {trace[key]:.2f} m from {what} ", va=place, ha="right", color=color,
+        axes.text(0.99 if side == "right" else 0.01, trace[key], f"plans keep {trace[key]:.2f} m from {what}", va="bottom", ha=side, color=color,
                   transform=axes.get_yaxis_transform())
     axes.axhline(0.0, color="k", lw=0.8)
     axes.set(xlim=(0, run[-1, 0]), ylim=(-0.2, DEEPEST_M), xlabel="time [s]", ylabel="clearance of the footprint [m]")
