@@ -53,8 +53,15 @@ def draw_robot(axes, trace, moments, colors):
 
 
 def draw_local(axes, trace):
+    """Each local trajectory up to its anchor; of the first one also the ways of the front end."""
     for k, replan in enumerate(trace["replans"]):
-        axes.plot(*np.array(replan["path"]).T, color=LOCAL, lw=1.0, alpha=0.6, zorder=3, label=None if k else "local replans")
+        first = k == 0
+        axes.plot(*np.array(replan["path"]).T, color=LOCAL, lw=5.0 if first else 0.8, alpha=0.5, zorder=3,
+                  label="local trajectories" if first else None)
+        axes.plot(*replan["anchor"], "s", color=LOCAL, ms=8 if first else 4, alpha=1.0 if first else 0.4, mec="k" if first else "none",
+                  ls="", zorder=6, label="anchors" if first else None)
+    for way in trace["replans"][0]["ways"] if trace["replans"] else []:
+        axes.plot(*np.array(way["path"]).T, color=LOCAL, lw=0.8, ls="--", zorder=3)
 
 
 def draw_scene(axes, trace, moments, colors):
@@ -72,7 +79,7 @@ def draw_scene(axes, trace, moments, colors):
     end = "contact" if trace["contact"] else "reached" if trace["reached"] else "not reached"
     axes.set_title(f"scene {trace['scene']}: {trace['kind'].replace('_', ' ')}, {trace['group'].replace('_', ' ')}, {end} after"
                    f" {run[-1, 0]:.1f} s (alone: {plan[-1, 0]:.1f} s)")
-    axes.legend(loc="upper left", ncol=4, fontsize=8)
+    axes.legend(loc="upper left", ncol=5, fontsize=8)
 
 
 def draw_clearance(axes, trace):
@@ -82,11 +89,12 @@ def draw_clearance(axes, trace):
     axes.plot(run[:, 0], run[:, 4:6].min(axis=1), color="k", lw=1.8, label="to the nearest of all")
     for replan in trace["replans"]:
         axes.axvline(replan["t"], color=LOCAL, lw=0.5, alpha=0.3, zorder=1)
-    axes.axhline(trace["required_m"], color=LOCAL, ls="--", lw=1.2)
-    axes.text(0.99, trace["required_m"], f"kept from movers by plans: {trace['required_m']:.2f} m ", va="bottom", ha="right", color=LOCAL,
-              transform=axes.get_yaxis_transform())
+    for key, color, what, side in (("required_m", MOVER, "movers", "right"), ("wall_margin_m", "#7f7f7f", "static obstacles", "left")):
+        axes.axhline(trace[key], color=color, ls="--", lw=1.2)
+        axes.text(0.99 if side == "right" else 0.01, trace[key], f"plans keep {trace[key]:.2f} m from {what}", va="bottom", ha=side, color=color,
+                  transform=axes.get_yaxis_transform())
     axes.axhline(0.0, color="k", lw=0.8)
-    axes.set(xlim=(0, run[-1, 0]), ylim=(-0.1, DEEPEST_M), xlabel="time [s]", ylabel="clearance of the footprint [m]")
+    axes.set(xlim=(0, run[-1, 0]), ylim=(-0.2, DEEPEST_M), xlabel="time [s]", ylabel="clearance of the footprint [m]")
     axes.grid(alpha=0.3)
     axes.legend(loc="upper right")
 

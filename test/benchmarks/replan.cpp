@@ -2,6 +2,7 @@
 // solved at all. Prints JSON. Arguments: the numbers of the scenes, or --trace and one of them for
 // all that is to be drawn of it.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -76,6 +77,9 @@ void print_row(int number) {
               text(would_meet(found.undisturbed, found.scene)));
   print_number("undisturbed_s", found.undisturbed.time_s, found.undisturbed.reached);
   print_number("solver_s", solved_s.value_or(0.0), solved_s.has_value());
+  const auto taken = std::count_if(found.run.replans.begin(), found.run.replans.end(),
+                                   [](const Replan& replan) { return replan.taken; });
+  std::printf(", \"replans\": %zu, \"taken\": %td", found.run.replans.size(), taken);
   std::printf(", \"replans_s\": [");
   for (const Replan& replan : found.run.replans) {
     std::printf("%s%.4g", &replan == &found.run.replans.front() ? "" : ", ", replan.t_plan_s);
@@ -133,20 +137,36 @@ void print_movers(const ReplanScene& scene, const ReplanRun& run) {
   std::printf("]");
 }
 
+Eigen::MatrixXd columns_of(const std::vector<Vector2>& places) {
+  Eigen::MatrixXd columns(2, places.size());
+  for (int i = 0; i < columns.cols(); ++i) columns.col(i) = places[i];
+  return columns;
+}
+
+/// Of each local plan that was taken, the drive up to the anchor, and the ways of the front end.
 void print_replans(const ReplanRun& run) {
+  constexpr int kPlaces = 80;
   std::printf(",\n\"replans\": [");
+  const char* comma = "";
   for (const Replan& replan : run.replans) {
-    std::printf("%s{\"t\": %g", &replan == &run.replans.front() ? "" : ",\n", replan.t);
-    constexpr int kPlaces = 60;
-    Eigen::MatrixXd columns(2, kPlaces);
+    if (!replan.taken) continue;
+    std::printf("%s{\"t\": %g, \"anchor\": [%g, %g]", comma, replan.t, replan.anchor.x(),
+                replan.anchor.y());
+    comma = ",\n";
+    std::vector<Vector2> path;
     const double begin_s = replan.motion.start_time();
-    for (int i = 0; i < kPlaces; ++i) {
-      const double share = i / (kPlaces - 1.0);
-      const double t = begin_s + share * (replan.motion.end_time() - begin_s);
-      columns.col(i) = replan.motion.at(t).pose.position;
+    for (int i = 0; i <= kPlaces; ++i) {
+      const double t = begin_s + i * (replan.rejoins_s - begin_s) / kPlaces;
+      path.push_back(replan.motion.at(t).pose.position);
     }
-    print_columns("path", columns);
-    std::printf("}");
+    print_columns("path", columns_of(path));
+    std::printf(", \"ways\": [");
+    for (const auto& way : replan.ways) {
+      std::printf("%s{\"points\": %zu", &way == &replan.ways.front() ? "" : ", ", way.size());
+      print_columns("path", columns_of(way));
+      std::printf("}");
+    }
+    std::printf("]}");
   }
   std::printf("]");
 }
@@ -156,8 +176,11 @@ void print_trace(int number) {
   const SolverRules rules = solver_rules(found.undisturbed.time_s);
   std::printf("{\"scene\": %d, \"group\": \"%s\", \"kind\": \"%s\", \"robot_radius\": %g", number,
               found.scene.group.c_str(), found.scene.kind.c_str(), ReplanScene::kRobotRadius_m);
-  std::printf(", \"max_speed\": %g, \"required_m\": %g, \"contact\": %s, \"reached\": %s",
-              rules.max_speed, rules.to_movers_m, text(found.run.contact), text(found.run.reached));
+  std::printf(
+      ", \"max_speed\": %g, \"required_m\": %g, \"wall_margin_m\": %g, \"contact\": %s, "
+      "\"reached\": %s",
+      rules.max_speed, rules.to_movers_m, rules.to_walls_m, text(found.run.contact),
+      text(found.run.reached));
   std::printf(", \"goal\": [%g, %g]", found.scene.goal.x(), found.scene.goal.y());
   print_obstacles(found.scene);
   print_samples("undisturbed", found.undisturbed);

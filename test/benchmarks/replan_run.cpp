@@ -21,7 +21,8 @@ std::vector<std::shared_ptr<const MovingObstacle>> predictions(const ReplanScene
                                                                double now_s) {
   constexpr double kPlace_m = 0.03;  // standard deviations
   constexpr double kVelocity = 0.05;
-  constexpr double kConfidence = 0.95;
+  static const double kConfidence =
+      ParameterTable::from_schema("config/local_replanner.yaml").number("confidence");
   const Eigen::Vector4d variances(kPlace_m * kPlace_m, kPlace_m * kPlace_m, kVelocity * kVelocity,
                                   kVelocity * kVelocity);
   const RadiusGrowth growth = growth_of(Eigen::Matrix4d(variances.asDiagonal()), kConfidence);
@@ -36,10 +37,19 @@ std::vector<std::shared_ptr<const MovingObstacle>> predictions(const ReplanScene
   return discs;
 }
 
-/// What the last step changed on account of something in the way.
+/// What the last step planned locally.
 std::optional<Replan> replan_of(const ClosedLoop& loop, double t) {
-  if (!loop.output.proposal || !loop.output.violation) return std::nullopt;
-  return Replan{t, loop.replanner_took_s, loop.output.proposal->motion};
+  const auto& local = loop.output.local;
+  if (!local) return std::nullopt;
+  Replan replan{t, loop.replanner_took_s, false, local->anchor, local->rejoins_s, {}, false, {}};
+  replan.taken = local->reason == PlanReason::kSolved && loop.output.proposal;
+  replan.other_class = replan.taken && local->switches_class;
+  if (replan.taken) replan.motion = local->motion;
+  for (const LocalCandidate& candidate : local->candidates) {
+    replan.ways.emplace_back();
+    for (const TimedPoint& point : candidate.way) replan.ways.back().push_back(point.position);
+  }
+  return replan;
 }
 
 /// Straight along x, at the origin at `begin_s` with the given speed, for a while.
@@ -66,7 +76,7 @@ class Run {
       const double next_s = elapsed_s() + ClosedLoop::kStep_s;
       loop_.moving = predictions(scene_, next_s, begin_s_ + next_s);
       loop_.step();
-      if (auto replan = replan_of(loop_, elapsed_s())) run_.replans.push_back(std::move(*replan));
+      if (auto replan = replan_of(loop_, elapsed_s())) add(std::move(*replan));
       watch();
       const Vector2 to_goal = loop_.state().pose.position - scene_.goal;
       run_.reached = to_goal.norm() < 0.15 && loop_.state().twist.speed < 0.01;
@@ -77,6 +87,14 @@ class Run {
 
  private:
   double elapsed_s() const { return loop_.now_s - begin_s_; }
+
+  void add(Replan replan) {
+    constexpr double kEncounter_s = 2.0;
+    const bool same = replan.t < taken_s_ + kEncounter_s;
+    run_.switches += same && replan.other_class;
+    if (replan.taken) taken_s_ = replan.t;
+    run_.replans.push_back(std::move(replan));
+  }
 
   /// What happens until the next step. What is promised until then is driven.
   void watch() {
@@ -103,6 +121,7 @@ class Run {
   const PrimitiveField<2> walls_;
   ClosedLoop loop_;
   const double begin_s_;
+  double taken_s_ = -std::numeric_limits<double>::infinity();  // the last local plan
   ReplanRun run_;
 };
 

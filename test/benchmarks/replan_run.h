@@ -17,11 +17,16 @@ struct RunSample {
   double to_movers_m;  ///< footprint to the nearest true disc
 };
 
-/// A step in which the replanner changed what it was doing.
+/// A step in which the replanner planned locally.
 struct Replan {
   double t;
-  double t_plan_s;  ///< wall time
-  Motion motion;    ///< proposed; absolute times
+  double t_plan_s;                         ///< wall time of the step
+  bool taken;                              ///< a way was found, proved and proposed
+  Vector2 anchor;                          ///< of the way taken
+  double rejoins_s;                        ///< absolute time at which that is at the anchor
+  Motion motion;                           ///< absolute times; empty unless taken
+  bool other_class;                        ///< than what was followed before
+  std::vector<std::vector<Vector2>> ways;  ///< of the front end
 };
 
 /// How a scene went in closed loop.
@@ -30,7 +35,7 @@ struct ReplanRun {
   bool contact = false;  ///< ends the run
   double time_s = 0.0;   ///< until the end
   double min_clearance_m = std::numeric_limits<double>::infinity();
-  int switches = 0;  ///< of the class while avoiding the same movers
+  int switches = 0;  ///< of the class, soon after the last local plan
   std::vector<Replan> replans;
   std::vector<RunSample> samples;
 };
