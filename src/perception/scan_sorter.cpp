@@ -84,33 +84,37 @@ BeamIndices ScanSorter::candidates(const std::vector<Beam>& beams, const Occupan
   return hits;
 }
 
-/// Clusters of hits that are small enough to move. One that holds several known things, which pass
-/// each other, is parted among them.
+/// Clusters of hits that are small enough to move. Those within reach of a known thing are one, as
+/// the legs of somebody who walks; one that several known things can reach is parted among them.
 std::vector<BeamIndices> ScanSorter::things(const std::vector<Beam>& beams, const BeamIndices& hits,
                                             const std::vector<TrackedObstacle>& known) const {
-  const auto enough = [&](const BeamIndices& cluster) {
-    return static_cast<int>(cluster.size()) >= options_.cluster_points;
-  };
-  std::vector<BeamIndices> things;
-  for (const BeamIndices& cluster : cluster_hits(beams, hits, options_.cluster_gap_m)) {
-    if (!enough(cluster)) continue;
+  std::vector<BeamIndices> groups(known.size());
+  for (BeamIndices& cluster : cluster_hits(beams, hits, options_.cluster_gap_m)) {
+    std::vector<std::size_t> owners;
     std::vector<Vector2> centres;
-    for (const TrackedObstacle& disc : known) {
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      const double reach_m = known[k].radius_m + 0.5 * options_.cluster_gap_m;
       const bool holds = std::any_of(cluster.begin(), cluster.end(), [&](int i) {
-        return (beams[i].end.head<2>() - disc.position).norm() <= disc.radius_m;
+        return (beams[i].end.head<2>() - known[k].position).norm() <= reach_m;
       });
-      if (holds) centres.push_back(disc.position);
+      if (!holds) continue;
+      owners.push_back(k);
+      centres.push_back(known[k].position);
     }
-    if (centres.size() < 2) {
-      if (extent_m(beams, cluster) <= options_.cluster_extent_m) things.push_back(cluster);
+    if (owners.empty()) {
+      groups.push_back(std::move(cluster));
       continue;
     }
-    for (BeamIndices& part : part_cluster(beams, cluster, centres)) {
-      if (enough(part) && extent_m(beams, part) <= options_.cluster_extent_m)
-        things.push_back(std::move(part));
-    }
+    const auto parts = part_cluster(beams, cluster, centres);
+    for (std::size_t k = 0; k < owners.size(); ++k)
+      groups[owners[k]].insert(groups[owners[k]].end(), parts[k].begin(), parts[k].end());
   }
-  return things;
+  const auto moves = [&](const BeamIndices& group) {
+    return static_cast<int>(group.size()) >= options_.cluster_points &&
+           extent_m(beams, group) <= options_.cluster_extent_m;
+  };
+  groups.erase(std::stable_partition(groups.begin(), groups.end(), moves), groups.end());
+  return groups;
 }
 
 void ScanSorter::clear() {
