@@ -146,7 +146,6 @@ class PerceptionNode {
         peers_.ignore_peers(beams);
         sorter_.sort(beams, map_);
         map_.insert_scan(beams);
-        publish_moving();
       } else {
         auto beams = to_beams(std::get<1>(measurement.data), measurement.poses.first,
                               measurement.first.toSec(), values_.number("max_points_range"),
@@ -157,6 +156,7 @@ class PerceptionNode {
       mark_standing(measurement.last);
       integrated_ = now_;
       stamp_ = std::max(stamp_, measurement.last);
+      publish_moving();
     } catch (const std::exception& error) {  // of tf or of the map; neither may stop the node
       refusals_.add(error.what());
     }
@@ -200,9 +200,9 @@ class PerceptionNode {
     return slice;
   }
 
-  /// At every scan, though nothing moves: their age tells that they can be relied on.
+  /// Though nothing moves: their age tells that they can be relied on.
   void publish_moving() {
-    moving_.publish(to_message(sorter_.moving(), robot_.map_frame, ros::Time(sorter_.time_s())));
+    moving_.publish(to_message(sorter_.moving(stamp_.toSec()), robot_.map_frame, stamp_));
   }
 
   void publish_cells() {
@@ -282,7 +282,7 @@ class PerceptionNode {
   }
 
   void diagnose_moving(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    const std::size_t tracks = sorter_.moving().size();
+    const std::size_t tracks = sorter_.moving(stamp_.toSec()).size();
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,
                    tracks == 0 ? "nothing moves" : "tracked");
     status.add("tracks", tracks);

@@ -61,7 +61,6 @@ void ScanSorter::sort(std::vector<Beam>& beams, const OccupancyMap& map) {
     for (int beam : clusters[i]) beams[beam].kind = BeamEnd::kIgnored;
     moving_hits_ += static_cast<int>(clusters[i].size());
   }
-  time_s_ = std::max(time_s_, time_s);
 }
 
 BeamIndices ScanSorter::candidates(const std::vector<Beam>& beams, const OccupancyMap& map,
@@ -119,7 +118,6 @@ std::vector<BeamIndices> ScanSorter::things(const std::vector<Beam>& beams, cons
 
 void ScanSorter::clear() {
   tracker_.clear();
-  time_s_ = 0.0;
   moving_hits_ = 0;
 }
 

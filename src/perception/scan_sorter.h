@@ -33,9 +33,8 @@ class ScanSorter {
   /// Takes the next scan before it enters the map: hits on moving things become ignored ones.
   void sort(std::vector<Beam>& beams, const OccupancyMap& map);
 
-  /// Moving things, predicted to the time of the newest scan; that time [s], 0 before the first.
-  std::vector<TrackedObstacle> moving() const { return tracker_.at(time_s_); }
-  double time_s() const { return time_s_; }
+  /// The moving things that are known, predicted to a time.
+  std::vector<TrackedObstacle> moving(double time_s) const { return tracker_.at(time_s); }
   /// How many hits of the newest scan are on moving things.
   int moving_hits() const { return moving_hits_; }
 
@@ -49,7 +48,6 @@ class ScanSorter {
 
   ScanSorterOptions options_;
   ObstacleTracker tracker_;
-  double time_s_ = 0.0;
   int moving_hits_ = 0;
 };
 
