@@ -11,6 +11,8 @@ ScanSorterOptions checked(const ScanSorterOptions& o) {
     if (!holds) throw std::invalid_argument(std::string("ScanSorter: ") + what);
   };
   require(o.map_tolerance_m >= 0.0 && o.map_tolerance_m <= 2.0, "map_tolerance must be 0 to 2 m");
+  require(o.map_tolerance_rad >= 0.0 && o.map_tolerance_rad <= 0.5,
+          "map_tolerance_angle must be 0 to 0.5 rad");
   require(o.cluster_gap_m > 0.0, "cluster_gap must be above 0 m");
   require(o.cluster_points >= 1, "cluster_points must be at least 1");
   require(o.cluster_extent_m > 0.0, "cluster_extent must be above 0 m");
@@ -28,6 +30,7 @@ double time_of(const std::vector<Beam>& beams) {
 ScanSorterOptions ScanSorterOptions::from(const ParameterTable& values) {
   ScanSorterOptions options;
   options.map_tolerance_m = values.number("map_tolerance");
+  options.map_tolerance_rad = values.number("map_tolerance_angle");
   options.cluster_gap_m = values.number("cluster_gap");
   options.cluster_points = values.integer("cluster_points");
   options.cluster_extent_m = values.number("cluster_extent");
@@ -69,15 +72,17 @@ BeamIndices ScanSorter::candidates(const std::vector<Beam>& beams, const Occupan
   for (std::size_t i = 0; i < beams.size(); ++i) {
     if (beams[i].kind != BeamEnd::kHit || !is_usable(beams[i])) continue;
     const Vector2 end = beams[i].end.head<2>();
+    const double range_m = (beams[i].end - beams[i].origin).head<2>().norm();
+    const double tolerance_m = options_.map_tolerance_m + options_.map_tolerance_rad * range_m;
     const bool on_known = std::any_of(known.begin(), known.end(), [&](const TrackedObstacle& disc) {
       return !disc.standing &&
              (end - disc.position).norm() <= disc.radius_m + options_.map_tolerance_m;
     });
     // Cells that moving things have hit once or twice are no walls yet, or such things would drag
     // their walls along.
-    const bool came = map.is_surely_free(end) &&
-                      !map.is_occupied_within(end, 0.5 * options_.map_tolerance_m, false);
-    if ((on_known || came) && !map.is_occupied_within(end, options_.map_tolerance_m, true))
+    const bool came =
+        map.is_surely_free(end) && !map.is_occupied_within(end, 0.5 * tolerance_m, false);
+    if ((on_known || came) && !map.is_occupied_within(end, tolerance_m, true))
       hits.push_back(static_cast<int>(i));
   }
   return hits;

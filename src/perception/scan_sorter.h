@@ -9,10 +9,11 @@
 namespace mocha {
 
 struct ScanSorterOptions {
-  double map_tolerance_m = 0.15;  ///< hits that near to a wall of the map are on it
-  double cluster_gap_m = 0.35;    ///< hits that near to each other are on one thing
-  int cluster_points = 3;         ///< least hits of a moving thing
-  double cluster_extent_m = 1.2;  ///< larger things do not move
+  double map_tolerance_m = 0.15;    ///< hits that near to a wall of the map are on it ...
+  double map_tolerance_rad = 0.02;  ///< ... and farther by so much times their range
+  double cluster_gap_m = 0.35;      ///< hits that near to each other are on one thing
+  int cluster_points = 3;           ///< least hits of a moving thing
+  double cluster_extent_m = 1.2;    ///< larger things do not move
   TrackerOptions tracker;
 
   /// From the parameters of the same names, without units.
