@@ -24,7 +24,7 @@ struct DiscSighting {
 };
 
 /// Of a cluster that is not empty. For a disc at nearest range d that is seen within +-alpha,
-/// r = d sin(alpha) / (1 - sin(alpha)).
+/// r = d sin(alpha) / (1 - sin(alpha)); what is deeper than such a disc gets a larger one.
 DiscSighting sight_disc(const std::vector<Beam>& beams, const BeamIndices& cluster);
 
 /// What a scan says about a place where a disc should be.

@@ -12,7 +12,7 @@ constexpr double kGate = 9.21;           // chi-squared, two degrees of freedom,
 constexpr double kFirstSpeed_mps = 1.0;  // standard deviation of an unknown velocity, one axis
 constexpr double kHiddenNoise = 3.0;     // times the noise, if only a part is seen
 constexpr double kPartNoise = 0.7;       // times the difference of the radii, for a part
-constexpr double kGrowth = 0.3;          // of the radius, share of the difference per sighting
+constexpr double kGrowth = 0.5;          // of the radius, share of the difference per sighting
 constexpr double kShrinkage = 0.05;
 constexpr int kMissingScans = 2;  // that see a known track's place free end it
 

@@ -40,8 +40,9 @@ class Watch {
       : room(std::move(room)), senses(senses), sorter(options), random_(seed) {}
 
   /// The next scan, from `pose`.
-  void look(const Pose& pose = {}) {
-    std::vector<Beam> beams = scan(pose);
+  void look(const Pose& pose = {}) { take(scan(pose)); }
+
+  void take(std::vector<Beam> beams) {
     sorter.sort(beams, map);
     newest = beams;
     map.insert_scan(beams);
