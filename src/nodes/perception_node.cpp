@@ -21,10 +21,10 @@
 #include "perception/planar_scan.h"
 #include "perception/point_cloud.h"
 #include "perception/scan_sorter.h"
-#include "ros/conversions.h"
 #include "ros/live_parameters.h"
 #include "ros/map_conversions.h"
 #include "ros/parameters.h"
+#include "ros/peer_motions.h"
 #include "ros/prediction_conversions.h"
 #include "ros/robot_identity.h"
 #include "ros/run_node.h"
@@ -41,20 +41,11 @@ constexpr double kPeriod_s = 0.02;
 constexpr double kFreshStamp_s = 0.5;  // a map much older than this: perception is dead
 
 OccupancyMapOptions map_options(const ParameterTable& values) {
-  OccupancyMapOptions options;
-  options.resolution_m =
-      load_robot_model(config_path(""), values.text("robot_model")).map_resolution_m;
-  options.scan_height_m = values.number("scan_height");
-  options.min_height_m = values.number("min_height");
-  options.max_height_m = values.number("max_height");
-  options.hit_probability = values.number("hit_probability");
-  options.miss_probability = values.number("miss_probability");
-  options.lowest_probability = values.number("lowest_probability");
-  options.highest_probability = values.number("highest_probability");
-  return options;
+  const RobotModel model = load_robot_model(config_path(""), values.text("robot_model"));
+  return OccupancyMapOptions::from(values, model.map_resolution_m);
 }
 
-/// Scans and clouds in, occupancy out.
+/// Scans and clouds in, occupancy and moving things out.
 class PerceptionNode {
  public:
   PerceptionNode(ros::NodeHandle& node, const ParameterTable& values)
@@ -96,21 +87,7 @@ class PerceptionNode {
   }
 
   void on_fleet(const mocha_ugv::FleetTrajectories& message) {
-    std::vector<PeerMotion> peers;
-    for (const auto& trajectory : message.trajectories) {
-      try {
-        if (!(trajectory.footprint_radius > 0.0 && trajectory.footprint_radius < 100.0)) {
-          throw std::invalid_argument("footprint_radius must be above 0 and below 100 m");
-        }
-        peers.push_back({trajectory.agent,
-                         {trajectory.epoch, trajectory.sequence},
-                         std::make_shared<Motion>(from_message(trajectory)),
-                         trajectory.footprint_radius});
-      } catch (const std::exception& error) {
-        refusals_.add("fleet/trajectories", error.what());
-      }
-    }
-    peers_.update(message.header.stamp.toSec(), peers);
+    peers_.update(message.header.stamp.toSec(), peers_of(message, refusals_));
   }
 
   void step(ros::Time now) {

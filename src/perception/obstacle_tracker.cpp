@@ -73,7 +73,7 @@ std::vector<int> ObstacleTracker::associate(const std::vector<DiscSighting>& sig
     for (std::size_t j = 0; j < sightings.size(); ++j) {
       ConstantVelocityFilter filter = tracks_[i].filter;
       filter.predict(sightings[j].time_s, options_.acceleration_psd);
-      const auto mismatch = filter.mismatch(sightings[j].centre(tracks_[i].radius_m),
+      const auto mismatch = filter.mismatch(centre_of(sightings[j], tracks_[i].radius_m),
                                             noise_of(sightings[j], tracks_[i].radius_m));
       if (mismatch.squared < kGate) {
         pairs.push_back({mismatch.squared + mismatch.log_determinant, static_cast<int>(i),
@@ -95,7 +95,7 @@ std::vector<int> ObstacleTracker::associate(const std::vector<DiscSighting>& sig
 
 void ObstacleTracker::see(Track& track, const DiscSighting& sighting) {
   track.filter.predict(sighting.time_s, options_.acceleration_psd);
-  track.filter.update(sighting.centre(track.radius_m), noise_of(sighting, track.radius_m));
+  track.filter.update(centre_of(sighting, track.radius_m), noise_of(sighting, track.radius_m));
   const double growth_m = clamped_radius(sighting) - track.radius_m;
   if (growth_m > 0.0) track.radius_m += kGrowth * growth_m;
   if (growth_m < 0.0 && !sighting.is_hidden()) track.radius_m += kShrinkage * growth_m;
@@ -145,6 +145,12 @@ void ObstacleTracker::begin(const DiscSighting& sighting) {
               sighting.time_s};
   if (options_.birth_sightings == 1) track.id = ++last_id_;
   tracks_.push_back(track);
+}
+
+/// Of a disc that is known to have this radius; of the part that is seen, if that is smaller.
+Vector2 ObstacleTracker::centre_of(const DiscSighting& sighting, double radius_m) const {
+  return sighting.centre(sighting.is_hidden() ? radius_m
+                                              : std::min(radius_m, clamped_radius(sighting)));
 }
 
 /// A part, such as one leg, may be anywhere in the disc.

@@ -70,6 +70,7 @@ class ObstacleTracker {
   bool belongs_to_known(const DiscSighting& sighting) const;
   void begin(const DiscSighting& sighting);
   void join();
+  Vector2 centre_of(const DiscSighting& sighting, double radius_m) const;
   double noise_of(const DiscSighting& sighting, double radius_m) const;
   double clamped_radius(const DiscSighting& sighting) const;
 
