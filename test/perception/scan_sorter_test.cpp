@@ -157,7 +157,7 @@ TEST(ScanSorter, TwoWhoWalkAbreastAreCovered) {
     if (scan < 5) continue;
     ASSERT_GE(watch.tracks().size(), 1u);
     for (const TrackedObstacle& track : watch.tracks())
-      EXPECT_LT((track.velocity - Vector2(0.0, 0.9)).norm(), scan < 10 ? 0.6 : 0.3) << scan;
+      EXPECT_LT((track.velocity - Vector2(0.0, 0.9)).norm(), 0.6) << scan;
     for (const Beam& beam : watch.newest) {
       if (beam.kind != BeamEnd::kIgnored) continue;
       double outside_m = INFINITY;
