@@ -28,13 +28,14 @@ def walker(now):
 
 
 class MovingThingsTest(unittest.TestCase):
-    def setUp(self):
-        self.predictions = []
-        self.maps = []
-        rospy.Subscriber("/ugv1/predicted_obstacles", PredictedObstacles, self.predictions.append)
-        rospy.Subscriber("/ugv1/map", OccupancyGrid, self.maps.append)
-        self.robot = SimulatedRobot()
-        self.robot.start()
+    @classmethod
+    def setUpClass(cls):
+        cls.predictions = []
+        cls.maps = []
+        rospy.Subscriber("/ugv1/predicted_obstacles", PredictedObstacles, cls.predictions.append)
+        rospy.Subscriber("/ugv1/map", OccupancyGrid, cls.maps.append)
+        cls.robot = SimulatedRobot()
+        cls.robot.start()
 
     def occupied_at(self, x, y):
         grid = self.maps[-1]
@@ -42,21 +43,21 @@ class MovingThingsTest(unittest.TestCase):
         row = int((y - grid.info.origin.position.y) / grid.info.resolution)
         return grid.data[row * grid.info.width + column] == 100
 
-    def test_somebody_walks(self):
+    def test_1_somebody_walks(self):
         self.robot.run(20.0)
         self.assertGreater(len(self.predictions), 150, "one for each scan")
         self.assertEqual(self.predictions[0].obstacles, [], "nothing is known to move at first, and it says so")
         checked = 0
         for message in self.predictions:
             self.assertEqual(message.header.frame_id, "map")
-            checked += self.check(message)
+            checked += self.walks_as_predicted(message)
         self.assertGreater(checked, 60)
         self.assertTrue(self.robot.said("perception: moving things: tracked"), self.robot.report())
         for y in (-2.0, -1.0, 0.0, 1.0, 2.0):
             for x in (2.25, 2.3, 2.35, 2.4, 2.5):
                 self.assertFalse(self.occupied_at(x, y), (x, y))
 
-    def check(self, message):
+    def walks_as_predicted(self, message):
         """Whether the message fell into a time of steady walking; then it must be right."""
         now = message.header.stamp.to_sec()
         y, rate, since = walker(now)
@@ -68,6 +69,19 @@ class MovingThingsTest(unittest.TestCase):
         self.assertLess(math.hypot(seen.velocity.x, seen.velocity.y - rate), 0.25, now)
         self.assertAlmostEqual(seen.radius, 0.25, delta=0.1)
         return True
+
+    def test_2_the_robot_drives_and_nothing_else_moves(self):
+        del self.predictions[:]
+        for goal in ((-3.0, 2.0), (-3.0, -2.0), (0.0, 0.0)):
+            self.robot.arrive(*goal)
+        self.assertGreater(len(self.predictions), 80)
+        seen = 0
+        for message in self.predictions:
+            now = message.header.stamp.to_sec()
+            for thing in message.obstacles:
+                self.assertLess(math.hypot(thing.position.x - X_M, thing.position.y - walker(now)[0]), 0.5, (now, thing))
+            seen += len(message.obstacles)
+        self.assertGreater(seen, 0.8 * len(self.predictions))
 
 
 if __name__ == "__main__":
