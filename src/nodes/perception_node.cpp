@@ -21,10 +21,10 @@
 #include "perception/planar_scan.h"
 #include "perception/point_cloud.h"
 #include "perception/scan_sorter.h"
-#include "ros/conversions.h"
 #include "ros/live_parameters.h"
 #include "ros/map_conversions.h"
 #include "ros/parameters.h"
+#include "ros/peer_motions.h"
 #include "ros/prediction_conversions.h"
 #include "ros/robot_identity.h"
 #include "ros/run_node.h"
@@ -41,20 +41,11 @@ constexpr double kPeriod_s = 0.02;
 constexpr double kFreshStamp_s = 0.5;  // a map much older than this: perception is dead
 
 OccupancyMapOptions map_options(const ParameterTable& values) {
-  OccupancyMapOptions options;
-  options.resolution_m =
-      load_robot_model(config_path(""), values.text("robot_model")).map_resolution_m;
-  options.scan_height_m = values.number("scan_height");
-  options.min_height_m = values.number("min_height");
-  options.max_height_m = values.number("max_height");
-  options.hit_probability = values.number("hit_probability");
-  options.miss_probability = values.number("miss_probability");
-  options.lowest_probability = values.number("lowest_probability");
-  options.highest_probability = values.number("highest_probability");
-  return options;
+  const RobotModel model = load_robot_model(config_path(""), values.text("robot_model"));
+  return OccupancyMapOptions::from(values, model.map_resolution_m);
 }
 
-/// Scans and clouds in, occupancy out.
+/// Scans and clouds in, occupancy and moving things out.
 class PerceptionNode {
  public:
   PerceptionNode(ros::NodeHandle& node, const ParameterTable& values)
@@ -96,21 +87,7 @@ class PerceptionNode {
   }
 
   void on_fleet(const mocha_ugv::FleetTrajectories& message) {
-    std::vector<PeerMotion> peers;
-    for (const auto& trajectory : message.trajectories) {
-      try {
-        if (!(trajectory.footprint_radius > 0.0 && trajectory.footprint_radius < 100.0)) {
-          throw std::invalid_argument("footprint_radius must be above 0 and below 100 m");
-        }
-        peers.push_back({trajectory.agent,
-                         {trajectory.epoch, trajectory.sequence},
-                         std::make_shared<Motion>(from_message(trajectory)),
-                         trajectory.footprint_radius});
-      } catch (const std::exception& error) {
-        refusals_.add("fleet/trajectories", error.what());
-      }
-    }
-    peers_.update(message.header.stamp.toSec(), peers);
+    peers_.update(message.header.stamp.toSec(), peers_of(message, refusals_));
   }
 
   void step(ros::Time now) {
@@ -146,7 +123,6 @@ class PerceptionNode {
         peers_.ignore_peers(beams);
         sorter_.sort(beams, map_);
         map_.insert_scan(beams);
-        publish_moving();
       } else {
         auto beams = to_beams(std::get<1>(measurement.data), measurement.poses.first,
                               measurement.first.toSec(), values_.number("max_points_range"),
@@ -157,6 +133,7 @@ class PerceptionNode {
       mark_standing(measurement.last);
       integrated_ = now_;
       stamp_ = std::max(stamp_, measurement.last);
+      publish_moving();
     } catch (const std::exception& error) {  // of tf or of the map; neither may stop the node
       refusals_.add(error.what());
     }
@@ -200,9 +177,9 @@ class PerceptionNode {
     return slice;
   }
 
-  /// At every scan, though nothing moves: their age tells that they can be relied on.
+  /// Though nothing moves: their age tells that they can be relied on.
   void publish_moving() {
-    moving_.publish(to_message(sorter_.moving(), robot_.map_frame, ros::Time(sorter_.time_s())));
+    moving_.publish(to_message(sorter_.moving(stamp_.toSec()), robot_.map_frame, stamp_));
   }
 
   void publish_cells() {
@@ -282,7 +259,7 @@ class PerceptionNode {
   }
 
   void diagnose_moving(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    const std::size_t tracks = sorter_.moving().size();
+    const std::size_t tracks = sorter_.moving(stamp_.toSec()).size();
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,
                    tracks == 0 ? "nothing moves" : "tracked");
     status.add("tracks", tracks);

@@ -83,7 +83,8 @@ DiscSighting sight_disc(const std::vector<Beam>& beams, const BeamIndices& clust
   sighting.right_hidden = goes_on(beams, right, middle, -1.0, spacing_rad);
   sighting.left_hidden = goes_on(beams, left, middle, 1.0, spacing_rad);
   const double alpha = std::min(0.5 * (sighting.left_rad - sighting.right_rad), kWidest_rad);
-  sighting.radius_m = sighting.nearest_m * std::sin(alpha) / (1.0 - std::sin(alpha));
+  const double chord_m = extent_m(beams, cluster) + spacing_rad * sighting.nearest_m;
+  sighting.radius_m = 0.5 * chord_m / std::cos(alpha);
   return sighting;
 }
 

@@ -23,8 +23,9 @@ struct DiscSighting {
   Vector2 centre(double radius) const;
 };
 
-/// Of a cluster that is not empty. For a disc at nearest range d that is seen within +-alpha,
-/// r = d sin(alpha) / (1 - sin(alpha)).
+/// Of a cluster that is not empty. The outermost ends on a disc that is seen within +-alpha are
+/// 2 r cos(alpha) apart, less what is lost between two beams; unlike alpha alone, that also holds,
+/// more or less, for two legs.
 DiscSighting sight_disc(const std::vector<Beam>& beams, const BeamIndices& cluster);
 
 /// What a scan says about a place where a disc should be.

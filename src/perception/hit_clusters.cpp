@@ -1,7 +1,7 @@
 #include "perception/hit_clusters.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -58,9 +58,14 @@ std::vector<BeamIndices> part_cluster(const std::vector<Beam>& beams, const Beam
 }
 
 double extent_m(const std::vector<Beam>& beams, const BeamIndices& cluster) {
-  Eigen::AlignedBox2d box;
-  for (int i : cluster) box.extend(end_of(beams[i]));
-  return box.diagonal().norm();
+  double squared = 0.0;
+  for (std::size_t i = 0; i < cluster.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vector2 apart = end_of(beams[cluster[i]]) - end_of(beams[cluster[j]]);
+      squared = std::max(squared, apart.squaredNorm());
+    }
+  }
+  return std::sqrt(squared);
 }
 
 }  // namespace mocha

@@ -19,7 +19,7 @@ std::vector<BeamIndices> cluster_hits(const std::vector<Beam>& beams, const Beam
 std::vector<BeamIndices> part_cluster(const std::vector<Beam>& beams, const BeamIndices& cluster,
                                       const std::vector<Vector2>& centres);
 
-/// Diagonal of the box around the ends, along the axes [m].
+/// Greatest distance between two ends [m].
 double extent_m(const std::vector<Beam>& beams, const BeamIndices& cluster);
 
 }  // namespace mocha

@@ -1,6 +1,7 @@
 #include "perception/obstacle_tracker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -10,7 +11,8 @@ namespace {
 constexpr double kGate = 9.21;           // chi-squared, two degrees of freedom, 99 %
 constexpr double kFirstSpeed_mps = 1.0;  // standard deviation of an unknown velocity, one axis
 constexpr double kHiddenNoise = 3.0;     // times the noise, if only a part is seen
-constexpr double kGrowth = 0.3;          // of the radius, share of the difference per sighting
+constexpr double kPartNoise = 0.7;       // times the difference of the radii, for a part
+constexpr double kGrowth = 0.5;          // of the radius, share of the difference per sighting
 constexpr double kShrinkage = 0.05;
 constexpr int kMissingScans = 2;  // that see a known track's place free end it
 
@@ -52,6 +54,7 @@ std::vector<bool> ObstacleTracker::update(const std::vector<DiscSighting>& sight
   for (std::size_t j = 0; j < sightings.size(); ++j) {
     if (!taken[j] && !belongs_to_known(sightings[j])) begin(sightings[j]);
   }
+  join();
   tracks_.erase(
       std::remove_if(tracks_.begin(), tracks_.end(), [](const Track& t) { return t.lost; }),
       tracks_.end());
@@ -70,8 +73,8 @@ std::vector<int> ObstacleTracker::associate(const std::vector<DiscSighting>& sig
     for (std::size_t j = 0; j < sightings.size(); ++j) {
       ConstantVelocityFilter filter = tracks_[i].filter;
       filter.predict(sightings[j].time_s, options_.acceleration_psd);
-      const auto mismatch =
-          filter.mismatch(sightings[j].centre(tracks_[i].radius_m), noise_of(sightings[j]));
+      const auto mismatch = filter.mismatch(centre_of(sightings[j], tracks_[i].radius_m),
+                                            noise_of(sightings[j], tracks_[i].radius_m));
       if (mismatch.squared < kGate) {
         pairs.push_back({mismatch.squared + mismatch.log_determinant, static_cast<int>(i),
                          static_cast<int>(j)});
@@ -92,7 +95,7 @@ std::vector<int> ObstacleTracker::associate(const std::vector<DiscSighting>& sig
 
 void ObstacleTracker::see(Track& track, const DiscSighting& sighting) {
   track.filter.predict(sighting.time_s, options_.acceleration_psd);
-  track.filter.update(sighting.centre(track.radius_m), noise_of(sighting));
+  track.filter.update(centre_of(sighting, track.radius_m), noise_of(sighting, track.radius_m));
   const double growth_m = clamped_radius(sighting) - track.radius_m;
   if (growth_m > 0.0) track.radius_m += kGrowth * growth_m;
   if (growth_m < 0.0 && !sighting.is_hidden()) track.radius_m += kShrinkage * growth_m;
@@ -132,7 +135,7 @@ void ObstacleTracker::begin(const DiscSighting& sighting) {
   const double radius_m = clamped_radius(sighting);
   const Vector2 centre = sighting.centre(radius_m);
   Track track{0,
-              {sighting.time_s, centre, noise_of(sighting), kFirstSpeed_mps},
+              {sighting.time_s, centre, noise_of(sighting, radius_m), kFirstSpeed_mps},
               radius_m,
               1,
               sighting.time_s,
@@ -144,8 +147,27 @@ void ObstacleTracker::begin(const DiscSighting& sighting) {
   tracks_.push_back(track);
 }
 
-double ObstacleTracker::noise_of(const DiscSighting& sighting) const {
-  return (sighting.is_hidden() ? kHiddenNoise : 1.0) * options_.measurement_noise_m;
+/// Of a disc that is known to have this radius; of the part that is seen, if that is smaller.
+Vector2 ObstacleTracker::centre_of(const DiscSighting& sighting, double radius_m) const {
+  return sighting.centre(sighting.is_hidden() ? radius_m
+                                              : std::min(radius_m, clamped_radius(sighting)));
+}
+
+/// A part, such as one leg, may be anywhere in the disc.
+double ObstacleTracker::noise_of(const DiscSighting& sighting, double radius_m) const {
+  const double whole_m = (sighting.is_hidden() ? kHiddenNoise : 1.0) * options_.measurement_noise_m;
+  return std::hypot(whole_m, kPartNoise * std::max(0.0, radius_m - clamped_radius(sighting)));
+}
+
+/// Of things that cannot be apart, such as legs, the younger belongs to the older.
+void ObstacleTracker::join() {
+  for (Track& younger : tracks_) {
+    for (const Track& older : tracks_) {
+      if (older.lost || older.id == 0 || younger.id <= older.id) continue;
+      const double apart_m = (younger.filter.position() - older.filter.position()).norm();
+      if (apart_m < std::max(younger.radius_m, older.radius_m)) younger.lost = true;
+    }
+  }
 }
 
 double ObstacleTracker::clamped_radius(const DiscSighting& sighting) const {

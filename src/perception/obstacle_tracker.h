@@ -15,7 +15,7 @@ struct TrackerOptions {
   double acceleration_psd = 0.6;      ///< of what the things do, per axis [m^2/s^3]
   int birth_sightings = 3;            ///< that make a track known
   double lost_time_s = 0.7;           ///< a track ends after so long without sighting
-  double hidden_time_s = 2.0;         ///< the same while something nearer hides its place
+  double hidden_time_s = 1.5;         ///< the same while something nearer hides its place
   double standing_speed_mps = 0.1;    ///< slower, for standing_time_s, is standing
   double standing_time_s = 3.0;
 };
@@ -69,7 +69,9 @@ class ObstacleTracker {
   void miss(Track& track, const std::vector<Beam>& beams, double time_s) const;
   bool belongs_to_known(const DiscSighting& sighting) const;
   void begin(const DiscSighting& sighting);
-  double noise_of(const DiscSighting& sighting) const;
+  void join();
+  Vector2 centre_of(const DiscSighting& sighting, double radius_m) const;
+  double noise_of(const DiscSighting& sighting, double radius_m) const;
   double clamped_radius(const DiscSighting& sighting) const;
 
   TrackerOptions options_;

@@ -64,6 +64,19 @@ void name_file(const std::string& path, Read read) {
 
 }  // namespace
 
+OccupancyMapOptions OccupancyMapOptions::from(const ParameterTable& values, double resolution_m) {
+  OccupancyMapOptions options;
+  options.resolution_m = resolution_m;
+  options.scan_height_m = values.number("scan_height");
+  options.min_height_m = values.number("min_height");
+  options.max_height_m = values.number("max_height");
+  options.hit_probability = values.number("hit_probability");
+  options.miss_probability = values.number("miss_probability");
+  options.lowest_probability = values.number("lowest_probability");
+  options.highest_probability = values.number("highest_probability");
+  return options;
+}
+
 /// The octree, the dense copy of its height band, and what changes both together.
 struct OccupancyMap::Voxels {
   explicit Voxels(const OccupancyMapOptions& o)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "config/parameter_table.h"
 #include "perception/beam.h"
 #include "perception/map_error.h"
 #include "world/occupancy_grid.h"
@@ -24,6 +25,9 @@ struct OccupancyMapOptions {
   double lowest_probability =
       0.12;  ///< occupancy is clamped, so that a changed world is learnt in finite time
   double highest_probability = 0.97;
+
+  /// From the parameters of the same names, without units; the resolution is not one of them.
+  static OccupancyMapOptions from(const ParameterTable& values, double resolution_m);
 };
 
 /// What the sensors have seen: an OctoMap octree, and the planar slice of the robot's height band.

@@ -11,6 +11,8 @@ ScanSorterOptions checked(const ScanSorterOptions& o) {
     if (!holds) throw std::invalid_argument(std::string("ScanSorter: ") + what);
   };
   require(o.map_tolerance_m >= 0.0 && o.map_tolerance_m <= 2.0, "map_tolerance must be 0 to 2 m");
+  require(o.map_tolerance_rad >= 0.0 && o.map_tolerance_rad <= 0.5,
+          "map_tolerance_angle must be 0 to 0.5 rad");
   require(o.cluster_gap_m > 0.0, "cluster_gap must be above 0 m");
   require(o.cluster_points >= 1, "cluster_points must be at least 1");
   require(o.cluster_extent_m > 0.0, "cluster_extent must be above 0 m");
@@ -28,6 +30,7 @@ double time_of(const std::vector<Beam>& beams) {
 ScanSorterOptions ScanSorterOptions::from(const ParameterTable& values) {
   ScanSorterOptions options;
   options.map_tolerance_m = values.number("map_tolerance");
+  options.map_tolerance_rad = values.number("map_tolerance_angle");
   options.cluster_gap_m = values.number("cluster_gap");
   options.cluster_points = values.integer("cluster_points");
   options.cluster_extent_m = values.number("cluster_extent");
@@ -61,7 +64,6 @@ void ScanSorter::sort(std::vector<Beam>& beams, const OccupancyMap& map) {
     for (int beam : clusters[i]) beams[beam].kind = BeamEnd::kIgnored;
     moving_hits_ += static_cast<int>(clusters[i].size());
   }
-  time_s_ = std::max(time_s_, time_s);
 }
 
 BeamIndices ScanSorter::candidates(const std::vector<Beam>& beams, const OccupancyMap& map,
@@ -70,52 +72,57 @@ BeamIndices ScanSorter::candidates(const std::vector<Beam>& beams, const Occupan
   for (std::size_t i = 0; i < beams.size(); ++i) {
     if (beams[i].kind != BeamEnd::kHit || !is_usable(beams[i])) continue;
     const Vector2 end = beams[i].end.head<2>();
+    const double range_m = (beams[i].end - beams[i].origin).head<2>().norm();
+    const double tolerance_m = options_.map_tolerance_m + options_.map_tolerance_rad * range_m;
     const bool on_known = std::any_of(known.begin(), known.end(), [&](const TrackedObstacle& disc) {
       return !disc.standing &&
              (end - disc.position).norm() <= disc.radius_m + options_.map_tolerance_m;
     });
     // Cells that moving things have hit once or twice are no walls yet, or such things would drag
     // their walls along.
-    const bool came = map.is_surely_free(end) &&
-                      !map.is_occupied_within(end, 0.5 * options_.map_tolerance_m, false);
-    if ((on_known || came) && !map.is_occupied_within(end, options_.map_tolerance_m, true))
+    const bool came =
+        map.is_surely_free(end) && !map.is_occupied_within(end, 0.5 * tolerance_m, false);
+    if ((on_known || came) && !map.is_occupied_within(end, tolerance_m, true))
       hits.push_back(static_cast<int>(i));
   }
   return hits;
 }
 
-/// Clusters of hits that are small enough to move. One that holds several known things, which pass
-/// each other, is parted among them.
+/// Clusters of hits that are small enough to move. Those within reach of a known thing are one, as
+/// the legs of somebody who walks; one that several known things can reach is parted among them.
 std::vector<BeamIndices> ScanSorter::things(const std::vector<Beam>& beams, const BeamIndices& hits,
                                             const std::vector<TrackedObstacle>& known) const {
-  const auto enough = [&](const BeamIndices& cluster) {
-    return static_cast<int>(cluster.size()) >= options_.cluster_points;
-  };
-  std::vector<BeamIndices> things;
-  for (const BeamIndices& cluster : cluster_hits(beams, hits, options_.cluster_gap_m)) {
-    if (!enough(cluster)) continue;
+  std::vector<BeamIndices> groups(known.size());
+  for (BeamIndices& cluster : cluster_hits(beams, hits, options_.cluster_gap_m)) {
+    std::vector<std::size_t> owners;
     std::vector<Vector2> centres;
-    for (const TrackedObstacle& disc : known) {
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      const double reach_m = known[k].radius_m + 0.5 * options_.cluster_gap_m;
       const bool holds = std::any_of(cluster.begin(), cluster.end(), [&](int i) {
-        return (beams[i].end.head<2>() - disc.position).norm() <= disc.radius_m;
+        return (beams[i].end.head<2>() - known[k].position).norm() <= reach_m;
       });
-      if (holds) centres.push_back(disc.position);
+      if (!holds) continue;
+      owners.push_back(k);
+      centres.push_back(known[k].position);
     }
-    if (centres.size() < 2) {
-      if (extent_m(beams, cluster) <= options_.cluster_extent_m) things.push_back(cluster);
+    if (owners.empty()) {
+      groups.push_back(std::move(cluster));
       continue;
     }
-    for (BeamIndices& part : part_cluster(beams, cluster, centres)) {
-      if (enough(part) && extent_m(beams, part) <= options_.cluster_extent_m)
-        things.push_back(std::move(part));
-    }
+    const auto parts = part_cluster(beams, cluster, centres);
+    for (std::size_t k = 0; k < owners.size(); ++k)
+      groups[owners[k]].insert(groups[owners[k]].end(), parts[k].begin(), parts[k].end());
   }
-  return things;
+  const auto moves = [&](const BeamIndices& group) {
+    return static_cast<int>(group.size()) >= options_.cluster_points &&
+           extent_m(beams, group) <= options_.cluster_extent_m;
+  };
+  groups.erase(std::stable_partition(groups.begin(), groups.end(), moves), groups.end());
+  return groups;
 }
 
 void ScanSorter::clear() {
   tracker_.clear();
-  time_s_ = 0.0;
   moving_hits_ = 0;
 }
 

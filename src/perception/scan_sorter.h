@@ -9,10 +9,11 @@
 namespace mocha {
 
 struct ScanSorterOptions {
-  double map_tolerance_m = 0.15;  ///< hits that near to a wall of the map are on it
-  double cluster_gap_m = 0.35;    ///< hits that near to each other are on one thing
-  int cluster_points = 3;         ///< least hits of a moving thing
-  double cluster_extent_m = 1.2;  ///< larger things do not move
+  double map_tolerance_m = 0.15;    ///< hits that near to a wall of the map are on it ...
+  double map_tolerance_rad = 0.02;  ///< ... and farther by so much times their range
+  double cluster_gap_m = 0.35;      ///< hits that near to each other are on one thing
+  int cluster_points = 3;           ///< least hits of a moving thing
+  double cluster_extent_m = 1.2;    ///< larger things do not move
   TrackerOptions tracker;
 
   /// From the parameters of the same names, without units.
@@ -33,9 +34,8 @@ class ScanSorter {
   /// Takes the next scan before it enters the map: hits on moving things become ignored ones.
   void sort(std::vector<Beam>& beams, const OccupancyMap& map);
 
-  /// Moving things, predicted to the time of the newest scan; that time [s], 0 before the first.
-  std::vector<TrackedObstacle> moving() const { return tracker_.at(time_s_); }
-  double time_s() const { return time_s_; }
+  /// The moving things that are known, predicted to a time.
+  std::vector<TrackedObstacle> moving(double time_s) const { return tracker_.at(time_s); }
   /// How many hits of the newest scan are on moving things.
   int moving_hits() const { return moving_hits_; }
 
@@ -49,7 +49,6 @@ class ScanSorter {
 
   ScanSorterOptions options_;
   ObstacleTracker tracker_;
-  double time_s_ = 0.0;
   int moving_hits_ = 0;
 };
 

@@ -69,12 +69,13 @@ void run(const std::vector<std::string>& arguments) {
     auto beams = to_beams(from_message(*scan), {pose, pose}, {30.0, 10.0});
     sorter.sort(beams, map);
     map.insert_scan(beams);
-    if (begin_s == 0.0) begin_s = sorter.time_s();
+    const double end_s = from_message(*scan).end_time_s();
+    if (begin_s == 0.0) begin_s = end_s;
     for (const Beam& beam : beams) {
       if (beam.kind == BeamEnd::kIgnored)
         hits.push_back({beam.time_s - begin_s, beam.end.head<2>()});
     }
-    for (const TrackedObstacle& thing : sorter.moving()) {
+    for (const TrackedObstacle& thing : sorter.moving(end_s)) {
       print(first, {static_cast<double>(thing.id), thing.time_s - begin_s, thing.position.x(),
                     thing.position.y(), thing.velocity.x(), thing.velocity.y(), thing.radius_m});
     }

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
-#include "perception/occupancy_map.h"
+#include "perception/scan_sorter.h"
 #include "ros/sensor_conversions.h"
 
 namespace mocha {
@@ -39,21 +40,22 @@ int count(const OccupancyGrid& grid, const Vector2& low, const Vector2& high, in
   return cells;
 }
 
-TEST(LidarBag, RealScansGiveACorridorWithoutThePeopleInIt) {
-  if (!std::filesystem::exists(bag_path())) GTEST_SKIP() << "no " << bag_path();
-  OccupancyMap map({});
+/// Calls take(beams, time) with each scan of the bag.
+template <class Take>
+void replay(Take take) {
   rosbag::Bag bag(bag_path());
-  int scans = 0;
   for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
     const auto scan = message.instantiate<sensor_msgs::LaserScan>();
     ASSERT_TRUE(scan);
     const PlanarScan planar = from_message(*scan);
     ASSERT_EQ(fault_of(planar), "");
     const Eigen::Isometry3d pose = mount_of(scan->header.frame_id);
-    map.insert_scan(to_beams(planar, {pose, pose}, {30.0, 10.0}));
-    ++scans;
+    auto beams = to_beams(planar, {pose, pose}, {30.0, 10.0});
+    take(beams, planar.end_time_s());
   }
-  EXPECT_EQ(scans, 661);
+}
+
+void check_corridor(const OccupancyMap& map) {
   const OccupancyGrid grid = map.slice(0.0);
   // The long wall: 7 m of it at 5 cm cells, straight within 25 cm.
   const int wall = count(grid, {-3.0, -3.05}, {3.9, -2.65}, OccupancyGrid::kOccupied);
@@ -64,6 +66,79 @@ TEST(LidarBag, RealScansGiveACorridorWithoutThePeopleInIt) {
   EXPECT_GT(count(grid, {-1.5, -2.5}, {1.5, -1.0}, OccupancyGrid::kFree), 1700) << "of 1800";
   EXPECT_EQ(count(grid, {-3.0, -9.0}, {3.9, -3.3}, OccupancyGrid::kFree), 0)
       << "nothing is seen through the wall";
+}
+
+TEST(LidarBag, RealScansGiveACorridorWithoutThePeopleInIt) {
+  if (!std::filesystem::exists(bag_path())) GTEST_SKIP() << "no " << bag_path();
+  OccupancyMap map({});
+  int scans = 0;
+  replay([&](std::vector<Beam>& beams, double) {
+    map.insert_scan(beams);
+    ++scans;
+  });
+  EXPECT_EQ(scans, 661);
+  check_corridor(map);
+}
+
+/// What became of one track.
+struct Followed {
+  double begin_s;
+  double end_s;
+  Vector2 from;
+  Vector2 at;
+  double farthest_m = 0.0;
+  double path_m = 0.0;
+  double fastest_mps = 0.0;
+
+  void note(const TrackedObstacle& thing) {
+    end_s = thing.time_s;
+    path_m += (thing.position - at).norm();
+    at = thing.position;
+    farthest_m = std::max(farthest_m, (at - from).norm());
+    fastest_mps = std::max(fastest_mps, thing.velocity.norm());
+  }
+  double length_s() const { return end_s - begin_s; }
+};
+
+TEST(LidarBag, WhoWalksIsFollowed) {
+  if (!std::filesystem::exists(bag_path())) GTEST_SKIP() << "no " << bag_path();
+  OccupancyMap map({});
+  ScanSorter sorter({});
+  std::map<std::uint32_t, Followed> tracks;
+  int hits = 0;
+  int astray = 0;  // of the hits on moving things, those on no track
+  replay([&](std::vector<Beam>& beams, double time_s) {
+    sorter.sort(beams, map);
+    map.insert_scan(beams);
+    const auto moving = sorter.moving(time_s);
+    for (const TrackedObstacle& thing : moving) {
+      const Followed fresh{time_s, time_s, thing.position, thing.position};
+      tracks.insert({thing.id, fresh}).first->second.note(thing);
+    }
+    for (const Beam& beam : beams) {
+      if (beam.kind != BeamEnd::kIgnored) continue;
+      ++hits;
+      astray += std::none_of(moving.begin(), moving.end(), [&](const TrackedObstacle& thing) {
+        return (thing.position - beam.end.head<2>()).norm() < thing.radius_m + 0.15;
+      });
+    }
+  });
+  check_corridor(map);
+  // From 8.5 s on one person walks about, now and then stopping, until the end at 33 s; another one
+  // sits and moves his feet.
+  EXPECT_LE(tracks.size(), 4u);
+  EXPECT_GT(hits, 3000);
+  EXPECT_LT(astray, 0.05 * hits);
+  const auto shorter = [](const auto& a, const auto& b) {
+    return a.second.length_s() < b.second.length_s();
+  };
+  ASSERT_FALSE(tracks.empty());
+  const Followed& longest = std::max_element(tracks.begin(), tracks.end(), shorter)->second;
+  EXPECT_GT(longest.length_s(), 20.0);
+  EXPECT_GT(longest.farthest_m, 1.5);
+  EXPECT_GT(longest.path_m / longest.length_s(), 0.3) << "m/s on average";
+  EXPECT_LT(longest.path_m / longest.length_s(), 1.2);
+  for (const auto& [id, track] : tracks) EXPECT_LT(track.fastest_mps, 2.0) << id;
 }
 
 }  // namespace

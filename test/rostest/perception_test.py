@@ -13,6 +13,7 @@ import rostest
 import tf2_ros
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TransformStamped
+from mocha_ugv.msg import PredictedObstacles
 from mocha_ugv.srv import LoadMap, SaveMap
 from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import LaserScan
@@ -49,8 +50,10 @@ def transform(parent, child):
 class PerceptionTest(unittest.TestCase):
     def setUp(self):
         self.maps = []
+        self.predictions = []
         self.words = {}
         rospy.Subscriber("/ugv1/map", OccupancyGrid, self.maps.append)
+        rospy.Subscriber("/ugv1/predicted_obstacles", PredictedObstacles, self.predictions.append)
         rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics)
         self.scans = rospy.Publisher("/ugv1/scan", LaserScan, queue_size=5)
         self.transforms = tf2_ros.StaticTransformBroadcaster()
@@ -99,6 +102,12 @@ class PerceptionTest(unittest.TestCase):
         self.assertEqual(self.cell(0.0, 0.0), 0)
         self.assertEqual(self.cell(HALF_ROOM + 0.01, 0.5), 100)
         self.assertEqual(self.cell(HALF_ROOM + 0.3, 0.5), -1)
+
+        # Nothing moves, and every scan says so.
+        self.assertGreaterEqual(len(self.predictions), len(self.maps))
+        self.assertGreater(self.predictions[-1].header.stamp, self.predictions[0].header.stamp)
+        self.assertEqual(self.predictions[-1].header.frame_id, "map")
+        self.assertFalse(any(message.obstacles for message in self.predictions))
 
         # Zones to keep out of look occupied, seen or not, and nothing around them does.
         self.assertEqual(self.cell(-1.25, 0.75), 100)
