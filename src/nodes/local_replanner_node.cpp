@@ -61,7 +61,7 @@ class LocalReplannerNode {
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
-        predictions_(node, identity_.map_frame, values.number("confidence")),
+        predictions_(node, identity_.map_frame, {values.number("confidence"), values.number("growth_horizon")}),
         proposals_(node.advertise<mocha_ugv::Trajectory>("proposed_trajectory", 10)),
         leases_(node.advertise<mocha_ugv::Lease>("lease", 10)),
         requests_(node.advertise<mocha_ugv::PlannerStatus>("replan_request", 10)),

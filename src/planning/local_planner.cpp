@@ -10,11 +10,13 @@
 #include "planning/escape_proof.h"
 #include "planning/parallel.h"
 #include "safety/margin_budget.h"
+#include "trajectory/stopping.h"
 
 namespace mocha {
 namespace {
 
-constexpr int kEfforts = 4;          // of one optimisation
+constexpr double kLatest = 1.6;      // times mu, after the least time: later, a drive is none
+constexpr int kEfforts = 3;          // of one optimisation
 constexpr double kSlack_m = 0.01;    // over what is proved, for the optimiser to work in
 constexpr double kLeastShare = 0.5;  // of mu that is left for the drive after a turn in place
 
@@ -29,9 +31,8 @@ constexpr Attempt kAttempts[] = {{0.2, 0.0}, {0.6, 0.0}, {0.3, 0.6}, {1.2, 0.0},
 
 /// Time lost against the plan by a robot that is slower than the plan is there.
 double catching_up_s(double speed, double plan_speed, double acceleration) {
-  if (!(plan_speed > speed)) return 0.0;
-  const double slower = plan_speed - speed;
-  return slower * slower / (2.0 * acceleration * plan_speed);
+  const double slower = plan_speed - std::clamp(speed, 0.0, plan_speed);
+  return slower > 0.0 ? slower * slower / (2.0 * acceleration * plan_speed) : 0.0;
 }
 
 double clearance_radius_m(const RobotModel& robot) {
@@ -53,6 +54,15 @@ TimedPath timed_path_of(const Motion& motion, double from_s, double until_s) {
   for (double t = from_s; t < until_s + kStep_s; t += kStep_s)
     path.push_back({motion.at(t).pose.position, t});
   return path;
+}
+
+/// Things that never rest count for good in the search for a motion, though nothing about them is
+/// proved so far ahead: else it would pay to wait until they are forgotten.
+std::vector<MovingThing> foreseen(std::vector<MovingThing> things) {
+  for (MovingThing& thing : things) {
+    if (std::isinf(thing.obstacle->rest_time())) thing.until_s = thing.obstacle->rest_time();
+  }
+  return things;
 }
 
 bool only_after(const Violation& violation, double time_s) {
@@ -77,6 +87,8 @@ std::optional<LocalPlanner::Task> LocalPlanner::next_task(const LocalQuery& quer
     const auto anchor =
         rejoining_point(query.plan, query.progress_s, (1.0 + tried.farther) * rules_.mu_s);
     if (!anchor) return std::nullopt;
+    const bool farther = tried.farther > 0.0;
+    if (farther && anchor->plan_time_s >= query.plan.end_time()) continue;
     Task task{*anchor, anchor->drive_s, {}};
     task.earliest_s += catching_up_s(start.speed, query.plan.at(query.progress_s).velocity.norm(),
                                      optimizer_.rest_acceleration());
@@ -84,7 +96,7 @@ std::optional<LocalPlanner::Task> LocalPlanner::next_task(const LocalQuery& quer
     ways.start = {start.pose.position, query.start_time_s};
     ways.goal = {anchor->state.col(0),
                  query.start_time_s + task.earliest_s + tried.later * rules_.mu_s};
-    ways.moving = scene.moving;
+    ways.moving = foreseen(scene.moving);
     for (MovingThing& thing : ways.moving) thing.keep_m += kSlack_m;
     ways.driven = timed_path_of(query.driven, query.start_time_s, ways.goal.time_s);
     SpaceTimeRules rules;
@@ -124,7 +136,7 @@ void LocalPlanner::drive(const LocalQuery& query, const LocalScene& scene, const
   drive.path = opening.path;
   drive.start = opening.state;
   drive.start_time_s = query.start_time_s + opening.duration_s;
-  drive.moving = scene.moving;
+  drive.moving = foreseen(scene.moving);
   for (const TimedPoint& point : candidate.way)
     drive.times_s.push_back(point.time_s - query.start_time_s);
   const double mu_s = task.earliest_s - opening.duration_s;
@@ -141,9 +153,27 @@ void LocalPlanner::drive(const LocalQuery& query, const LocalScene& scene, const
     candidate.rejoins_s = drive.start_time_s + found.curve.duration();
     candidate.motion = rejoined(query.start_time_s, std::move(phases), query.plan, task.anchor);
     candidate.violation = certify(candidate.motion, scene, query.start_time_s);
-    if (only_after(candidate.violation, candidate.rejoins_s)) return;
+    const double late_s = candidate.rejoins_s - query.start_time_s - task.earliest_s;
+    if (late_s > kLatest * rules_.mu_s) return;  // to brake and wait is better
+    if (only_after(candidate.violation, candidate.rejoins_s)) {
+      candidate.reason = PlanReason::kSolved;
+      return;
+    }
     effort = raised(effort, candidate.violation);
   }
+}
+
+std::vector<Opening> LocalPlanner::openings(const LocalQuery& query,
+                                            std::vector<Vector2> path) const {
+  const MotionState start = query.committed.at(query.start_time_s);
+  if (start.at_rest) return openings_.from_rest({}, start.pose, path);
+  std::vector<Opening> rolling = openings_.rolling(start, path);
+  if (!rolling.empty()) return rolling;
+  const std::vector<Phase> brake =
+      brake_along(query.committed, query.start_time_s, optimizer_.rest_acceleration());
+  const Pose stop = Motion(query.start_time_s, brake).end_pose();
+  path.front() = stop.position;
+  return openings_.from_rest(brake, stop, path);
 }
 
 LocalCandidate LocalPlanner::candidate(const LocalQuery& query, const LocalScene& scene,
@@ -152,19 +182,13 @@ LocalCandidate LocalPlanner::candidate(const LocalQuery& query, const LocalScene
   candidate.way = way.points;
   candidate.signature = way.signature;
   candidate.driven = way.driven;
-  const MotionState start = query.committed.at(query.start_time_s);
-  const std::vector<Vector2> path = places_of(way.points);
-  const std::vector<Opening> openings =
-      start.at_rest ? openings_.from_rest({}, start.pose, path) : openings_.rolling(start, path);
-  for (const Opening& opening : openings) {
+  for (const Opening& opening : openings(query, places_of(way.points))) {
     try {
       drive(query, scene, task, opening, candidate);
     } catch (const std::invalid_argument&) {  // what the optimiser found is no motion
       candidate.motion = Motion();
     }
-    if (candidate.motion.empty() || !only_after(candidate.violation, candidate.rejoins_s)) continue;
-    candidate.reason = PlanReason::kSolved;
-    break;
+    if (candidate.reason == PlanReason::kSolved) break;
   }
   return candidate;
 }

@@ -84,6 +84,8 @@ class LocalPlanner {
  private:
   LocalCandidate candidate(const LocalQuery& query, const LocalScene& scene, const Task& task,
                            const SpaceTimeWay& way) const;
+  /// How to begin on a way: at once, or after braking and turning.
+  std::vector<Opening> openings(const LocalQuery& query, std::vector<Vector2> path) const;
   void drive(const LocalQuery& query, const LocalScene& scene, const Task& task,
              const Opening& opening, LocalCandidate& candidate) const;
   Violation certify(const Motion& motion, const LocalScene& scene, double from_s) const;

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "planning/conflict.h"
+#include "planning/evasion.h"
+#include "safety/margin_budget.h"
 #include "topology/map_terrain.h"
 #include "trajectory/stopping.h"
 
@@ -20,7 +22,7 @@ constexpr double kJoinTolerance_m = 0.01;
 constexpr double kJoinTolerance_rad = 0.03;
 constexpr double kJoinTolerance_mps = 0.03;
 constexpr double kSamePlace_m = 0.5;      // of two plans' ends
-constexpr double kOffPlan_m = 0.5;        // farther from the plan, it is not come back to
+constexpr double kOffPlan_m = 1.5;        // farther from the plan, it is not come back to
 constexpr double kAgain_s = 0.19;         // between two local plans
 constexpr double kShareOfTrigger = 0.75;  // of the clearance to what moves, below which (37) is met
 constexpr double kWorthwhile_s =
@@ -48,10 +50,7 @@ bool agree(const MotionState& a, const MotionState& b) {
 
 LocalReplanner::LocalReplanner(const RobotModel& robot, const LocalReplannerRules& rules,
                                const LocalRules& local_rules)
-    : own_radius_m_(robot.footprint.circumscribed_radius_m()),
-      builder_(robot),
-      planner_(robot, local_rules),
-      rules_(rules) {}
+    : robot_(robot), builder_(robot), planner_(robot, local_rules), rules_(rules) {}
 
 void LocalReplanner::set_plan(Motion plan) { offered_ = std::move(plan); }
 
@@ -96,14 +95,22 @@ LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& stat
   }
   const Violation violation = builder_.certify_in_force(committed_, scene, now_s);
   output.renew_lease = !violation;
-  const bool stands = committed_.end_time() <= now_s;
-  if ((violation && !stands) || conflict(plan_, now_s, scene)) {
-    if (waits_for_answer(now_s, scene) || swerve(now_s, scene, output)) return output;
+  const bool in_the_way = violation && committed_.end_time() > now_s;
+  const bool conflicting{conflict(plan_, now_s, scene)};
+  if ((in_the_way || conflicting) && waits_for_answer(now_s, scene)) return output;
+  // Only where the promise brakes and the plan does not, the plan has to be promised on.
+  if (in_the_way && !conflicting && follows_plan_at(now_s) &&
+      violation.time_s > committed_source_.follows_until_s) {
+    extend(now_s, scene, 0.0, output);
+    if (output.proposal) return output;
   }
-  if (violation && !stands) {
+  if ((in_the_way || conflicting) && swerve(now_s, scene, output)) return output;
+  const bool waits_in_the_way = violation && !in_the_way && under_way();
+  if (waits_in_the_way && !pending && evade(now_s, scene, output)) return output;
+  if (in_the_way) {
     shorten(now_s, violation, scene, output);
   } else if (!pending && !plan_.empty()) {
-    extend(now_s, scene, output);
+    extend(now_s, scene, rules_.extend_every_s, output);
   }
   return output;
 }
@@ -125,8 +132,8 @@ void LocalReplanner::take_offer(double now_s, const PromiseScene& scene, Output&
 Violation LocalReplanner::conflict(const Motion& plan, double now_s,
                                    const PromiseScene& scene) const {
   if (plan.empty()) return {};
-  return conflict_of(plan, builder_.kept_from(scene, now_s, kShareOfTrigger), own_radius_m_, now_s,
-                     rules_.mu_pre_s);
+  return conflict_of(plan, builder_.kept_from(scene, now_s, kShareOfTrigger),
+                     robot_.footprint.circumscribed_radius_m(), now_s, rules_.mu_pre_s);
 }
 
 bool LocalReplanner::waits_for_answer(double now_s, const PromiseScene& scene) const {
@@ -194,6 +201,7 @@ void LocalReplanner::shorten(double now_s, const Violation& violation, const Pro
     output.message += "; brakes in time";
     return;
   }
+  if (evade(now_s, scene, output)) return;
   const Motion hard =
       with_brake(committed_, committed_.cut_time(now_s), soonest, builder_.hard_deceleration());
   if (!builder_.certify_in_force(hard, scene, now_s)) {
@@ -203,6 +211,32 @@ void LocalReplanner::shorten(double now_s, const Violation& violation, const Pro
     return;
   }
   do_the_least_bad(now_s, scene, output);
+}
+
+bool LocalReplanner::under_way() const {
+  return !plan_.empty() && !committed_.empty() &&
+         (plan_.end_pose().position - committed_.end_pose().position).norm() > kSamePlace_m;
+}
+
+bool LocalReplanner::evade(double now_s, const PromiseScene& scene, Output& output) {
+  const double join_s = committed_.switch_time(now_s + rules_.settle_s);
+  const auto things = builder_.kept_from(scene, now_s, 1.0);
+  const EvasionScene around{
+      *scene.obstacles,
+      robot_.footprint.circumscribed_radius_m() + MarginBudget::of(robot_).static_margin_m(),
+      things, scene.predicted_until_s};
+  for (const Motion& motion :
+       evasions(committed_, join_s, builder_.deceleration(), robot_, around)) {
+    const double begin_s = std::max(committed_.cut_time(now_s), committed_.start_time());
+    std::vector<Phase> phases = phases_until(committed_, begin_s, join_s);
+    for (const Phase& phase : motion.phases()) phases.push_back(phase);
+    if (builder_.certify(Motion(begin_s, std::move(phases)), scene, now_s)) continue;
+    propose(now_s, motion, false, {}, output);
+    pending_brake_ = true;
+    output.message += "; steps aside";
+    return true;
+  }
+  return false;
 }
 
 void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, Output& output) {
@@ -280,13 +314,14 @@ void LocalReplanner::postpone_late_plan(double now_s) {
   if (stands_there) plan_ = Motion(join_s, plan_.phases());
 }
 
-void LocalReplanner::extend(double now_s, const PromiseScene& scene, Output& output) {
+void LocalReplanner::extend(double now_s, const PromiseScene& scene, double every_s,
+                            Output& output) {
   postpone_late_plan(now_s);
   if (plan_.end_time() <= now_s + rules_.settle_s) return;
   const bool same_plan = committed_source_.plan == plan_id_;
   const double reach_s = committed_source_.follows_until_s;
-  if (same_plan && (reach_s >= plan_.end_time() - 1e-6 ||
-                    reach_s > now_s + rules_.horizon_s - rules_.extend_every_s)) {
+  if (same_plan &&
+      (reach_s >= plan_.end_time() - 1e-6 || reach_s > now_s + rules_.horizon_s - every_s)) {
     return;
   }
   double join_s;
@@ -303,6 +338,7 @@ void LocalReplanner::extend(double now_s, const PromiseScene& scene, Output& out
   }
   const auto promise = builder_.longest(*onward, scene, now_s, join_s, now_s + rules_.horizon_s);
   if (!promise) {
+    if (swerve(now_s, scene, output)) return;
     ask_for_plan({}, "nothing of the plan can be promised from here", output);
     return;
   }
@@ -315,7 +351,10 @@ void LocalReplanner::extend(double now_s, const PromiseScene& scene, Output& out
   if (promise->cut_by && ((waits && nowhere) || !unseen)) {
     ask_for_plan(promise->cut_by, describe(promise->cut_by), output);
   }
-  if (nowhere) return;
+  if (nowhere) {
+    if (promise->cut_by.term == ViolatedTerm::kSeparation) swerve(now_s, scene, output);
+    return;
+  }
   propose(now_s, remainder(promise->motion, join_s), false, {plan_id_, promise->follows_until_s},
           output);
 }

@@ -77,6 +77,8 @@ class LocalReplanner {
   };
 
   void take_offer(double now_s, const PromiseScene& scene, Output& output);
+  /// The plan leads farther than what is in force.
+  bool under_way() const;
   Violation conflict(const Motion& plan, double now_s, const PromiseScene& scene) const;
   bool waits_for_answer(double now_s, const PromiseScene& scene) const;
   void start(double now_s, const RobotState& measured, Output& output);
@@ -85,8 +87,11 @@ class LocalReplanner {
   bool swerve(double now_s, const PromiseScene& scene, Output& output);
   std::optional<double> progress_at(double join_s) const;
   void shorten(double now_s, const Violation& violation, const PromiseScene& scene, Output& output);
+  /// Brakes and steps aside, if that can be proved.
+  bool evade(double now_s, const PromiseScene& scene, Output& output);
   void do_the_least_bad(double now_s, const PromiseScene& scene, Output& output);
-  void extend(double now_s, const PromiseScene& scene, Output& output);
+  /// Promises more of the plan once `every_s` of the horizon is used up.
+  void extend(double now_s, const PromiseScene& scene, double every_s, Output& output);
   /// A plan from rest that came too late for its own times is as good later, while the robot stands
   /// where it begins.
   void postpone_late_plan(double now_s);
@@ -98,7 +103,7 @@ class LocalReplanner {
     return committed_source_.plan == plan_id_ && committed_source_.follows_until_s >= t;
   }
 
-  const double own_radius_m_;
+  const RobotModel robot_;
   PromiseBuilder builder_;
   LocalPlanner planner_;
   LocalReplannerRules rules_;

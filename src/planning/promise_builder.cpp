@@ -10,9 +10,12 @@
 namespace mocha {
 namespace {
 
-constexpr double kStep_s = 0.1;          // between the places where braking is tried
-constexpr double kPeerSlack_m = 0.01;    // so that a proof today still holds tomorrow
-constexpr double kShareInForce = 0.5;    // of the clearance to people
+constexpr double kStep_s = 0.1;        // between the places where braking is tried
+constexpr double kPeerSlack_m = 0.01;  // so that a proof today still holds tomorrow
+constexpr double kShareInForce = 0.5;  // of the clearance to people
+// What is promised now holds for predictions that reach farther, so that it need not be replaced as
+// soon as they do.
+constexpr double kReserve_s = 1.0;
 constexpr double kPeerHorizon_s = 10.0;  // of predictions that never come to rest
 
 }  // namespace
@@ -29,14 +32,15 @@ PromiseBuilder::PromiseBuilder(RobotModel robot)
 
 Violation PromiseBuilder::certify(const Motion& motion, const PromiseScene& scene,
                                   double from_s) const {
-  return check(motion, scene, from_s, {margins_.static_margin_m(), kPeerSlack_m, 1.0});
+  return check(motion, scene, from_s, {margins_.static_margin_m(), kPeerSlack_m, 1.0, 0.0});
 }
 
 Violation PromiseBuilder::certify_in_force(const Motion& motion, const PromiseScene& scene,
                                            double from_s) const {
   // The peers' broadcasters settle with exactly the required distance.
-  return check(motion, scene, from_s,
-               {margins_.static_margin_m() - margins_.map_m, -kPeerSlack_m, kShareInForce});
+  return check(
+      motion, scene, from_s,
+      {margins_.static_margin_m() - margins_.map_m, -kPeerSlack_m, kShareInForce, kReserve_s});
 }
 
 double PromiseBuilder::hard_deceleration() const {
@@ -45,7 +49,7 @@ double PromiseBuilder::hard_deceleration() const {
 
 std::vector<MovingThing> PromiseBuilder::kept_from(const PromiseScene& scene, double now_s,
                                                    double share) const {
-  return kept_from(scene, now_s, Kept{0.0, kPeerSlack_m, share});
+  return kept_from(scene, now_s, Kept{0.0, kPeerSlack_m, share, 0.0});
 }
 
 std::vector<MovingThing> PromiseBuilder::kept_from(const PromiseScene& scene, double now_s,
@@ -57,7 +61,7 @@ std::vector<MovingThing> PromiseBuilder::kept_from(const PromiseScene& scene, do
   const double from_moving_m = robot_.footprint.circumscribed_radius_m() + margins_.own_margin_m() +
                                kept.moving_share * robot_.moving_clearance_m;
   for (const auto& thing : scene.moving)
-    things.push_back({thing, from_moving_m, scene.predicted_until_s});
+    things.push_back({thing, from_moving_m, scene.predicted_until_s - kept.reserve_s});
   return things;
 }
 

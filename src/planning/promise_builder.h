@@ -68,6 +68,7 @@ class PromiseBuilder {
     double obstacles_m;   ///< margin
     double peer_slack_m;  ///< beyond what is required
     double moving_share;  ///< of the clearance required
+    double reserve_s;     ///< at the end of the predictions, of which nothing is asked
   };
   std::vector<MovingThing> kept_from(const PromiseScene& scene, double now_s,
                                      const Kept& kept) const;

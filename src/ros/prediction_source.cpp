@@ -22,7 +22,7 @@ void require(bool condition, std::uint32_t id, const char* what) {
 }  // namespace
 
 std::shared_ptr<const MovingObstacle> from_message(const mocha_ugv::PredictedObstacle& message,
-                                                   ros::Time stamp, double confidence) {
+                                                   ros::Time stamp, const PredictionRules& rules) {
   const Vector2 place(message.position.x, message.position.y);
   const Vector2 velocity(message.velocity.x, message.velocity.y);
   require(place.cwiseAbs().maxCoeff() < kFarthest_m, message.id, "its place is not plausible");
@@ -31,17 +31,18 @@ std::shared_ptr<const MovingObstacle> from_message(const mocha_ugv::PredictedObs
           "its radius is not plausible");
   const Eigen::Matrix4d covariance =
       Eigen::Map<const Eigen::Matrix4d>(message.covariance.data()).transpose();
-  const RadiusGrowth growth = growth_of(covariance, confidence);
+  const RadiusGrowth growth = growth_of(covariance, rules.confidence);
   require(growth.radius_m < kLargest_m && growth.rate < kFastest, message.id,
           "its covariance is not plausible");
-  return std::make_shared<PredictedDisc>("moving thing " + std::to_string(message.id),
-                                         stamp.toSec(), place, velocity,
-                                         message.radius + growth.radius_m, growth.rate);
+  return std::make_shared<PredictedDisc>(
+      "moving thing " + std::to_string(message.id), stamp.toSec(), place, velocity,
+      message.radius + growth.radius_m, growth.rate, rules.growth_s);
 }
 
-PredictionSource::PredictionSource(ros::NodeHandle& node, std::string frame, double confidence)
+PredictionSource::PredictionSource(ros::NodeHandle& node, std::string frame,
+                                   const PredictionRules& rules)
     : frame_(std::move(frame)),
-      confidence_(confidence),
+      rules_(rules),
       predictions_(
           node.subscribe("predicted_obstacles", 5, &PredictionSource::on_predictions, this)) {}
 
@@ -57,7 +58,7 @@ void PredictionSource::on_predictions(const mocha_ugv::PredictedObstacles& messa
       throw std::invalid_argument("more than " + std::to_string(kMostObstacles) + " obstacles");
     std::vector<std::shared_ptr<const MovingObstacle>> obstacles;
     for (const auto& obstacle : message.obstacles)
-      obstacles.push_back(from_message(obstacle, message.header.stamp, confidence_));
+      obstacles.push_back(from_message(obstacle, message.header.stamp, rules_));
     obstacles_ = std::move(obstacles);
     stamp_ = message.header.stamp;
   } catch (const std::exception& error) {

@@ -11,11 +11,17 @@
 
 namespace mocha {
 
-/// A prediction as a disc at constant velocity, whose radius grows with the covariance so that it
-/// holds the thing with the probability `confidence`. Throws std::invalid_argument for values that
-/// are not finite or not plausible (faster than 30 m/s, larger than 20 m, farther than 100 km).
+/// How far predictions are trusted.
+struct PredictionRules {
+  double confidence;  ///< with which a disc holds its thing, at any one time
+  double growth_s;    ///< how far ahead its radius grows
+};
+
+/// A prediction as a disc at constant velocity, whose radius grows with the covariance. Throws
+/// std::invalid_argument for values that are not finite or not plausible (faster than 30 m/s,
+/// larger than 20 m, farther than 100 km).
 std::shared_ptr<const MovingObstacle> from_message(const mocha_ugv::PredictedObstacle& message,
-                                                   ros::Time stamp, double confidence);
+                                                   ros::Time stamp, const PredictionRules& rules);
 
 /// What moves around the robot: the newest message on `predicted_obstacles`.
 class PredictionSource {
@@ -23,7 +29,7 @@ class PredictionSource {
   /// A message in another frame than `frame`, with more than a thousand obstacles, or with one that
   /// from_message() refuses, is refused as a whole and counted: what is left out could be what the
   /// robot runs into, so the former message holds until it is too old.
-  PredictionSource(ros::NodeHandle& node, std::string frame, double confidence);
+  PredictionSource(ros::NodeHandle& node, std::string frame, const PredictionRules& rules);
 
   const std::vector<std::shared_ptr<const MovingObstacle>>& obstacles() const { return obstacles_; }
   /// Since the stamp of the newest message [s]; infinity before the first.
@@ -35,7 +41,7 @@ class PredictionSource {
   void on_predictions(const mocha_ugv::PredictedObstacles& message);
 
   const std::string frame_;
-  const double confidence_;
+  const PredictionRules rules_;
   std::vector<std::shared_ptr<const MovingObstacle>> obstacles_;
   ros::Time stamp_;
   int refused_ = 0;

@@ -92,31 +92,43 @@ double PeerObstacle::chord_error_m(double from_s, double until_s) const {
 double PeerObstacle::rest_time() const { return motion_->end_time(); }
 
 PredictedDisc::PredictedDisc(std::string name, double t0, const Vector2& centre,
-                             const Vector2& velocity, double radius_m, double radius_rate)
+                             const Vector2& velocity, double radius_m, double radius_rate,
+                             double growth_s)
     : name_(std::move(name)),
       t0_(t0),
       centre_(centre),
       velocity_(velocity),
       radius_m_(radius_m),
-      radius_rate_(radius_rate) {
+      radius_rate_(radius_rate),
+      growth_s_(growth_s) {
   require(std::isfinite(t0_) && centre_.allFinite() && velocity_.allFinite(), name_,
           "time, place or velocity is not finite");
   require(std::isfinite(radius_m_) && radius_m_ >= 0.0, name_,
           "the radius is not finite and >= 0 m");
   require(std::isfinite(radius_rate_) && radius_rate_ >= 0.0, name_,
           "the growth of the radius is not finite and >= 0 m/s");
+  require(growth_s_ >= 0.0, name_, "the time for which the radius grows is not >= 0 s");
 }
 
 MovingObstacle::Disc PredictedDisc::at(double t) const {
-  const double ahead = std::max(0.0, t - t0_);
-  return {centre_ + (t - t0_) * velocity_, velocity_, radius_m_ + radius_rate_ * ahead,
-          radius_rate_};
+  const double ahead_s = t - t0_;
+  const bool grows = ahead_s >= 0.0 && ahead_s < growth_s_;
+  return {centre_ + ahead_s * velocity_, velocity_,
+          radius_m_ + radius_rate_ * std::clamp(ahead_s, 0.0, growth_s_),
+          grows ? radius_rate_ : 0.0};
 }
 
-double PredictedDisc::max_closing_speed(double) const { return velocity_.norm() + radius_rate_; }
+double PredictedDisc::max_closing_speed(double t) const {
+  return velocity_.norm() + (t - t0_ < growth_s_ ? radius_rate_ : 0.0);
+}
 
-/// None: the centre moves uniformly, and the radius is convex in time.
-double PredictedDisc::chord_error_m(double, double) const { return 0.0; }
+/// The centre moves uniformly, and the radius is convex in time but where its growth ends.
+double PredictedDisc::chord_error_m(double from_s, double until_s) const {
+  const double before_s = t0_ + growth_s_ - from_s;
+  const double after_s = until_s - from_s - before_s;
+  if (!(before_s > 0.0 && after_s > 0.0)) return 0.0;
+  return radius_rate_ * before_s * after_s / (before_s + after_s);
+}
 
 double PredictedDisc::rest_time() const { return std::numeric_limits<double>::infinity(); }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -60,13 +61,15 @@ class PeerObstacle : public MovingObstacle {
 };
 
 /// A thing seen at time t0 at constant velocity, its radius growing with the uncertainty of the
-/// prediction.
+/// prediction. It grows for `growth_s` >= 0 only: who looks again long before then need not fear
+/// now all that may be unknown later.
 class PredictedDisc : public MovingObstacle {
  public:
   /// Throws std::invalid_argument for values that are not finite and for a negative radius or
   /// growth.
   PredictedDisc(std::string name, double t0, const Vector2& centre, const Vector2& velocity,
-                double radius_m, double radius_rate);
+                double radius_m, double radius_rate,
+                double growth_s = std::numeric_limits<double>::infinity());
   Disc at(double t) const override;
   double max_closing_speed(double t) const override;
   double chord_error_m(double from_s, double until_s) const override;
@@ -80,6 +83,7 @@ class PredictedDisc : public MovingObstacle {
   Vector2 velocity_;
   double radius_m_;
   double radius_rate_;
+  double growth_s_;
 };
 
 }  // namespace mocha

@@ -21,8 +21,9 @@ std::vector<std::shared_ptr<const MovingObstacle>> predictions(const ReplanScene
                                                                double now_s) {
   constexpr double kPlace_m = 0.03;  // standard deviations
   constexpr double kVelocity = 0.05;
-  static const double kConfidence =
-      ParameterTable::from_schema("config/local_replanner.yaml").number("confidence");
+  static const auto kValues = ParameterTable::from_schema("config/local_replanner.yaml");
+  static const double kConfidence = kValues.number("confidence");
+  static const double kGrowth_s = kValues.number("growth_horizon");
   const Eigen::Vector4d variances(kPlace_m * kPlace_m, kPlace_m * kPlace_m, kVelocity * kVelocity,
                                   kVelocity * kVelocity);
   const RadiusGrowth growth = growth_of(Eigen::Matrix4d(variances.asDiagonal()), kConfidence);
@@ -30,9 +31,9 @@ std::vector<std::shared_ptr<const MovingObstacle>> predictions(const ReplanScene
   for (std::size_t i = 0; i < scene.movers.size(); ++i) {
     const SceneMover& mover = scene.movers[i];
     const MoverTruth now = truth(mover, t);
-    discs.push_back(std::make_shared<PredictedDisc>("mover" + std::to_string(i + 1), now_s,
-                                                    now.centre, now.velocity,
-                                                    mover.radius_m + growth.radius_m, growth.rate));
+    discs.push_back(std::make_shared<PredictedDisc>(
+        "mover" + std::to_string(i + 1), now_s, now.centre, now.velocity,
+        mover.radius_m + growth.radius_m, growth.rate, kGrowth_s));
   }
   return discs;
 }

@@ -89,6 +89,7 @@ class ClosedLoop {
     for (const double end_s = now_s + time_s; now_s < end_s;) step();
   }
 
+  const LocalReplanner& replanner() const { return replanner_; }
   const RobotState& state() const { return state_; }
   const Motion& committed() const { return replanner_.committed(); }
   bool standing() const {
