@@ -52,7 +52,7 @@ std::vector<bool> ObstacleTracker::update(const std::vector<DiscSighting>& sight
     moving[partners[i]] = !tracks_[i].standing;
   }
   for (std::size_t j = 0; j < sightings.size(); ++j) {
-    if (!taken[j] && !belongs_to_known(sightings[j])) begin(sightings[j]);
+    if (!taken[j]) begin(sightings[j]);
   }
   join();
   tracks_.erase(
@@ -120,15 +120,6 @@ void ObstacleTracker::miss(Track& track, const std::vector<Beam>& beams, double 
   const double patience_s = known && track.hidden ? options_.hidden_time_s : options_.lost_time_s;
   track.lost = time_s - track.seen_s > patience_s || track.missing >= (known ? kMissingScans : 1) ||
                (track.standing && view == View::kTaken);  // the map has it
-}
-
-/// A part of something that has another part, such as a leg.
-bool ObstacleTracker::belongs_to_known(const DiscSighting& sighting) const {
-  const Vector2 centre = sighting.centre(clamped_radius(sighting));
-  return std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& track) {
-    return track.id > 0 &&
-           (centre - track.filter.position()).norm() < track.radius_m + options_.min_radius_m;
-  });
 }
 
 void ObstacleTracker::begin(const DiscSighting& sighting) {

@@ -67,7 +67,6 @@ class ObstacleTracker {
   std::vector<int> associate(const std::vector<DiscSighting>& sightings) const;
   void see(Track& track, const DiscSighting& sighting);
   void miss(Track& track, const std::vector<Beam>& beams, double time_s) const;
-  bool belongs_to_known(const DiscSighting& sighting) const;
   void begin(const DiscSighting& sighting);
   void join();
   Vector2 centre_of(const DiscSighting& sighting, double radius_m) const;

@@ -16,7 +16,7 @@ namespace mocha {
 namespace {
 
 constexpr double kLatest = 1.6;      // times mu, after the least time: later, a drive is none
-constexpr int kEfforts = 3;          // of one optimisation
+constexpr int kEfforts = 2;          // of one optimisation
 constexpr double kSlack_m = 0.01;    // over what is proved, for the optimiser to work in
 constexpr double kLeastShare = 0.5;  // of mu that is left for the drive after a turn in place
 
@@ -27,7 +27,7 @@ struct Attempt {
   double later;
   double farther;
 };
-constexpr Attempt kAttempts[] = {{0.2, 0.0}, {0.6, 0.0}, {0.3, 0.6}, {1.2, 0.0}, {1.2, 0.6}};
+constexpr Attempt kAttempts[] = {{0.2, 0.0}, {0.6, 0.0}, {0.3, 0.6}, {1.2, 0.0}};
 
 /// Time lost against the plan by a robot that is slower than the plan is there.
 double catching_up_s(double speed, double plan_speed, double acceleration) {

@@ -23,6 +23,7 @@ constexpr double kJoinTolerance_rad = 0.03;
 constexpr double kJoinTolerance_mps = 0.03;
 constexpr double kSamePlace_m = 0.5;      // of two plans' ends
 constexpr double kOffPlan_m = 1.5;        // farther from the plan, it is not come back to
+constexpr double kWorthwhile_m = 0.02;    // of room, for which stepping aside is worth while
 constexpr double kAgain_s = 0.19;         // between two local plans
 constexpr double kShareOfTrigger = 0.75;  // of the clearance to what moves, below which (37) is met
 constexpr double kWorthwhile_s =
@@ -96,21 +97,28 @@ LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& stat
   const Violation violation = builder_.certify_in_force(committed_, scene, now_s);
   output.renew_lease = !violation;
   const bool in_the_way = violation && committed_.end_time() > now_s;
-  const bool conflicting{conflict(plan_, now_s, scene)};
+  const PromiseScene likely = scene.most_likely();
+  const PromiseScene& asked = squeezes_ ? likely : scene;
+  const bool conflicting{conflict(plan_, now_s, asked)};
   if ((in_the_way || conflicting) && waits_for_answer(now_s, scene)) return output;
   // Only where the promise brakes and the plan does not, the plan has to be promised on.
   if (in_the_way && !conflicting && follows_plan_at(now_s) &&
       violation.time_s > committed_source_.follows_until_s) {
-    extend(now_s, scene, 0.0, output);
+    extend(now_s, asked, 0.0, output);
     if (output.proposal) return output;
   }
   if ((in_the_way || conflicting) && swerve(now_s, scene, output)) return output;
   const bool waits_in_the_way = violation && !in_the_way && under_way();
-  if (waits_in_the_way && !pending && evade(now_s, scene, output)) return output;
+  if (waits_in_the_way && !pending) {
+    output.violation = violation;
+    output.message = describe(violation);
+    if (!evade(now_s, scene, output)) do_the_least_bad(now_s, scene, output);
+    return output;
+  }
   if (in_the_way) {
     shorten(now_s, violation, scene, output);
   } else if (!pending && !plan_.empty()) {
-    extend(now_s, scene, rules_.extend_every_s, output);
+    extend(now_s, asked, rules_.extend_every_s, output);
   }
   return output;
 }
@@ -125,6 +133,7 @@ void LocalReplanner::take_offer(double now_s, const PromiseScene& scene, Output&
   if (!output.keeps_plan) {
     plan_ = std::move(*offered_);
     ++plan_id_;
+    squeezes_ = false;
   }
   offered_.reset();
 }
@@ -189,7 +198,10 @@ void LocalReplanner::shorten(double now_s, const Violation& violation, const Pro
   output.message = describe(violation);
   output.request_plan = true;
   const double soonest = committed_.switch_time(now_s + rules_.emergency_s);
-  const auto safe = builder_.longest(committed_, scene, now_s, soonest, committed_.end_time());
+  auto safe = builder_.longest(committed_, scene, now_s, soonest, committed_.end_time());
+  if (!safe) {
+    safe = builder_.longest(committed_, scene.most_likely(), now_s, soonest, committed_.end_time());
+  }
   if (safe) {
     const double join_s = committed_.switch_time(now_s + rules_.settle_s);
     const bool time_to_settle = safe->follows_until_s > join_s;
@@ -219,18 +231,13 @@ bool LocalReplanner::under_way() const {
 }
 
 bool LocalReplanner::evade(double now_s, const PromiseScene& scene, Output& output) {
+  return evade_in(now_s, scene, output) || evade_in(now_s, scene.most_likely(), output);
+}
+
+bool LocalReplanner::evade_in(double now_s, const PromiseScene& scene, Output& output) {
   const double join_s = committed_.switch_time(now_s + rules_.settle_s);
-  const auto things = builder_.kept_from(scene, now_s, 1.0);
-  const EvasionScene around{
-      *scene.obstacles,
-      robot_.footprint.circumscribed_radius_m() + MarginBudget::of(robot_).static_margin_m(),
-      things, scene.predicted_until_s};
-  for (const Motion& motion :
-       evasions(committed_, join_s, builder_.deceleration(), robot_, around)) {
-    const double begin_s = std::max(committed_.cut_time(now_s), committed_.start_time());
-    std::vector<Phase> phases = phases_until(committed_, begin_s, join_s);
-    for (const Phase& phase : motion.phases()) phases.push_back(phase);
-    if (builder_.certify(Motion(begin_s, std::move(phases)), scene, now_s)) continue;
+  for (const Motion& motion : evasions_from(join_s, now_s, scene)) {
+    if (builder_.certify(after_committed(now_s, join_s, motion), scene, now_s)) continue;
     propose(now_s, motion, false, {}, output);
     pending_brake_ = true;
     output.message += "; steps aside";
@@ -239,16 +246,48 @@ bool LocalReplanner::evade(double now_s, const PromiseScene& scene, Output& outp
   return false;
 }
 
+std::vector<Motion> LocalReplanner::evasions_from(double join_s, double now_s,
+                                                  const PromiseScene& scene) const {
+  const EvasionScene around{
+      *scene.obstacles,
+      robot_.footprint.circumscribed_radius_m() + MarginBudget::of(robot_).static_margin_m(),
+      builder_.kept_from(scene, now_s, 1.0), scene.predicted_until_s};
+  return evasions(committed_, join_s, builder_.deceleration(), robot_, around);
+}
+
+Motion LocalReplanner::after_committed(double now_s, double join_s, const Motion& motion) const {
+  const double begin_s = std::max(committed_.cut_time(now_s), committed_.start_time());
+  std::vector<Phase> phases = phases_until(committed_, begin_s, join_s);
+  for (const Phase& phase : motion.phases()) phases.push_back(phase);
+  return Motion(begin_s, std::move(phases));
+}
+
 void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, Output& output) {
   ++least_bad_;
-  const auto things = builder_.kept_from(scene, now_s, 1.0);
-  const double until_s = now_s + rules_.mu_pre_s;
+  const PromiseScene likely = scene.most_likely();
+  const auto things = builder_.kept_from(likely, now_s, 1.0);
+  const auto room_m = [&](const Motion& motion) {
+    return least_room_m(motion, things, now_s, now_s + rules_.mu_pre_s);
+  };
   const Motion stop =
       with_brake(committed_, committed_.cut_time(now_s),
                  committed_.switch_time(now_s + rules_.emergency_s), builder_.hard_deceleration());
-  const bool wall = output.violation.term != ViolatedTerm::kSeparation;
-  if (!wall && least_room_m(committed_, things, now_s, until_s) >
-                   least_room_m(stop, things, now_s, until_s)) {
+  const bool moving_thing = output.violation.term == ViolatedTerm::kSeparation;
+  const double stop_m = room_m(stop);
+  const double on_m = room_m(committed_);
+  PromiseScene still = likely;
+  still.moving.clear();
+  const double join_s = committed_.switch_time(now_s + rules_.settle_s);
+  for (const Motion& motion : evasions_from(join_s, now_s, likely)) {
+    const Motion onward = after_committed(now_s, join_s, motion);
+    if (!moving_thing || builder_.certify(onward, still, now_s)) continue;
+    if (room_m(onward) < std::max(stop_m, on_m) + kWorthwhile_m) break;
+    propose(now_s, motion, false, {}, output);
+    pending_brake_ = true;
+    output.message += "; NO CERTIFIED MOTION EXISTS: steps aside, which keeps the most room";
+    return;
+  }
+  if (moving_thing && on_m > stop_m) {
     output.renew_lease = true;
     output.message += "; NO CERTIFIED MOTION EXISTS: goes on, which keeps more room than braking";
     return;
@@ -265,10 +304,20 @@ std::optional<double> LocalReplanner::progress_at(double join_s) const {
 
 bool LocalReplanner::swerve(double now_s, const PromiseScene& scene, Output& output) {
   if (plan_.empty() || now_s < swerved_s_ + kAgain_s) return false;
+  swerved_s_ = now_s;
+  if (swerve_in(now_s, scene, output)) {
+    squeezes_ = false;
+    return true;
+  }
+  if (!swerve_in(now_s, scene.most_likely(), output)) return false;
+  squeezes_ = true;
+  return true;
+}
+
+bool LocalReplanner::swerve_in(double now_s, const PromiseScene& scene, Output& output) {
   const double join_s = committed_.switch_time(now_s + rules_.settle_s);
   const auto progress_s = progress_at(join_s);
   if (!progress_s) return false;
-  swerved_s_ = now_s;
   const LocalQuery query{committed_, join_s, plan_, *progress_s,
                          follows_plan_at(join_s) ? plan_ : Motion()};
   const LocalScene around{std::make_shared<MapTerrain>(scene.obstacles),
@@ -276,10 +325,7 @@ bool LocalReplanner::swerve(double now_s, const PromiseScene& scene, Output& out
   output.local = planner_.plan(query, around);
   const LocalPlan& local = *output.local;
   if (local.reason != PlanReason::kSolved) return false;
-  const double begin_s = std::max(committed_.cut_time(now_s), committed_.start_time());
-  std::vector<Phase> phases = phases_until(committed_, begin_s, join_s);
-  for (const Phase& phase : local.motion.phases()) phases.push_back(phase);
-  const Motion onward(begin_s, std::move(phases));
+  const Motion onward = after_committed(now_s, join_s, local.motion);
   const auto promise = builder_.longest(onward, scene, now_s, join_s, now_s + rules_.horizon_s);
   if (!promise || promise->follows_until_s < join_s + kWorthwhile_s) return false;
   plan_ = local.motion;

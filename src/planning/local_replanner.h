@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "control/robot_state.h"
 #include "planning/local_planner.h"
@@ -84,11 +85,17 @@ class LocalReplanner {
   void start(double now_s, const RobotState& measured, Output& output);
   bool off_track(double now_s, const RobotState& measured) const;
   void stop_here(double now_s, const RobotState& measured, Output& output);
+  /// With the confidence that is asked for, else on the most likely course of what moves.
   bool swerve(double now_s, const PromiseScene& scene, Output& output);
+  bool swerve_in(double now_s, const PromiseScene& scene, Output& output);
   std::optional<double> progress_at(double join_s) const;
   void shorten(double now_s, const Violation& violation, const PromiseScene& scene, Output& output);
   /// Brakes and steps aside, if that can be proved.
   bool evade(double now_s, const PromiseScene& scene, Output& output);
+  bool evade_in(double now_s, const PromiseScene& scene, Output& output);
+  std::vector<Motion> evasions_from(double join_s, double now_s, const PromiseScene& scene) const;
+  /// What is in force until `join_s`, and then the motion.
+  Motion after_committed(double now_s, double join_s, const Motion& motion) const;
   void do_the_least_bad(double now_s, const PromiseScene& scene, Output& output);
   /// Promises more of the plan once `every_s` of the horizon is used up.
   void extend(double now_s, const PromiseScene& scene, double every_s, Output& output);
@@ -110,6 +117,7 @@ class LocalReplanner {
   std::optional<Motion> offered_;
   Motion plan_;
   std::uint32_t plan_id_ = 0;
+  bool squeezes_ = false;  // the plan keeps clear of the most likely course only
   Motion committed_;
   Source committed_source_;
   std::uint32_t sequence_ = 0;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kStep_s = 0.1;        // between the places where braking is tried
 constexpr double kPeerSlack_m = 0.01;  // so that a proof today still holds tomorrow
-constexpr double kShareInForce = 0.5;  // of the clearance to people
+constexpr double kShareInForce = 0.7;  // of the clearance to people
 // What is promised now holds for predictions that reach farther, so that it need not be replaced as
 // soon as they do.
 constexpr double kReserve_s = 1.0;
@@ -27,6 +27,12 @@ Motion remainder(const Motion& motion, double from_s) {
   return Motion(from_s, std::move(phases));
 }
 
+PromiseScene PromiseScene::most_likely() const {
+  PromiseScene scene = *this;
+  scene.moving = expected;
+  return scene;
+}
+
 PromiseBuilder::PromiseBuilder(RobotModel robot)
     : robot_(std::move(robot)), margins_(MarginBudget::of(robot_)) {}
 
@@ -39,7 +45,7 @@ Violation PromiseBuilder::certify_in_force(const Motion& motion, const PromiseSc
                                            double from_s) const {
   // The peers' broadcasters settle with exactly the required distance.
   return check(
-      motion, scene, from_s,
+      motion, scene.most_likely(), from_s,
       {margins_.static_margin_m() - margins_.map_m, -kPeerSlack_m, kShareInForce, kReserve_s});
 }
 

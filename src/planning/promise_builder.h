@@ -16,9 +16,15 @@ struct PromiseScene {
   std::shared_ptr<const DistanceField> obstacles;                  ///< occupied cells
   std::shared_ptr<const DistanceField> unseen;                     ///< occupied or unknown cells
   std::vector<std::shared_ptr<const MovingObstacle>> others = {};  ///< team-mates on their promises
-  /// People and other things that promise nothing, as predicted.
+  /// People and other things that promise nothing, as predicted: discs that hold them with the
+  /// confidence that is asked for ...
   std::vector<std::shared_ptr<const MovingObstacle>> moving = {};
+  /// ... and, as a narrow place may leave nothing better, those of their most likely course.
+  std::vector<std::shared_ptr<const MovingObstacle>> expected = {};
   double predicted_until_s = 0.0;  ///< absolute; later, predictions say nothing
+
+  /// With what is most likely in the place of what is asked for.
+  PromiseScene most_likely() const;
 };
 
 /// A certified motion that ends at rest, and how far it follows what it was cut from.
@@ -43,8 +49,8 @@ class PromiseBuilder {
   Violation certify(const Motion& motion, const PromiseScene& scene, double from_s) const;
 
   /// The same for a promise in force: the margin for surfaces nearer than the map said is there to
-  /// be used up as the map gets better, and half the clearance to people as they change their
-  /// minds.
+  /// be used up as the map gets better, and part of the clearance to people, on their most likely
+  /// course, as they change their minds.
   Violation certify_in_force(const Motion& motion, const PromiseScene& scene, double from_s) const;
 
   /// The longest part of `motion` from `from_s` on that may be promised when braking begins no

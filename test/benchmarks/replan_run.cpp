@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,8 +19,7 @@ constexpr double kSample_s = 0.02;
 constexpr double kFarthest_m = 20.0;  // of clearances
 
 /// What a tracker says of the movers after a second.
-std::vector<std::shared_ptr<const MovingObstacle>> predictions(const ReplanScene& scene, double t,
-                                                               double now_s) {
+void predict_movers(const ReplanScene& scene, double t, ClosedLoop& loop, double now_s) {
   constexpr double kPlace_m = 0.03;  // standard deviations
   constexpr double kVelocity = 0.05;
   static const auto kValues = ParameterTable::from_schema("config/local_replanner.yaml");
@@ -27,15 +28,18 @@ std::vector<std::shared_ptr<const MovingObstacle>> predictions(const ReplanScene
   const Eigen::Vector4d variances(kPlace_m * kPlace_m, kPlace_m * kPlace_m, kVelocity * kVelocity,
                                   kVelocity * kVelocity);
   const RadiusGrowth growth = growth_of(Eigen::Matrix4d(variances.asDiagonal()), kConfidence);
-  std::vector<std::shared_ptr<const MovingObstacle>> discs;
+  loop.moving.clear();
+  loop.expected.clear();
   for (std::size_t i = 0; i < scene.movers.size(); ++i) {
     const SceneMover& mover = scene.movers[i];
     const MoverTruth now = truth(mover, t);
-    discs.push_back(std::make_shared<PredictedDisc>(
-        "mover" + std::to_string(i + 1), now_s, now.centre, now.velocity,
-        mover.radius_m + growth.radius_m, growth.rate, kGrowth_s));
+    const std::string name = "mover" + std::to_string(i + 1);
+    loop.moving.push_back(std::make_shared<PredictedDisc>(name, now_s, now.centre, now.velocity,
+                                                          mover.radius_m + growth.radius_m,
+                                                          growth.rate, kGrowth_s));
+    loop.expected.push_back(std::make_shared<PredictedDisc>(name, now_s, now.centre, now.velocity,
+                                                            mover.radius_m, 0.0));
   }
-  return discs;
 }
 
 /// What the last step planned locally.
@@ -75,8 +79,25 @@ class Run {
   ReplanRun until(double longest_s) {
     while (elapsed_s() < longest_s && !run_.reached && !run_.contact) {
       const double next_s = elapsed_s() + ClosedLoop::kStep_s;
-      loop_.moving = predictions(scene_, next_s, begin_s_ + next_s);
+      predict_movers(scene_, next_s, loop_, begin_s_ + next_s);
       loop_.step();
+      if (std::getenv("DBG")) {
+        const auto& o = loop_.output;
+        const auto& st = loop_.state();
+        std::fprintf(stderr, "%.1f (%.2f %.2f %.2f) v%.2f r%d %s prop%d took %.1fms\n", elapsed_s(),
+                     st.pose.position.x(), st.pose.position.y(), st.pose.yaw_rad, st.twist.speed,
+                     (int)o.reason, o.message.c_str(), o.proposal ? 1 + o.proposal->emergency : 0,
+                     1e3 * loop_.replanner_took_s);
+        if (o.local) {
+          std::fprintf(stderr, "   local r%d %s delay %.1f late%d sw%d\n", (int)o.local->reason,
+                       o.local->message.c_str(), o.local->delay_s, o.local->late,
+                       o.local->switches_class);
+          for (auto& c : o.local->candidates)
+            std::fprintf(stderr, "      c r%d %s cost %.1f T %.2f way %.2f%s\n", (int)c.reason,
+                         describe(c.violation).c_str(), c.cost, c.rejoins_s - loop_.now_s,
+                         c.way.back().time_s - loop_.now_s, c.selected ? " *" : "");
+        }
+      }
       if (auto replan = replan_of(loop_, elapsed_s())) add(std::move(*replan));
       watch();
       const Vector2 to_goal = loop_.state().pose.position - scene_.goal;

@@ -20,21 +20,37 @@ constexpr int kMergeUnits = 4;       // states this near are one
 constexpr double kArriving_m = 1.0;  // from the goal, where each state counts
 constexpr int kMostExpansions = 4000000;
 
-/// Position, velocity and time in units of the lattice.
+constexpr int kLongestRest = 4;  // steps; after these, one may leave in any direction
+
+/// Position, velocity and time in units of the lattice; of one who stands, which way he looks, in
+/// eighths of a turn, and for how many steps.
 struct State {
   int x, y, vx, vy, step;
+  int heading = 0;
+  int rest = 0;
+
+  bool stands() const { return vx == 0 && vy == 0; }
 
   Vector2 place() const { return kUnit_m * Vector2(x, y); }
   Vector2 velocity() const { return kUnitSpeed * Vector2(vx, vy); }
+  /// Direction of a velocity that one step leads to from rest.
+  static int eighths(int vx, int vy) {
+    return (static_cast<int>(std::lround(std::atan2(vy, vx) / (0.25 * M_PI))) + 8) % 8;
+  }
   State pushed(int ax, int ay) const {
-    return {x + 2 * vx + ax, y + 2 * vy + ay, vx + ax, vy + ay, step + 1};
+    State next{x + 2 * vx + ax, y + 2 * vy + ay, vx + ax, vy + ay, step + 1};
+    if (!next.stands()) return next;
+    next.heading = stands() ? heading : eighths(vx, vy);
+    next.rest = stands() ? std::min(rest + 1, kLongestRest) : 0;
+    return next;
   }
   /// The same for states within `units` of each other at one velocity and time.
   std::uint64_t key(int units) const {
     const auto merged = [&](int i) {
       return static_cast<std::uint64_t>((i + (1 << 14)) / units) & 0x7FFF;
     };
-    return merged(x) << 39 | merged(y) << 24 | static_cast<std::uint64_t>(units) << 16 |
+    return static_cast<std::uint64_t>(rest) << 57 | static_cast<std::uint64_t>(heading) << 54 |
+           merged(x) << 39 | merged(y) << 24 | static_cast<std::uint64_t>(units) << 16 |
            static_cast<std::uint64_t>(vx + 8) << 12 | static_cast<std::uint64_t>(vy + 8) << 8 |
            static_cast<std::uint64_t>(step);
   }
@@ -161,11 +177,18 @@ class Search {
     add(next);
   }
 
-  /// Whether the direction of travel changes slowly enough. Who stands may turn there.
+  /// Whether the direction of travel changes slowly enough. Who stands has to turn first, so that
+  /// his front or his back points where he goes; a turn from rest to rest takes 15/8 of what it
+  /// would at the highest rate.
   bool turns(const State& from, const State& to) const {
     const Vector2 a = from.velocity();
     const Vector2 b = to.velocity();
-    if (a.isZero() || b.isZero()) return true;
+    if (b.isZero()) return true;
+    if (from.stands()) {
+      const int apart = (State::eighths(to.vx, to.vy) - from.heading + 8) % 4;
+      const double turn_s = 1.875 * 0.25 * M_PI * std::min(apart, 4 - apart) / rules_.max_yaw_rate;
+      return from.rest >= std::lround(turn_s / kStep_s);
+    }
     const double cross = a.x() * b.y() - a.y() * b.x();
     return std::abs(std::atan2(cross, a.dot(b))) <= rules_.max_yaw_rate * kStep_s;
   }

@@ -106,7 +106,8 @@ class ClosedLoop {
   bool answers = true;
   Vector2 kidnapped = Vector2::Zero();  ///< [m] added to where the motion says that the robot is
   std::vector<std::shared_ptr<const MovingObstacle>> others;
-  std::vector<std::shared_ptr<const MovingObstacle>> moving;
+  std::vector<std::shared_ptr<const MovingObstacle>> moving;    ///< with their uncertainty
+  std::vector<std::shared_ptr<const MovingObstacle>> expected;  ///< the same without
 
   double now_s = 1.7e9;
   LocalReplanner::Output output;
@@ -129,6 +130,7 @@ class ClosedLoop {
     }
     scene_.others = others;
     scene_.moving = moving;
+    scene_.expected = expected;
     scene_.predicted_until_s = now_s + kPredicted_s;
     return scene_;
   }
