@@ -11,7 +11,7 @@ namespace mocha {
 namespace {
 
 constexpr double kDistances_m[] = {0.4, 0.8, 1.3, 2.0};
-constexpr int kDirections = 16;
+constexpr int kDirections = 24;
 constexpr std::size_t kMost = 10;
 // Enough room is enough; of those that have it, the one that is soonest done is the best.
 constexpr double kEnough_m = 0.05;

@@ -246,7 +246,7 @@ bool LocalReplanner::evade(double now_s, const PromiseScene& scene, Output& outp
 
 bool LocalReplanner::evade_in(double now_s, const PromiseScene& scene, Output& output) {
   const double join_s = committed_.switch_time(now_s + rules_.settle_s);
-  for (const Motion& motion : evasions_from(join_s, now_s, scene)) {
+  for (const Motion& motion : evasions_from(join_s, now_s, robot_, scene)) {
     if (builder_.certify(after_committed(now_s, join_s, motion), scene, now_s)) continue;
     propose(now_s, motion, false, {}, output);
     pending_brake_ = true;
@@ -257,12 +257,13 @@ bool LocalReplanner::evade_in(double now_s, const PromiseScene& scene, Output& o
 }
 
 std::vector<Motion> LocalReplanner::evasions_from(double join_s, double now_s,
+                                                  const RobotModel& robot,
                                                   const PromiseScene& scene) const {
   const EvasionScene around{
       *scene.obstacles,
       robot_.footprint.circumscribed_radius_m() + MarginBudget::of(robot_).static_margin_m(),
       builder_.kept_from(scene, now_s, 1.0), scene.predicted_until_s};
-  return evasions(committed_, join_s, builder_.deceleration(), robot_, around);
+  return evasions(committed_, join_s, builder_.deceleration(), robot, around);
 }
 
 Motion LocalReplanner::after_committed(double now_s, double join_s, const Motion& motion) const {
@@ -274,7 +275,8 @@ Motion LocalReplanner::after_committed(double now_s, double join_s, const Motion
 
 void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, Output& output) {
   const PromiseScene likely = scene.most_likely();
-  if (!plan_.empty() && swerve_in(now_s, likely, hard_planner_, output)) {
+  const bool just_tried = swerved_s_ == now_s;  // only then it is tried harder, too
+  if (just_tried && swerve_in(now_s, likely, hard_planner_, output)) {
     squeezes_ = true;
     output.message = "swerves harder than it would like to";
     return;
@@ -293,7 +295,8 @@ void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, O
   PromiseScene still = likely;
   still.moving.clear();
   const double join_s = committed_.switch_time(now_s + rules_.settle_s);
-  for (const Motion& motion : evasions_from(join_s, now_s, likely)) {
+  const RobotModel hard = hardened(robot_, builder_.hard_deceleration());
+  for (const Motion& motion : evasions_from(join_s, now_s, hard, likely)) {
     const Motion onward = after_committed(now_s, join_s, motion);
     if (!moving_thing || builder_.certify(onward, still, now_s)) continue;
     if (room_m(onward) < std::max(stop_m, on_m) + kWorthwhile_m) break;

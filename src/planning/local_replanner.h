@@ -94,7 +94,8 @@ class LocalReplanner {
   /// Brakes and steps aside, if that can be proved.
   bool evade(double now_s, const PromiseScene& scene, Output& output);
   bool evade_in(double now_s, const PromiseScene& scene, Output& output);
-  std::vector<Motion> evasions_from(double join_s, double now_s, const PromiseScene& scene) const;
+  std::vector<Motion> evasions_from(double join_s, double now_s, const RobotModel& robot,
+                                    const PromiseScene& scene) const;
   /// What is in force until `join_s`, and then the motion.
   Motion after_committed(double now_s, double join_s, const Motion& motion) const;
   void do_the_least_bad(double now_s, const PromiseScene& scene, Output& output);

@@ -170,6 +170,7 @@ class Search {
   }
 
   void expand(const State& state, int ax, int ay) {
+    if (state.step == 0 && (ax != 0 || ay != 0)) return;  // who promises first reacts no sooner
     if (kPush * std::hypot(ax, ay) > rules_.max_acceleration) return;
     const State next = state.pushed(ax, ay);
     if (next.velocity().norm() > rules_.max_speed + 1e-9 || next.step > last_step_) return;
