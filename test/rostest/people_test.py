@@ -45,11 +45,14 @@ class PeopleTest(unittest.TestCase):
     @classmethod
     def on_diagnostics(cls, message):
         for status in message.status:
-            if status.name == "local_replanner: swerves":
+            if status.name == "ugv1/local_replanner: swerves":
                 cls.values = {value.key: value.value for value in status.values}
 
+    def setUp(self):
+        self.contacts = self.robot.truth.contacts
+
     def tearDown(self):
-        self.assertEqual(self.robot.truth.contacts, 0, self.robot.report())
+        self.assertEqual(self.robot.truth.contacts, self.contacts, self.robot.report())
 
     def refused(self):
         return int(self.values.get("predictions refused", 0))
