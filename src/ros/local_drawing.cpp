@@ -8,6 +8,7 @@ namespace {
 constexpr double kTimeStep_s = 0.1;
 constexpr double kAnchor_m = 0.3;
 constexpr float kFaint = 0.7F;
+constexpr std::size_t kFirstColor = 5;  // another than that of the best global way
 
 std::vector<Vector2> drawn_way(const TimedPath& way) {
   std::vector<Vector2> places;
@@ -28,7 +29,7 @@ std::vector<Vector2> drawn_swerve(const LocalCandidate& candidate) {
 void draw_local_plan(const LocalPlan& plan, Drawing& drawing) {
   for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
     const LocalCandidate& candidate = plan.candidates[i];
-    std_msgs::ColorRGBA own = class_color(i);
+    std_msgs::ColorRGBA own = class_color(kFirstColor + i);
     if (candidate.selected) drawing.add_line("swerve", drawn_swerve(candidate), 0.07, own, false);
     own.a = kFaint;
     drawing.add_line("local ways", drawn_way(candidate.way), 0.03, own, true);

@@ -32,7 +32,8 @@ using visualization_msgs::Marker;
 
 constexpr double kLineStep_s = 0.05;
 constexpr double kDash_m = 0.15;
-constexpr double kGhostStep_s = 0.5;
+constexpr double kGhostStep_s = 1.0;
+constexpr double kGhosts = 0.25;
 constexpr double kLineLevel_m = 0.02;
 constexpr double kSquareLevel_m = 0.1;  // above all lines
 constexpr double kTextHeight_m = 0.4;
@@ -250,10 +251,13 @@ void Drawing::add_obstacle(const MovingObstacle& obstacle, double t, double hori
   for (const double later : sample_times(0.0, horizon_s, kGhostStep_s)) {
     const MovingObstacle::Disc disc = obstacle.at(t + later);
     Marker& cylinder = add(obstacle.name(), Marker::CYLINDER);
-    cylinder.pose.position = point(disc.centre, 0.02);
+    cylinder.pose.position = point(disc.centre, 0.005);  // below all lines
     cylinder.scale.x = cylinder.scale.y = 2.0 * disc.radius_m;
-    cylinder.scale.z = 0.04;
-    cylinder.color = color(0.95, 0.45, 0.05, 0.6 * (1.0 - later / (horizon_s + kGhostStep_s)));
+    cylinder.scale.z = 0.01;
+    // Those to come lie on top of each other: together no more than the first.
+    const double share = later > 0.0 ? kGhosts : 1.0;
+    cylinder.color =
+        color(0.95, 0.45, 0.05, 0.6 * share * (1.0 - later / (horizon_s + kGhostStep_s)));
   }
 }
 
