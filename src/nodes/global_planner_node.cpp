@@ -31,7 +31,8 @@ namespace mocha {
 namespace {
 
 constexpr double kMapBorder_m = 3.0;
-constexpr double kSoonest_s = 0.2;   // between two plans, whoever asks
+constexpr double kSoonest_s = 0.2;  // between two plans, whoever asks
+constexpr double kSamePlace_m = 0.5;
 constexpr double kAfterEnd_s = 0.5;  // a plan that ended this long ago without arrival has failed
 
 /// Finds the way: goals and maps in, plans out.
@@ -48,6 +49,7 @@ class GlobalPlannerNode {
         peers_(node, identity_.name, identity_.map_frame),
         committed_(node, identity_.name),
         outputs_(node, identity_, model_),
+        followed_(node.subscribe("local_trajectory", 2, &GlobalPlannerNode::on_followed, this)),
         requests_(node.subscribe("replan_request", 10, &GlobalPlannerNode::on_request, this)),
         service_(node.advertiseService("plan", &GlobalPlannerNode::on_plan_service, this)),
         inputs_(node, identity_, pose_.transforms(),
@@ -61,6 +63,19 @@ class GlobalPlannerNode {
 
  private:
   // --- what comes in ---
+
+  /// What is driven instead of what was planned, around something that moves.
+  void on_followed(const mocha_ugv::Trajectory& message) {
+    if (goals_.empty() || goal_is_new_ || retreats_) return;
+    try {
+      Motion followed = from_message(message);
+      const Vector2 end = followed.end_pose().position;
+      if ((end - goals_.current().position).norm() < kSamePlace_m) plan_ = std::move(followed);
+    } catch (const std::exception& error) {
+      ++refused_;
+      ROS_WARN_THROTTLE(1.0, "Refused a message on local_trajectory: %s", error.what());
+    }
+  }
 
   void on_request(const mocha_ugv::PlannerStatus& status) {
     requested_ = true;
@@ -266,8 +281,8 @@ class GlobalPlannerNode {
     status.add("switches to another class of ways", class_switches_);
     status.add("last request", request_);
     status.add("parameter changes refused", parameters_.refused());
-    status.add("messages refused", committed_.refused() + inputs_.refused() + map_.refused() +
-                                       peers_.refused() + pose_.refused());
+    status.add("messages refused", refused_ + committed_.refused() + inputs_.refused() +
+                                       map_.refused() + peers_.refused() + pose_.refused());
   }
 
   const RobotIdentity identity_;
@@ -291,6 +306,8 @@ class GlobalPlannerNode {
   std::string request_;
   int plans_made_ = 0;
   int class_switches_ = 0;
+  int refused_ = 0;
+  ros::Subscriber followed_;
   ros::Subscriber requests_;
   ros::ServiceServer service_;
   diagnostic_updater::Updater diagnostics_;

@@ -11,6 +11,7 @@
 
 #include "planning/local_replanner.h"
 #include "ros/conversions.h"
+#include "ros/local_outputs.h"
 #include "ros/map_source.h"
 #include "ros/parameters.h"
 #include "ros/peer_source.h"
@@ -46,7 +47,8 @@ LocalReplannerRules replanner_rules(const ParameterTable& values, const RobotMod
   return rules;
 }
 
-/// Promises what the global planner planned: plans in, proposals and leases out.
+/// Promises what the global planner planned and swerves around what moves: plans and predictions
+/// in, proposals and leases out.
 class LocalReplannerNode {
  public:
   LocalReplannerNode(ros::NodeHandle& node, const ParameterTable& values)
@@ -61,7 +63,9 @@ class LocalReplannerNode {
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
-        predictions_(node, identity_.map_frame, {values.number("confidence"), values.number("growth_horizon")}),
+        predictions_(node, identity_.map_frame,
+                     {values.number("confidence"), values.number("growth_horizon")}),
+        local_(node, identity_, model_, values.number("prediction_horizon")),
         proposals_(node.advertise<mocha_ugv::Trajectory>("proposed_trajectory", 10)),
         leases_(node.advertise<mocha_ugv::Lease>("lease", 10)),
         requests_(node.advertise<mocha_ugv::PlannerStatus>("replan_request", 10)),
@@ -73,6 +77,7 @@ class LocalReplannerNode {
         loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }) {
     diagnostics_.setHardwareID(identity_.name);
     diagnostics_.add("promises", this, &LocalReplannerNode::diagnose);
+    diagnostics_.add("swerves", this, &LocalReplannerNode::diagnose_swerves);
   }
 
  private:
@@ -107,10 +112,12 @@ class LocalReplannerNode {
   }
 
   void step(ros::Time now) {
+    now_ = now;
     diagnostics_.update();
     const PoseReading reading = pose_.read(now);
     const auto [reason, missing] = what_is_missing(now, reading);
     if (reason != PlanReason::kSolved) {
+      local_.clear(now);
       report(now, reason, {}, missing);
       return;
     }
@@ -121,7 +128,11 @@ class LocalReplannerNode {
     scene.others = peers_.obstacles();
     scene.moving = predictions_.obstacles();
     scene.predicted_until_s = (now + prediction_horizon_).toSec();
+    const int least_bad = replanner_.least_bad();
     const auto output = replanner_.step(now.toSec(), *reading.state, scene);
+    local_.show(output, replanner_.plan(), scene.moving, now);
+    if (replanner_.least_bad() > least_bad)
+      ROS_ERROR_THROTTLE(1.0, "%s: %s", identity_.name.c_str(), output.message.c_str());
     if (output.proposal) propose(now, *output.proposal);
     if (output.renew_lease) renew(now);
     report(now, output.reason, output.violation, output.message);
@@ -189,6 +200,27 @@ class LocalReplannerNode {
       ROS_INFO_THROTTLE(1.0, "%s: %s: %s", identity_.name.c_str(), to_text(reason), text.c_str());
   }
 
+  void diagnose_swerves(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    const double age_s = predictions_.age_s(now_);
+    const auto things = predictions_.obstacles().size();
+    const bool known = age_s <= max_prediction_age_s_;
+    status.summary(known ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                   known ? "things that move: " + std::to_string(things)
+                         : "no usable word on predicted_obstacles");
+    const LocalOutputs::Counts& counts = local_.counts();
+    status.add("things predicted", things);
+    status.add("age of the predictions", seconds(age_s));
+    status.add("predictions refused", predictions_.refused());
+    status.add("last refusal of predictions", predictions_.refusal());
+    status.add("local plans made", counts.made);
+    status.add("local plans solved", counts.solved);
+    status.add("local plans followed", counts.followed);
+    status.add("switches of class while swerving", counts.switches);
+    status.add("last local plan", local_.message());
+    status.add("times no certified motion existed", replanner_.least_bad());
+  }
+
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
     const bool failed = reason_ == PlanReason::kNoMap || reason_ == PlanReason::kNoPose;
@@ -216,6 +248,7 @@ class LocalReplannerNode {
   MapSource map_;
   PeerSource peers_;
   PredictionSource predictions_;
+  LocalOutputs local_;
   ros::Publisher proposals_;
   ros::Publisher leases_;
   ros::Publisher requests_;
@@ -224,6 +257,7 @@ class LocalReplannerNode {
   ros::Subscriber commitments_;
   ros::Subscriber settlements_;
   diagnostic_updater::Updater diagnostics_;
+  ros::Time now_;
   std::uint32_t epoch_ = 0;
   std::uint32_t committed_sequence_ = 0;
   std::uint32_t proposed_sequence_ = 0;

@@ -1,35 +1,13 @@
 #include "ros/candidate_drawing.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <limits>
 
 namespace mocha {
 namespace {
 
-constexpr double kStep_m = 0.15;
 constexpr int kLabelStride = 4;  // points between places that are tried for a label
-
-const std::array<std_msgs::ColorRGBA, 8> kColors = {
-    color(0.90, 0.10, 0.55), color(0.10, 0.45, 0.90), color(0.05, 0.60, 0.25),
-    color(0.95, 0.55, 0.05), color(0.50, 0.20, 0.75), color(0.00, 0.65, 0.70),
-    color(0.60, 0.35, 0.10), color(0.55, 0.55, 0.10)};
-
-/// The same polyline with points `kStep_m` apart.
-std::vector<Vector2> evenly(const std::vector<Vector2>& path) {
-  std::vector<Vector2> points;
-  double missing_m = 0.0;  // to the next point
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Vector2 side = path[i] - path[i - 1];
-    const double length_m = side.norm();
-    for (; missing_m <= length_m && length_m > 0.0; missing_m += kStep_m)
-      points.push_back(path[i - 1] + side * (missing_m / length_m));
-    missing_m -= length_m;
-  }
-  if (!path.empty()) points.push_back(path.back());
-  return points;
-}
 
 double distance_m(const Vector2& p, const std::vector<Vector2>& path) {
   double least = std::numeric_limits<double>::infinity();
@@ -75,7 +53,7 @@ void draw_candidates(const std::string& name, const std::vector<PlanCandidate>& 
   for (const PlanCandidate& candidate : candidates) paths.push_back(drawn_path(candidate));
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (paths[i].empty()) continue;
-    std_msgs::ColorRGBA own = kColors[i % kColors.size()];
+    std_msgs::ColorRGBA own = class_color(i);
     own.a = candidates[i].selected ? 1.0F : 0.7F;
     const bool dashed = candidates[i].reason != PlanReason::kSolved;
     drawing.add_line(name, paths[i], candidates[i].selected ? 0.07 : 0.035, own, dashed);

@@ -1,6 +1,7 @@
 #include "ros/markers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <variant>
 
@@ -17,13 +18,24 @@ std_msgs::ColorRGBA color(double red, double green, double blue, double alpha) {
   return c;
 }
 
+std_msgs::ColorRGBA class_color(std::size_t number) {
+  static const std::array<std_msgs::ColorRGBA, 8> colors = {
+      color(0.90, 0.10, 0.55), color(0.10, 0.45, 0.90), color(0.05, 0.60, 0.25),
+      color(0.95, 0.55, 0.05), color(0.50, 0.20, 0.75), color(0.00, 0.65, 0.70),
+      color(0.60, 0.35, 0.10), color(0.55, 0.55, 0.10)};
+  return colors[number % colors.size()];
+}
+
 namespace {
 
 using visualization_msgs::Marker;
 
 constexpr double kLineStep_s = 0.05;
-constexpr double kGhostStep_s = 0.5;
+constexpr double kDash_m = 0.15;
+constexpr double kGhostStep_s = 1.0;
+constexpr double kGhosts = 0.25;
 constexpr double kLineLevel_m = 0.02;
+constexpr double kSquareLevel_m = 0.1;  // above all lines
 constexpr double kTextHeight_m = 0.4;
 constexpr double kTextLevel_m = 0.6;  // above all else, seen from above
 
@@ -115,6 +127,20 @@ std::vector<Vector2> polyline(const Motion& motion, double dt) {
   return points;
 }
 
+std::vector<Vector2> evenly(const std::vector<Vector2>& path) {
+  std::vector<Vector2> points;
+  double missing_m = 0.0;  // to the next point
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vector2 side = path[i] - path[i - 1];
+    const double length_m = side.norm();
+    for (; missing_m <= length_m && length_m > 0.0; missing_m += kDash_m)
+      points.push_back(path[i - 1] + side * (missing_m / length_m));
+    missing_m -= length_m;
+  }
+  if (!path.empty()) points.push_back(path.back());
+  return points;
+}
+
 Drawing::Drawing(const std::string& frame, ros::Time stamp) : frame_(frame), stamp_(stamp) {
   markers_.markers.emplace_back();
   markers_.markers.back().header.frame_id = frame;
@@ -174,6 +200,15 @@ void Drawing::add_label(const std::string& name, const std::string& text, const 
   marker.color = color;
 }
 
+void Drawing::add_square(const std::string& name, const Vector2& place, double side_m,
+                         const std_msgs::ColorRGBA& color) {
+  Marker& square = add(name, Marker::CUBE);
+  square.pose.position = point(place, kSquareLevel_m);
+  square.scale.x = square.scale.y = side_m;
+  square.scale.z = 0.02;
+  square.color = color;
+}
+
 void Drawing::add_robot(const std::string& name, const std::string& base_frame,
                         const Footprint& footprint) {
   const double radius_m = footprint.circumscribed_radius_m();
@@ -216,10 +251,13 @@ void Drawing::add_obstacle(const MovingObstacle& obstacle, double t, double hori
   for (const double later : sample_times(0.0, horizon_s, kGhostStep_s)) {
     const MovingObstacle::Disc disc = obstacle.at(t + later);
     Marker& cylinder = add(obstacle.name(), Marker::CYLINDER);
-    cylinder.pose.position = point(disc.centre, 0.02);
+    cylinder.pose.position = point(disc.centre, 0.005);  // below all lines
     cylinder.scale.x = cylinder.scale.y = 2.0 * disc.radius_m;
-    cylinder.scale.z = 0.04;
-    cylinder.color = color(0.95, 0.45, 0.05, 0.6 * (1.0 - later / (horizon_s + kGhostStep_s)));
+    cylinder.scale.z = 0.01;
+    // Those to come lie on top of each other: together no more than the first.
+    const double share = later > 0.0 ? kGhosts : 1.0;
+    cylinder.color =
+        color(0.95, 0.45, 0.05, 0.6 * share * (1.0 - later / (horizon_s + kGhostStep_s)));
   }
 }
 

@@ -21,7 +21,13 @@ nav_msgs::Path to_path(const Motion& motion, const std::string& frame, double dt
 /// Positions along the drives of a motion, `dt` [s] apart.
 std::vector<Vector2> polyline(const Motion& motion, double dt);
 
+/// The same polyline with points 0.15 m apart, as dashes need them.
+std::vector<Vector2> evenly(const std::vector<Vector2>& path);
+
 std_msgs::ColorRGBA color(double red, double green, double blue, double alpha = 1.0);
+
+/// Colours to tell ways of different classes apart; the ninth is the first again.
+std_msgs::ColorRGBA class_color(std::size_t number);
 
 /// A picture for rviz: it replaces all that was published before on its topic. Markers are numbered
 /// in the order in which they are added, in one namespace per kind and name.
@@ -38,6 +44,9 @@ class Drawing {
 
   void add_label(const std::string& name, const std::string& text, const Vector2& place,
                  double height_m, const std_msgs::ColorRGBA& color);
+
+  void add_square(const std::string& name, const Vector2& place, double side_m,
+                  const std_msgs::ColorRGBA& color);
 
   /// Outline, heading and name of a robot, fixed to its frame.
   void add_robot(const std::string& name, const std::string& base_frame,

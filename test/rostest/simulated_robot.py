@@ -180,8 +180,8 @@ class SimulatedRobot:
                 return int(entry)
         return None
 
-    def dead_for(self, node, seconds):
-        """Kills a node and, for that much simulated time, whatever is started in its place."""
+    def dead_for(self, node, seconds, meanwhile=None):
+        """Kills a node and, for that much simulated time, whatever is started in its place; `meanwhile` lets the time go on."""
         over = threading.Event()
         killed = threading.Event()
 
@@ -198,7 +198,7 @@ class SimulatedRobot:
         try:
             if not killed.wait(5.0):
                 raise AssertionError("no process of " + node)
-            self.run(seconds)
+            (meanwhile or self.run)(seconds)
         finally:
             over.set()
             reaper.join()
