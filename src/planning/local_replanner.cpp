@@ -29,6 +29,12 @@ constexpr double kShareOfTrigger = 0.75;  // of the clearance to what moves, bel
 constexpr double kWorthwhile_s =
     0.15;  // a promise that reaches less farther is not worth a message
 
+/// Accelerates as hard as it brakes in an emergency.
+RobotModel hardened(RobotModel robot, double acceleration) {
+  robot.limits.max_acceleration = std::max(robot.limits.max_acceleration, acceleration);
+  return robot;
+}
+
 Motion standing(double now_s, const Pose& pose) {
   return Motion(now_s, {StandPhase{pose, kStandPhase_s}});
 }
@@ -51,7 +57,11 @@ bool agree(const MotionState& a, const MotionState& b) {
 
 LocalReplanner::LocalReplanner(const RobotModel& robot, const LocalReplannerRules& rules,
                                const LocalRules& local_rules)
-    : robot_(robot), builder_(robot), planner_(robot, local_rules), rules_(rules) {}
+    : robot_(robot),
+      builder_(robot),
+      planner_(robot, local_rules),
+      hard_planner_(hardened(robot, builder_.hard_deceleration()), local_rules),
+      rules_(rules) {}
 
 void LocalReplanner::set_plan(Motion plan) { offered_ = std::move(plan); }
 
@@ -263,8 +273,13 @@ Motion LocalReplanner::after_committed(double now_s, double join_s, const Motion
 }
 
 void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, Output& output) {
-  ++least_bad_;
   const PromiseScene likely = scene.most_likely();
+  if (!plan_.empty() && swerve_in(now_s, likely, hard_planner_, output)) {
+    squeezes_ = true;
+    output.message = "swerves harder than it would like to";
+    return;
+  }
+  ++least_bad_;
   const auto things = builder_.kept_from(likely, now_s, 1.0);
   const auto room_m = [&](const Motion& motion) {
     return least_room_m(motion, things, now_s, now_s + rules_.mu_pre_s);
@@ -305,16 +320,17 @@ std::optional<double> LocalReplanner::progress_at(double join_s) const {
 bool LocalReplanner::swerve(double now_s, const PromiseScene& scene, Output& output) {
   if (plan_.empty() || now_s < swerved_s_ + kAgain_s) return false;
   swerved_s_ = now_s;
-  if (swerve_in(now_s, scene, output)) {
+  if (swerve_in(now_s, scene, planner_, output)) {
     squeezes_ = false;
     return true;
   }
-  if (!swerve_in(now_s, scene.most_likely(), output)) return false;
+  if (!swerve_in(now_s, scene.most_likely(), planner_, output)) return false;
   squeezes_ = true;
   return true;
 }
 
-bool LocalReplanner::swerve_in(double now_s, const PromiseScene& scene, Output& output) {
+bool LocalReplanner::swerve_in(double now_s, const PromiseScene& scene, const LocalPlanner& planner,
+                               Output& output) {
   const double join_s = committed_.switch_time(now_s + rules_.settle_s);
   const auto progress_s = progress_at(join_s);
   if (!progress_s) return false;
@@ -322,7 +338,7 @@ bool LocalReplanner::swerve_in(double now_s, const PromiseScene& scene, Output& 
                          follows_plan_at(join_s) ? plan_ : Motion()};
   const LocalScene around{std::make_shared<MapTerrain>(scene.obstacles),
                           builder_.kept_from(scene, now_s, 1.0)};
-  output.local = planner_.plan(query, around);
+  output.local = planner.plan(query, around);
   const LocalPlan& local = *output.local;
   if (local.reason != PlanReason::kSolved) return false;
   const Motion onward = after_committed(now_s, join_s, local.motion);

@@ -87,7 +87,8 @@ class LocalReplanner {
   void stop_here(double now_s, const RobotState& measured, Output& output);
   /// With the confidence that is asked for, else on the most likely course of what moves.
   bool swerve(double now_s, const PromiseScene& scene, Output& output);
-  bool swerve_in(double now_s, const PromiseScene& scene, Output& output);
+  bool swerve_in(double now_s, const PromiseScene& scene, const LocalPlanner& planner,
+                 Output& output);
   std::optional<double> progress_at(double join_s) const;
   void shorten(double now_s, const Violation& violation, const PromiseScene& scene, Output& output);
   /// Brakes and steps aside, if that can be proved.
@@ -113,6 +114,7 @@ class LocalReplanner {
   const RobotModel robot_;
   PromiseBuilder builder_;
   LocalPlanner planner_;
+  LocalPlanner hard_planner_;  // the same, for accelerations that only an emergency calls for
   LocalReplannerRules rules_;
   std::optional<Motion> offered_;
   Motion plan_;
