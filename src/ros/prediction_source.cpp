@@ -39,18 +39,14 @@ std::shared_ptr<const MovingObstacle> from_message(const mocha_ugv::PredictedObs
       message.radius + growth.radius_m, growth.rate, rules.growth_s);
 }
 
-PredictionSource::PredictionSource(ros::NodeHandle& node, std::string frame,
-                                   const PredictionRules& rules)
-    : frame_(std::move(frame)),
-      rules_(rules),
-      predictions_(
-          node.subscribe("predicted_obstacles", 5, &PredictionSource::on_predictions, this)) {}
+NewestPredictions::NewestPredictions(std::string frame, const PredictionRules& rules)
+    : frame_(std::move(frame)), rules_(rules) {}
 
-double PredictionSource::age_s(ros::Time now) const {
+double NewestPredictions::age_s(ros::Time now) const {
   return stamp_.isZero() ? std::numeric_limits<double>::infinity() : (now - stamp_).toSec();
 }
 
-void PredictionSource::on_predictions(const mocha_ugv::PredictedObstacles& message) {
+void NewestPredictions::on_predictions(const mocha_ugv::PredictedObstacles& message) {
   try {
     if (message.header.frame_id != frame_)
       throw std::invalid_argument("the frame is not " + frame_);
@@ -67,5 +63,11 @@ void PredictionSource::on_predictions(const mocha_ugv::PredictedObstacles& messa
     ROS_WARN_THROTTLE(1.0, "Refused a message on predicted_obstacles: %s", error.what());
   }
 }
+
+PredictionSource::PredictionSource(ros::NodeHandle& node, std::string frame,
+                                   const PredictionRules& rules)
+    : NewestPredictions(std::move(frame), rules),
+      predictions_(node.subscribe("predicted_obstacles", 5, &NewestPredictions::on_predictions,
+                                  static_cast<NewestPredictions*>(this))) {}
 
 }  // namespace mocha

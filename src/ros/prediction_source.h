@@ -23,13 +23,15 @@ struct PredictionRules {
 std::shared_ptr<const MovingObstacle> from_message(const mocha_ugv::PredictedObstacle& message,
                                                    ros::Time stamp, const PredictionRules& rules);
 
-/// What moves around the robot: the newest message on `predicted_obstacles`.
-class PredictionSource {
+/// The newest of the messages about what moves around the robot.
+class NewestPredictions {
  public:
   /// A message in another frame than `frame`, with more than a thousand obstacles, or with one that
   /// from_message() refuses, is refused as a whole and counted: what is left out could be what the
   /// robot runs into, so the former message holds until it is too old.
-  PredictionSource(ros::NodeHandle& node, std::string frame, const PredictionRules& rules);
+  NewestPredictions(std::string frame, const PredictionRules& rules);
+
+  void on_predictions(const mocha_ugv::PredictedObstacles& message);
 
   const std::vector<std::shared_ptr<const MovingObstacle>>& obstacles() const { return obstacles_; }
   /// Since the stamp of the newest message [s]; infinity before the first.
@@ -38,14 +40,20 @@ class PredictionSource {
   const std::string& refusal() const { return refusal_; }  ///< why, the last time
 
  private:
-  void on_predictions(const mocha_ugv::PredictedObstacles& message);
-
   const std::string frame_;
   const PredictionRules rules_;
   std::vector<std::shared_ptr<const MovingObstacle>> obstacles_;
   ros::Time stamp_;
   int refused_ = 0;
   std::string refusal_;
+};
+
+/// The newest predictions for this node's robot, from `predicted_obstacles`.
+class PredictionSource : public NewestPredictions {
+ public:
+  PredictionSource(ros::NodeHandle& node, std::string frame, const PredictionRules& rules);
+
+ private:
   ros::Subscriber predictions_;
 };
 
