@@ -96,12 +96,12 @@ LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& stat
   const bool conflicting{conflict(plan_, now_s, asked)};
   if ((in_the_way || conflicting) && waits_for_answer(now_s, scene)) return output;
   // Only where the promise brakes and the plan does not, the plan has to be promised on.
-  if (in_the_way && !conflicting && follows_plan_at(now_s) &&
+  if (in_the_way && !conflicting && !pending && follows_plan_at(now_s) &&
       violation.time_s > committed_source_.follows_until_s) {
     extend(now_s, asked, 0.0, output);
     if (output.proposal) return output;
   }
-  if ((in_the_way || conflicting) && swerve(now_s, scene, output)) return output;
+  if ((in_the_way || conflicting) && !pending && swerve(now_s, scene, output)) return output;
   const bool waits_in_the_way = violation && !in_the_way && under_way();
   if (waits_in_the_way && !pending) {
     output.violation = violation;
@@ -144,9 +144,8 @@ Violation LocalReplanner::conflict(const Motion& plan, double now_s,
 }
 
 bool LocalReplanner::waits_for_answer(double now_s, const PromiseScene& scene) const {
-  if (now_s >= pending_until_s_) return false;
-  return pending_brake_ ||
-         (!builder_.certify_in_force(pending_, scene, now_s) && !conflict(plan_, now_s, scene));
+  return now_s < pending_until_s_ &&
+         (pending_brake_ || !builder_.certify_in_force(pending_, scene, now_s));
 }
 
 void LocalReplanner::start(double now_s, const RobotState& measured, Output& output) {
@@ -233,8 +232,9 @@ void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, O
   const WayOut::Choice choice =
       way_out_.least_bad(committed_, times(now_s), scene, something_moves, now_s + rules_.mu_pre_s);
   output.message += "; NO CERTIFIED MOTION EXISTS";
-  if (choice.motion.empty()) {
-    output.message += "; " + choice.what;
+  const bool stands = committed_.end_time() <= now_s;
+  if (choice.motion.empty() || (stands && choice.emergency)) {
+    output.message += "; " + (stands ? "stands" : choice.what);
     output.renew_lease = true;
   } else {
     take(now_s, choice, output);
