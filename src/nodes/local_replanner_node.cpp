@@ -127,6 +127,7 @@ class LocalReplannerNode {
     scene.unseen = map_.field(DistanceField::Solid::kOccupiedOrUnknown, {here}, kMapBorder_m);
     scene.others = peers_.obstacles();
     scene.moving = predictions_.obstacles();
+    scene.expected = predictions_.expected();
     scene.predicted_until_s = (now + prediction_horizon_).toSec();
     const int least_bad = replanner_.least_bad();
     const auto output = replanner_.step(now.toSec(), *reading.state, scene);

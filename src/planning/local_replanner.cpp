@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "planning/conflict.h"
-#include "planning/evasion.h"
-#include "safety/margin_budget.h"
 #include "topology/map_terrain.h"
 #include "trajectory/stopping.h"
 
@@ -23,28 +21,13 @@ constexpr double kJoinTolerance_rad = 0.03;
 constexpr double kJoinTolerance_mps = 0.03;
 constexpr double kSamePlace_m = 0.5;      // of two plans' ends
 constexpr double kOffPlan_m = 1.5;        // farther from the plan, it is not come back to
-constexpr double kWorthwhile_m = 0.02;    // of room, for which stepping aside is worth while
 constexpr double kAgain_s = 0.19;         // between two local plans
 constexpr double kShareOfTrigger = 0.75;  // of the clearance to what moves, below which (37) is met
 constexpr double kWorthwhile_s =
     0.15;  // a promise that reaches less farther is not worth a message
 
-/// Accelerates as hard as it brakes in an emergency.
-RobotModel hardened(RobotModel robot, double acceleration) {
-  robot.limits.max_acceleration = std::max(robot.limits.max_acceleration, acceleration);
-  return robot;
-}
-
 Motion standing(double now_s, const Pose& pose) {
   return Motion(now_s, {StandPhase{pose, kStandPhase_s}});
-}
-
-/// The phases of a motion between two times; where it has ended before, it stands.
-std::vector<Phase> phases_until(const Motion& motion, double begin_s, double end_s) {
-  std::vector<Phase> phases = motion.phases_between(begin_s, end_s);
-  const double stands_from = std::max(begin_s, motion.end_time());
-  if (stands_from < end_s) phases.emplace_back(StandPhase{motion.end_pose(), end_s - stands_from});
-  return phases;
 }
 
 bool agree(const MotionState& a, const MotionState& b) {
@@ -57,10 +40,11 @@ bool agree(const MotionState& a, const MotionState& b) {
 
 LocalReplanner::LocalReplanner(const RobotModel& robot, const LocalReplannerRules& rules,
                                const LocalRules& local_rules)
-    : robot_(robot),
+    : own_radius_m_(robot.footprint.circumscribed_radius_m()),
       builder_(robot),
+      way_out_(robot),
       planner_(robot, local_rules),
-      hard_planner_(hardened(robot, builder_.hard_deceleration()), local_rules),
+      hard_planner_(WayOut::hardened(robot), local_rules),
       rules_(rules) {}
 
 void LocalReplanner::set_plan(Motion plan) { offered_ = std::move(plan); }
@@ -122,7 +106,11 @@ LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& stat
   if (waits_in_the_way && !pending) {
     output.violation = violation;
     output.message = describe(violation);
-    if (!evade(now_s, scene, output)) do_the_least_bad(now_s, scene, output);
+    if (const auto choice = way_out_.aside(committed_, times(now_s), scene)) {
+      take(now_s, *choice, output);
+    } else {
+      do_the_least_bad(now_s, scene, output);
+    }
     return output;
   }
   if (in_the_way) {
@@ -151,8 +139,8 @@ void LocalReplanner::take_offer(double now_s, const PromiseScene& scene, Output&
 Violation LocalReplanner::conflict(const Motion& plan, double now_s,
                                    const PromiseScene& scene) const {
   if (plan.empty()) return {};
-  return conflict_of(plan, builder_.kept_from(scene, now_s, kShareOfTrigger),
-                     robot_.footprint.circumscribed_radius_m(), now_s, rules_.mu_pre_s);
+  return conflict_of(plan, builder_.kept_from(scene, now_s, kShareOfTrigger), own_radius_m_, now_s,
+                     rules_.mu_pre_s);
 }
 
 bool LocalReplanner::waits_for_answer(double now_s, const PromiseScene& scene) const {
@@ -207,32 +195,25 @@ void LocalReplanner::shorten(double now_s, const Violation& violation, const Pro
   output.violation = violation;
   output.message = describe(violation);
   output.request_plan = true;
-  const double soonest = committed_.switch_time(now_s + rules_.emergency_s);
-  auto safe = builder_.longest(committed_, scene, now_s, soonest, committed_.end_time());
-  if (!safe) {
-    safe = builder_.longest(committed_, scene.most_likely(), now_s, soonest, committed_.end_time());
+  if (const auto choice = way_out_.proved(committed_, times(now_s), scene)) {
+    take(now_s, *choice, output);
+  } else {
+    do_the_least_bad(now_s, scene, output);
   }
-  if (safe) {
-    const double join_s = committed_.switch_time(now_s + rules_.settle_s);
-    const bool time_to_settle = safe->follows_until_s > join_s;
-    const Source source{committed_source_.plan,
-                        std::min(committed_source_.follows_until_s, safe->follows_until_s)};
-    propose(now_s, time_to_settle ? remainder(safe->motion, join_s) : safe->motion, !time_to_settle,
-            source, output);
-    pending_brake_ = true;
-    output.message += "; brakes in time";
-    return;
-  }
-  if (evade(now_s, scene, output)) return;
-  const Motion hard =
-      with_brake(committed_, committed_.cut_time(now_s), soonest, builder_.hard_deceleration());
-  if (!builder_.certify_in_force(hard, scene, now_s)) {
-    propose(now_s, hard, true, {}, output);
-    pending_brake_ = true;
-    output.message += "; brakes hard";
-    return;
-  }
-  do_the_least_bad(now_s, scene, output);
+}
+
+WayOut::Times LocalReplanner::times(double now_s) const {
+  return {now_s, committed_.switch_time(now_s + rules_.emergency_s),
+          committed_.switch_time(now_s + rules_.settle_s)};
+}
+
+void LocalReplanner::take(double now_s, const WayOut::Choice& choice, Output& output) {
+  output.message += "; " + choice.what;
+  const double follows_until_s =
+      std::min(committed_source_.follows_until_s, choice.follows_until_s);
+  propose(now_s, choice.motion, choice.emergency, {committed_source_.plan, follows_until_s},
+          output);
+  pending_brake_ = true;
 }
 
 bool LocalReplanner::under_way() const {
@@ -240,79 +221,24 @@ bool LocalReplanner::under_way() const {
          (plan_.end_pose().position - committed_.end_pose().position).norm() > kSamePlace_m;
 }
 
-bool LocalReplanner::evade(double now_s, const PromiseScene& scene, Output& output) {
-  return evade_in(now_s, scene, output) || evade_in(now_s, scene.most_likely(), output);
-}
-
-bool LocalReplanner::evade_in(double now_s, const PromiseScene& scene, Output& output) {
-  const double join_s = committed_.switch_time(now_s + rules_.settle_s);
-  for (const Motion& motion : evasions_from(join_s, now_s, robot_, scene)) {
-    if (builder_.certify(after_committed(now_s, join_s, motion), scene, now_s)) continue;
-    propose(now_s, motion, false, {}, output);
-    pending_brake_ = true;
-    output.message += "; steps aside";
-    return true;
-  }
-  return false;
-}
-
-std::vector<Motion> LocalReplanner::evasions_from(double join_s, double now_s,
-                                                  const RobotModel& robot,
-                                                  const PromiseScene& scene) const {
-  const EvasionScene around{
-      *scene.obstacles,
-      robot_.footprint.circumscribed_radius_m() + MarginBudget::of(robot_).static_margin_m(),
-      builder_.kept_from(scene, now_s, 1.0), scene.predicted_until_s};
-  return evasions(committed_, join_s, builder_.deceleration(), robot, around);
-}
-
-Motion LocalReplanner::after_committed(double now_s, double join_s, const Motion& motion) const {
-  const double begin_s = std::max(committed_.cut_time(now_s), committed_.start_time());
-  std::vector<Phase> phases = phases_until(committed_, begin_s, join_s);
-  for (const Phase& phase : motion.phases()) phases.push_back(phase);
-  return Motion(begin_s, std::move(phases));
-}
-
 void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, Output& output) {
-  const PromiseScene likely = scene.most_likely();
   const bool just_tried = swerved_s_ == now_s;  // only then it is tried harder, too
-  if (just_tried && swerve_in(now_s, likely, hard_planner_, output)) {
+  if (just_tried && swerve_in(now_s, scene.most_likely(), hard_planner_, output)) {
     squeezes_ = true;
     output.message = "swerves harder than it would like to";
     return;
   }
   ++least_bad_;
-  const auto things = builder_.kept_from(likely, now_s, 1.0);
-  const auto room_m = [&](const Motion& motion) {
-    return least_room_m(motion, things, now_s, now_s + rules_.mu_pre_s);
-  };
-  const Motion stop =
-      with_brake(committed_, committed_.cut_time(now_s),
-                 committed_.switch_time(now_s + rules_.emergency_s), builder_.hard_deceleration());
-  const bool moving_thing = output.violation.term == ViolatedTerm::kSeparation;
-  const double stop_m = room_m(stop);
-  const double on_m = room_m(committed_);
-  PromiseScene still = likely;
-  still.moving.clear();
-  const double join_s = committed_.switch_time(now_s + rules_.settle_s);
-  const RobotModel hard = hardened(robot_, builder_.hard_deceleration());
-  for (const Motion& motion : evasions_from(join_s, now_s, hard, likely)) {
-    const Motion onward = after_committed(now_s, join_s, motion);
-    if (!moving_thing || builder_.certify(onward, still, now_s)) continue;
-    if (room_m(onward) < std::max(stop_m, on_m) + kWorthwhile_m) break;
-    propose(now_s, motion, false, {}, output);
-    pending_brake_ = true;
-    output.message += "; NO CERTIFIED MOTION EXISTS: steps aside, which keeps the most room";
-    return;
-  }
-  if (moving_thing && on_m > stop_m) {
+  const bool something_moves = output.violation.term == ViolatedTerm::kSeparation;
+  const WayOut::Choice choice =
+      way_out_.least_bad(committed_, times(now_s), scene, something_moves, now_s + rules_.mu_pre_s);
+  output.message += "; NO CERTIFIED MOTION EXISTS";
+  if (choice.motion.empty()) {
+    output.message += "; " + choice.what;
     output.renew_lease = true;
-    output.message += "; NO CERTIFIED MOTION EXISTS: goes on, which keeps more room than braking";
-    return;
+  } else {
+    take(now_s, choice, output);
   }
-  output.message += "; NO CERTIFIED MOTION EXISTS: brakes at once all the same";
-  propose(now_s, stop, true, {}, output);
-  pending_brake_ = true;
 }
 
 std::optional<double> LocalReplanner::progress_at(double join_s) const {
@@ -344,7 +270,7 @@ bool LocalReplanner::swerve_in(double now_s, const PromiseScene& scene, const Lo
   output.local = planner.plan(query, around);
   const LocalPlan& local = *output.local;
   if (local.reason != PlanReason::kSolved) return false;
-  const Motion onward = after_committed(now_s, join_s, local.motion);
+  const Motion onward = continued(committed_, now_s, join_s, local.motion);
   const auto promise = builder_.longest(onward, scene, now_s, join_s, now_s + rules_.horizon_s);
   if (!promise || promise->follows_until_s < join_s + kWorthwhile_s) return false;
   plan_ = local.motion;
@@ -363,11 +289,9 @@ std::optional<Motion> LocalReplanner::joined(double now_s, double& join_s) const
   const bool same_plan =
       committed_source_.plan == plan_id_ && committed_source_.follows_until_s >= join_s;
   if (!same_plan && !agree(committed_.at(join_s), plan_.at(join_s))) return std::nullopt;
-  const double begin_s = std::max(committed_.cut_time(now_s), committed_.start_time());
-  std::vector<Phase> phases = phases_until(committed_, begin_s, join_s);
-  for (Phase& phase : plan_.phases_between(join_s, plan_.end_time()))
-    phases.push_back(std::move(phase));
-  return Motion(begin_s, std::move(phases));
+  std::vector<Phase> onward = plan_.phases_between(join_s, plan_.end_time());
+  if (onward.empty()) return std::nullopt;
+  return continued(committed_, now_s, join_s, Motion(join_s, std::move(onward)));
 }
 
 void LocalReplanner::postpone_late_plan(double now_s) {

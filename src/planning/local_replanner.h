@@ -4,11 +4,11 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "control/robot_state.h"
 #include "planning/local_planner.h"
 #include "planning/promise_builder.h"
+#include "planning/way_out.h"
 
 namespace mocha {
 
@@ -91,13 +91,8 @@ class LocalReplanner {
                  Output& output);
   std::optional<double> progress_at(double join_s) const;
   void shorten(double now_s, const Violation& violation, const PromiseScene& scene, Output& output);
-  /// Brakes and steps aside, if that can be proved.
-  bool evade(double now_s, const PromiseScene& scene, Output& output);
-  bool evade_in(double now_s, const PromiseScene& scene, Output& output);
-  std::vector<Motion> evasions_from(double join_s, double now_s, const RobotModel& robot,
-                                    const PromiseScene& scene) const;
-  /// What is in force until `join_s`, and then the motion.
-  Motion after_committed(double now_s, double join_s, const Motion& motion) const;
+  WayOut::Times times(double now_s) const;
+  void take(double now_s, const WayOut::Choice& choice, Output& output);
   void do_the_least_bad(double now_s, const PromiseScene& scene, Output& output);
   /// Promises more of the plan once `every_s` of the horizon is used up.
   void extend(double now_s, const PromiseScene& scene, double every_s, Output& output);
@@ -112,8 +107,9 @@ class LocalReplanner {
     return committed_source_.plan == plan_id_ && committed_source_.follows_until_s >= t;
   }
 
-  const RobotModel robot_;
+  const double own_radius_m_;
   PromiseBuilder builder_;
+  WayOut way_out_;
   LocalPlanner planner_;
   LocalPlanner hard_planner_;  // the same, for accelerations that only an emergency calls for
   LocalReplannerRules rules_;

@@ -27,6 +27,16 @@ Motion remainder(const Motion& motion, double from_s) {
   return Motion(from_s, std::move(phases));
 }
 
+Motion continued(const Motion& committed, double now_s, double join_s, const Motion& next) {
+  const double begin_s = std::max(committed.cut_time(now_s), committed.start_time());
+  std::vector<Phase> phases = committed.phases_between(begin_s, join_s);
+  const double stands_from_s = std::max(begin_s, committed.end_time());
+  if (stands_from_s < join_s)
+    phases.emplace_back(StandPhase{committed.end_pose(), join_s - stands_from_s});
+  for (const Phase& phase : next.phases()) phases.push_back(phase);
+  return Motion(begin_s, std::move(phases));
+}
+
 PromiseScene PromiseScene::most_likely() const {
   PromiseScene scene = *this;
   scene.moving = expected;

@@ -39,6 +39,11 @@ struct CertifiedMotion {
 /// is left.
 Motion remainder(const Motion& motion, double from_s);
 
+/// What is in force from `now_s` (or from the last time at which it can be cut) until `join_s`, a
+/// switch time of it, and then `next`, which begins there. Throws std::invalid_argument where they
+/// do not meet, as Motion does.
+Motion continued(const Motion& committed, double now_s, double join_s, const Motion& next);
+
 /// Cuts motions to what may be promised: all of it certified on the newest map, inside space seen
 /// free, apart from the peers' promises, and ending at rest.
 class PromiseBuilder {

@@ -53,9 +53,13 @@ void NewestPredictions::on_predictions(const mocha_ugv::PredictedObstacles& mess
     if (message.obstacles.size() > kMostObstacles)
       throw std::invalid_argument("more than " + std::to_string(kMostObstacles) + " obstacles");
     std::vector<std::shared_ptr<const MovingObstacle>> obstacles;
-    for (const auto& obstacle : message.obstacles)
+    std::vector<std::shared_ptr<const MovingObstacle>> expected;
+    for (const auto& obstacle : message.obstacles) {
       obstacles.push_back(from_message(obstacle, message.header.stamp, rules_));
+      expected.push_back(from_message(obstacle, message.header.stamp, {0.0, 0.0}));
+    }
     obstacles_ = std::move(obstacles);
+    expected_ = std::move(expected);
     stamp_ = message.header.stamp;
   } catch (const std::exception& error) {
     ++refused_;

@@ -34,6 +34,8 @@ class NewestPredictions {
   void on_predictions(const mocha_ugv::PredictedObstacles& message);
 
   const std::vector<std::shared_ptr<const MovingObstacle>>& obstacles() const { return obstacles_; }
+  /// The same on their most likely course, without room for what is not known.
+  const std::vector<std::shared_ptr<const MovingObstacle>>& expected() const { return expected_; }
   /// Since the stamp of the newest message [s]; infinity before the first.
   double age_s(ros::Time now) const;
   int refused() const { return refused_; }
@@ -43,6 +45,7 @@ class NewestPredictions {
   const std::string frame_;
   const PredictionRules rules_;
   std::vector<std::shared_ptr<const MovingObstacle>> obstacles_;
+  std::vector<std::shared_ptr<const MovingObstacle>> expected_;
   ros::Time stamp_;
   int refused_ = 0;
   std::string refusal_;

@@ -164,7 +164,7 @@ TEST_F(LocalReplannerTest, APlanThatIsNearIsComeBackTo) {
 }
 
 TEST_F(LocalReplannerTest, APlanThatDoesNotJoinIsAskedForAgain) {
-  replanner_.set_committed(1, standing(kNow_s - 5.0, {0.0, 0.8}, 0.0));
+  replanner_.set_committed(1, standing(kNow_s - 5.0, {0.0, 1.8}, 0.0));
   replanner_.set_plan(straight_drive(kNow_s + 0.5, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5));
   const auto elsewhere = step_on_track(kNow_s);
   EXPECT_FALSE(elsewhere.proposal);

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planning/promise_builder.h"
+
+namespace mocha {
+
+/// What is left to a robot whose promise does not hold any more and for which no swerve is found.
+class WayOut {
+ public:
+  /// When what is chosen now takes over, absolute.
+  struct Times {
+    double now_s;
+    double emergency_s;  ///< as an emergency
+    double settled_s;    ///< after settling with the peers
+  };
+
+  struct Choice {
+    std::string what;              ///< for a human
+    Motion motion;                 ///< empty: to go on with what is in force
+    bool emergency = false;        ///< binds at once
+    double follows_until_s = 0.0;  ///< until then it is what was in force
+  };
+
+  explicit WayOut(const RobotModel& robot);
+
+  /// To brake in time, to step aside, or to brake hard; each is proved with the confidence that is
+  /// asked for, or else on the most likely course of what moves. Nothing where none can be proved.
+  std::optional<Choice> proved(const Motion& committed, const Times& times,
+                               const PromiseScene& scene) const;
+
+  /// To brake where need be and to step aside, proved.
+  std::optional<Choice> aside(const Motion& committed, const Times& times,
+                              const PromiseScene& scene) const;
+
+  /// Where nothing can be proved: to step aside, to go on or to brake at once, whichever keeps the
+  /// most room to what moves until `until_s`; to brake where it is not something that moves that is
+  /// in the way.
+  Choice least_bad(const Motion& committed, const Times& times, const PromiseScene& scene,
+                   bool something_moves, double until_s) const;
+
+  /// The robot, accelerating as hard as it brakes in an emergency.
+  static RobotModel hardened(RobotModel robot);
+
+ private:
+  std::vector<Motion> evasions_from(const Motion& committed, const Times& times,
+                                    const RobotModel& robot, const PromiseScene& scene) const;
+  std::optional<Choice> braking(const Motion& committed, const Times& times,
+                                const PromiseScene& scene) const;
+  std::optional<Choice> aside_in(const Motion& committed, const Times& times,
+                                 const PromiseScene& scene) const;
+  Motion hard_stop(const Motion& committed, const Times& times) const;
+
+  const RobotModel robot_;
+  const RobotModel hard_robot_;
+  const PromiseBuilder builder_;
+};
+
+}  // namespace mocha
