@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -20,9 +21,11 @@ std::vector<PlanCandidate> race(const CandidatePlanner& planner, const PlanQuery
                                 const std::function<bool()>& should_stop);
 
 /// Index of the one to be driven: the cheapest certified one, but that of the class that is being
-/// driven if no other is cheaper by the share `switch_margin` of its cost. -1 if none is certified.
+/// driven if no other is cheaper by the share `switch_margin` of its cost and by `least_gain`. -1
+/// if none is certified.
 template <typename Candidate>
-int winner(const std::vector<Candidate>& candidates, double switch_margin) {
+int winner(const std::vector<Candidate>& candidates, double switch_margin,
+           double least_gain = 0.0) {
   int best = -1;
   int driven = -1;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -30,9 +33,10 @@ int winner(const std::vector<Candidate>& candidates, double switch_margin) {
     if (best < 0 || candidates[i].cost < candidates[best].cost) best = static_cast<int>(i);
     if (candidates[i].driven) driven = static_cast<int>(i);
   }
-  const bool stays =
-      driven >= 0 && candidates[best].cost >= (1.0 - switch_margin) * candidates[driven].cost;
-  return stays ? driven : best;
+  if (driven < 0) return best;
+  const double to_beat = std::min((1.0 - switch_margin) * candidates[driven].cost,
+                                  candidates[driven].cost - least_gain);
+  return candidates[best].cost >= to_beat ? driven : best;
 }
 
 }  // namespace mocha

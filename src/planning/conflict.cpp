@@ -22,7 +22,7 @@ Violation conflict_of(const Motion& plan, const std::vector<MovingThing>& moving
 
 double least_room_m(const Motion& motion, const std::vector<MovingThing>& moving, double from_s,
                     double until_s) {
-  constexpr double kStep_s = 0.05;
+  constexpr double kStep_s = 0.1;
   double least_m = std::numeric_limits<double>::infinity();
   for (double t = from_s; t < until_s; t += kStep_s) {
     const Vector2 place = motion.at(t).pose.position;

@@ -61,12 +61,31 @@ bool stands_free(const Vector2& from, const Vector2& to, const EvasionScene& sce
   return true;
 }
 
+/// What may come near a place of an evasion, or of the braking before it, in time.
+std::vector<MovingThing> within_reach(const EvasionScene& scene, const Vector2& stop,
+                                      double brake_m, double from_s) {
+  const double reach_m =
+      *std::max_element(std::begin(kDistances_m), std::end(kDistances_m)) + kEnough_m + brake_m;
+  std::vector<MovingThing> near;
+  for (const MovingThing& thing : scene.moving) {
+    const MovingObstacle::Disc disc = thing.obstacle->at(from_s);
+    const double comes_m =
+        thing.obstacle->max_closing_speed(from_s) * std::max(0.0, scene.until_s - from_s);
+    if ((disc.centre - stop).norm() <= disc.radius_m + thing.keep_m + reach_m + comes_m)
+      near.push_back(thing);
+  }
+  return near;
+}
+
 }  // namespace
 
 std::vector<Motion> evasions(const Motion& committed, double start_time_s, double deceleration,
                              const RobotModel& robot, const EvasionScene& scene) {
   const std::vector<Phase> brake = brake_along(committed, start_time_s, deceleration);
   const Pose stop = Motion(start_time_s, brake).end_pose();
+  const std::vector<MovingThing> near =
+      within_reach(scene, stop.position,
+                   (committed.at(start_time_s).pose.position - stop.position).norm(), start_time_s);
   struct Choice {
     double room_m;
     Motion motion;
@@ -80,7 +99,7 @@ std::vector<Motion> evasions(const Motion& committed, double start_time_s, doubl
       std::vector<Phase> phases = brake;
       for (const Phase& phase : step_to(stop, place, robot.limits)) phases.push_back(phase);
       Motion motion(start_time_s, std::move(phases));
-      const double room_m = least_room_m(motion, scene.moving, start_time_s, scene.until_s);
+      const double room_m = least_room_m(motion, near, start_time_s, scene.until_s);
       choices.push_back({room_m, std::move(motion)});
     }
   }

@@ -205,7 +205,7 @@ std::vector<LocalCandidate> LocalPlanner::optimised(const LocalQuery& query,
 
 void LocalPlanner::select(const LocalQuery& query, const LocalScene& scene, const Task& task,
                           LocalPlan& plan) const {
-  const int best = winner(plan.candidates, rules_.switch_margin);
+  const int best = winner(plan.candidates, rules_.switch_margin, rules_.switch_gain);
   if (best < 0) {
     const LocalCandidate& first = plan.candidates.front();
     plan.reason = first.reason;

@@ -11,6 +11,7 @@ LocalRules LocalRules::from(const ParameterTable& values) {
   rules.classes = values.integer("classes");
   rules.longest_ratio = values.number("longest_ratio");
   rules.switch_margin = values.number("switch_margin");
+  rules.switch_gain = values.number("switch_gain");
   rules.smooth_start_rad = values.number("smooth_start");
   rules.threads = values.integer("planning_threads");
   return rules;

@@ -13,6 +13,7 @@ struct LocalRules : DriveRules {
   int classes;
   double longest_ratio;
   double switch_margin;
+  double switch_gain;
   double smooth_start_rad;
   int threads;
 

@@ -39,7 +39,7 @@ Motion continued(const Motion& committed, double now_s, double join_s, const Mot
 
 PromiseScene PromiseScene::most_likely() const {
   PromiseScene scene = *this;
-  scene.moving = expected;
+  if (!expected.empty()) scene.moving = expected;
   return scene;
 }
 

@@ -19,7 +19,8 @@ struct PromiseScene {
   /// People and other things that promise nothing, as predicted: discs that hold them with the
   /// confidence that is asked for ...
   std::vector<std::shared_ptr<const MovingObstacle>> moving = {};
-  /// ... and, as a narrow place may leave nothing better, those of their most likely course.
+  /// ... and, as a narrow place may leave nothing better, those of their most likely course; where
+  /// there are none, the former stand for both.
   std::vector<std::shared_ptr<const MovingObstacle>> expected = {};
   double predicted_until_s = 0.0;  ///< absolute; later, predictions say nothing
 

@@ -88,15 +88,18 @@ WayOut::Choice WayOut::least_bad(const Motion& committed, const Times& times,
   if (!something_moves) return brake;
   const double brake_m = room_m(brake.motion);
   const double on_m = room_m(committed);
+  // Where the bodies would meet all the same, they had better meet slowly.
+  const double contact_m = -(MarginBudget::of(robot_).own_margin_m() + robot_.moving_clearance_m);
   PromiseScene still = likely;
   still.moving.clear();
   for (Motion& motion : evasions_from(committed, times, hard_robot_, likely)) {
     const Motion onward = continued(committed, times.now_s, times.settled_s, motion);
     if (builder_.certify(onward, still, times.now_s)) continue;
-    if (room_m(onward) < std::max(brake_m, on_m) + kWorthwhile_m) break;
+    if (room_m(onward) < std::max({brake_m, on_m, contact_m}) + kWorthwhile_m) break;
     return {"steps aside, which keeps the most room", std::move(motion), false, 0.0};
   }
-  if (on_m > brake_m) return {"goes on, which keeps more room than braking", {}, false, 0.0};
+  if (on_m > std::max(brake_m, contact_m))
+    return {"goes on, which keeps more room than braking", {}, false, 0.0};
   return brake;
 }
 

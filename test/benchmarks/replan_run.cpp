@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -81,23 +79,6 @@ class Run {
       const double next_s = elapsed_s() + ClosedLoop::kStep_s;
       predict_movers(scene_, next_s, loop_, begin_s_ + next_s);
       loop_.step();
-      if (std::getenv("DBG")) {
-        const auto& o = loop_.output;
-        const auto& st = loop_.state();
-        std::fprintf(stderr, "%.1f (%.2f %.2f %.2f) v%.2f r%d %s prop%d took %.1fms\n", elapsed_s(),
-                     st.pose.position.x(), st.pose.position.y(), st.pose.yaw_rad, st.twist.speed,
-                     (int)o.reason, o.message.c_str(), o.proposal ? 1 + o.proposal->emergency : 0,
-                     1e3 * loop_.replanner_took_s);
-        if (o.local) {
-          std::fprintf(stderr, "   local r%d %s delay %.1f late%d sw%d\n", (int)o.local->reason,
-                       o.local->message.c_str(), o.local->delay_s, o.local->late,
-                       o.local->switches_class);
-          for (auto& c : o.local->candidates)
-            std::fprintf(stderr, "      c r%d %s cost %.1f T %.2f way %.2f%s\n", (int)c.reason,
-                         describe(c.violation).c_str(), c.cost, c.rejoins_s - loop_.now_s,
-                         c.way.back().time_s - loop_.now_s, c.selected ? " *" : "");
-        }
-      }
       if (auto replan = replan_of(loop_, elapsed_s())) add(std::move(*replan));
       watch();
       const Vector2 to_goal = loop_.state().pose.position - scene_.goal;

@@ -227,17 +227,20 @@ TEST_F(LocalPlannerTest, TheCheapestOfSeveralClassesIsChosen) {
 }
 
 TEST_F(LocalPlannerTest, AClassIsKeptUnlessAnotherIsCheaperByTheMargin) {
+  LocalRules rules = rules_;
+  rules.switch_gain = 0.0;
+  const LocalPlanner planner(robot_, rules);
   int kept = 0;
   int left = 0;
   for (const double aside_m : {0.02, 0.05, 0.1, 0.2, 0.35}) {
     const LocalScene around = scene({person(planned(2.5) + Vector2(0.0, aside_m), 0.0, {0, 0})});
-    const LocalPlan first = planner_.plan(query(), around);
+    const LocalPlan first = planner.plan(query(), around);
     EXPECT_TRUE(first.switches_class) << "there was no class before";
     for (const LocalCandidate& other : first.candidates) {
       if (other.reason != PlanReason::kSolved || other.selected) continue;
       LocalQuery under_way = query();
       under_way.driven = other.motion;
-      const LocalPlan second = planner_.plan(under_way, around);
+      const LocalPlan second = planner.plan(under_way, around);
       ASSERT_EQ(second.reason, PlanReason::kSolved) << second.message;
       const auto driven = std::find_if(second.candidates.begin(), second.candidates.end(),
                                        [](const LocalCandidate& c) { return c.driven; });
@@ -247,7 +250,7 @@ TEST_F(LocalPlannerTest, AClassIsKeptUnlessAnotherIsCheaperByTheMargin) {
       for (const LocalCandidate& candidate : second.candidates) {
         if (candidate.reason == PlanReason::kSolved) cheapest = std::min(cheapest, candidate.cost);
       }
-      const bool stays = cheapest >= (1.0 - rules_.switch_margin) * driven->cost;
+      const bool stays = cheapest >= (1.0 - rules.switch_margin) * driven->cost;
       EXPECT_EQ(driven->selected, stays) << aside_m;
       EXPECT_EQ(second.switches_class, !stays);
       kept += stays;
