@@ -16,8 +16,7 @@ TEST(FirstPromise, KeepsTheTimesOfThePlan) {
   const OccupancyGrid open = free_grid({-2.0, -3.0}, {12.0, 3.0});
   const PromiseScene scene{occupied_field(open), unseen_field(open), {}};
   const Motion plan = straight_drive(kNow_s + 0.5, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5);
-  LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.5, 3.0},
-                            default_local_rules());
+  LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.5, 3.0}, default_local_rules());
   replanner.set_committed(1, standing(kNow_s + 0.3, {0.0, 0.0}, 0.0));
   replanner.set_plan(plan);
 
@@ -39,8 +38,7 @@ TEST(FirstPromise, IsNotHeldAgainstARobotThatIsOnItsWayThere) {
   const OccupancyGrid open = free_grid({-2.0, -3.0}, {12.0, 3.0});
   const PromiseScene scene{occupied_field(open), unseen_field(open), {}};
   const Motion plan = straight_drive(kNow_s, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5);
-  LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.5, 3.0},
-                            default_local_rules());
+  LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.5, 3.0}, default_local_rules());
   replanner.set_plan(plan);
   replanner.set_committed(7, remainder(plan, kNow_s + 4.0));
 
