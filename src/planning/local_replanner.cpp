@@ -102,8 +102,10 @@ LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& stat
     if (output.proposal) return output;
   }
   if ((in_the_way || conflicting) && !pending && swerve(now_s, scene, output)) return output;
-  const bool waits_in_the_way = violation && !in_the_way && under_way();
+  const bool waits_in_the_way =
+      violation.term == ViolatedTerm::kSeparation && !in_the_way && under_way();
   if (waits_in_the_way && !pending) {
+    output.reason = PlanReason::kPeerConflict;
     output.violation = violation;
     output.message = describe(violation);
     if (const auto choice = way_out_.aside(committed_, times(now_s), scene)) {

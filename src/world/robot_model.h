@@ -55,7 +55,7 @@ struct RobotModel {
   Footprint footprint;
   LidarModel lidar;
   Margins margins;
-  double peer_clearance_m;  ///< kept between the discs of two robots, on top of the margins
+  double peer_clearance_m;    ///< kept between the discs of two robots, on top of the margins
   double moving_clearance_m;  ///< kept from people and the like, on top of the own margins
   double map_resolution_m;
   double odometry_noise_distance;  ///< [m/sqrt(m)]
