@@ -258,7 +258,7 @@ Refusal Commitment::refusal_by_itself(const Motion& motion, double now) const {
   if (motion.start_time() < now + settings_.delta_dc_s) return Refusal::kTooLate;
   if (binding_.empty()) return Refusal::kNone;
   const Vector2 expected = binding_.position(motion.start_time());
-  const Vector2 begins = motion.at(motion.start_time()).pose.position;
+  const Vector2 begins = motion.position(motion.start_time());
   return (begins - expected).norm() <= kContinuity_m ? Refusal::kNone : Refusal::kDiscontinuous;
 }
 

@@ -24,7 +24,7 @@ std::optional<Conflict> first_conflict(const Claim& mine, const Claim& theirs, d
   const Motion& other = *theirs.promise.motion;
   const auto time = first_time_closer_than(own, other, required_m, from, until);
   if (!time) return std::nullopt;
-  const Vector2 place = own.at(*time).pose.position;
+  const Vector2 place = own.position(*time);
   const double distance = closest_approach(own, other, *time, until, kTolerance_m).distance_m;
   return Conflict{theirs.promise.agent, *time, distance, required_m, place};
 }

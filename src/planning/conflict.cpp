@@ -25,7 +25,7 @@ double least_room_m(const Motion& motion, const std::vector<MovingThing>& moving
   constexpr double kStep_s = 0.1;
   double least_m = std::numeric_limits<double>::infinity();
   for (double t = from_s; t < until_s; t += kStep_s) {
-    const Vector2 place = motion.at(t).pose.position;
+    const Vector2 place = motion.position(t);
     for (const MovingThing& thing : moving) {
       if (t > thing.until_s) continue;
       const MovingObstacle::Disc disc = thing.obstacle->at(t);

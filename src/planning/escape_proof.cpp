@@ -61,7 +61,7 @@ Violation check_separation_or_leaving(const Motion& motion, double own_radius_m,
       },
       [&](double t) {
         const auto disc = other.at(t);
-        return (motion.at(t).pose.position - disc.centre).norm() - own_radius_m - disc.radius_m;
+        return (motion.position(t) - disc.centre).norm() - own_radius_m - disc.radius_m;
       });
 }
 

@@ -85,7 +85,7 @@ std::vector<Motion> evasions(const Motion& committed, double start_time_s, doubl
   const Pose stop = Motion(start_time_s, brake).end_pose();
   const std::vector<MovingThing> near =
       within_reach(scene, stop.position,
-                   (committed.at(start_time_s).pose.position - stop.position).norm(), start_time_s);
+                   (committed.position(start_time_s) - stop.position).norm(), start_time_s);
   struct Choice {
     double room_m;
     Motion motion;

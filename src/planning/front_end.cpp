@@ -38,7 +38,7 @@ bool is_under_way(const PlanQuery& query, const Vector2& goal) {
 
 std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_speed) {
   const double step_s = 0.2 / max_speed;
-  std::vector<Vector2> points = {motion.at(from_s).pose.position};
+  std::vector<Vector2> points = {motion.position(from_s)};
   double start_s = motion.start_time();
   for (const Phase& phase : motion.phases()) {
     if (const auto* drive = std::get_if<DrivePhase>(&phase)) {

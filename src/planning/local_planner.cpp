@@ -52,7 +52,7 @@ TimedPath timed_path_of(const Motion& motion, double from_s, double until_s) {
   TimedPath path;
   if (motion.empty()) return path;
   for (double t = from_s; t < until_s + kStep_s; t += kStep_s)
-    path.push_back({motion.at(t).pose.position, t});
+    path.push_back({motion.position(t), t});
   return path;
 }
 
@@ -90,7 +90,7 @@ std::optional<LocalPlanner::Task> LocalPlanner::next_task(const LocalQuery& quer
     const bool farther = tried.farther > 0.0;
     if (farther && anchor->plan_time_s >= query.plan.end_time()) continue;
     Task task{*anchor, anchor->drive_s, {}};
-    task.earliest_s += catching_up_s(start.speed, query.plan.at(query.progress_s).velocity.norm(),
+    task.earliest_s += catching_up_s(start.speed, query.plan.velocity(query.progress_s).norm(),
                                      optimizer_.rest_acceleration());
     SpaceTimeQuery ways;
     ways.start = {start.pose.position, query.start_time_s};

@@ -245,7 +245,7 @@ void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, O
 
 std::optional<double> LocalReplanner::progress_at(double join_s) const {
   if (follows_plan_at(join_s)) return join_s;
-  return progress_on(plan_, committed_.at(join_s).pose.position, plan_.start_time(), kOffPlan_m);
+  return progress_on(plan_, committed_.position(join_s), plan_.start_time(), kOffPlan_m);
 }
 
 bool LocalReplanner::swerve(double now_s, const PromiseScene& scene, Output& output) {

@@ -18,7 +18,7 @@ std::optional<double> progress_on(const Motion& plan, const Vector2& p, double f
   std::optional<double> best_s;
   double nearest_m = within_m;
   for (double t = std::max(from_s, plan.start_time()); t <= plan.end_time(); t += kStep_s) {
-    const double distance_m = (plan.at(t).pose.position - p).norm();
+    const double distance_m = (plan.position(t) - p).norm();
     if (!(distance_m < nearest_m - (best_s ? kNearer_m : 0.0))) continue;
     nearest_m = distance_m;
     best_s = t;

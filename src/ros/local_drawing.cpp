@@ -19,8 +19,8 @@ std::vector<Vector2> drawn_way(const TimedPath& way) {
 std::vector<Vector2> drawn_swerve(const LocalCandidate& candidate) {
   std::vector<Vector2> places;
   for (double t = candidate.motion.start_time(); t < candidate.rejoins_s; t += kTimeStep_s)
-    places.push_back(candidate.motion.at(t).pose.position);
-  places.push_back(candidate.motion.at(candidate.rejoins_s).pose.position);
+    places.push_back(candidate.motion.position(t));
+  places.push_back(candidate.motion.position(candidate.rejoins_s));
   return places;
 }
 

@@ -69,7 +69,7 @@ std::vector<double> sample_times(double start, double end, double dt) {
 std::vector<geometry_msgs::Point> positions(const Motion& motion, double height_m) {
   std::vector<geometry_msgs::Point> points;
   for (const double t : sample_times(motion.start_time(), motion.end_time(), kLineStep_s)) {
-    points.push_back(point(motion.at(t).pose.position, height_m));
+    points.push_back(point(motion.position(t), height_m));
   }
   return points;
 }

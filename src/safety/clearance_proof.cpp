@@ -160,7 +160,7 @@ Violation report(const Motion& motion, const Keepout& keepout, double t) {
   Violation violation;
   violation.term = ViolatedTerm::kClearance;
   violation.time_s = t;
-  violation.place = motion.at(t).pose.position;
+  violation.place = motion.position(t);
   violation.limit = keepout.margin_m();
   violation.value = worst_value(value, std::less<>(), violation.limit, t,
                                 std::min(t + kReportLength_s, motion.end_time()));

@@ -144,7 +144,7 @@ Violation report(const Motion& motion, int phase, const MotionLimits& limits, co
   Violation violation;
   violation.term = term;
   violation.time_s = t;
-  violation.place = motion.at(t).pose.position;
+  violation.place = motion.position(t);
   violation.limit = term == ViolatedTerm::kSpeed        ? limits.max_speed
                     : term == ViolatedTerm::kYawRate    ? limits.max_yaw_rate
                     : term == ViolatedTerm::kWheelSpeed ? limits.max_wheel_speed

@@ -49,7 +49,7 @@ Violation check_separation(const Motion& motion, double own_radius_m,
   }
   const auto distance_m = [&](double t) {
     const MovingObstacle::Disc disc = obstacle.at(t);
-    return (motion.at(t).pose.position - disc.centre).norm() - own_radius_m - disc.radius_m;
+    return (motion.position(t) - disc.centre).norm() - own_radius_m - disc.radius_m;
   };
   const std::vector<SpeedBound> bounds = speed_bounds(motion, from_s);
   auto bound = bounds.begin();
@@ -64,7 +64,7 @@ Violation check_separation(const Motion& motion, double own_radius_m,
           worst_value(distance_m, std::less<>(), clearance_m + kResolution_m, t, end);
       return {ViolatedTerm::kSeparation,
               t,
-              motion.at(t).pose.position,
+              motion.position(t),
               least,
               clearance_m,
               obstacle.name()};

@@ -171,6 +171,23 @@ MotionState Motion::at(double t) const {
   return t < start_time_s_ || t >= end_time() ? standing(state) : state;
 }
 
+Vector2 Motion::position(double t) const {
+  require(!phases_.empty(), "position() of an empty motion");
+  const int i = phase_at(t);
+  if (const auto* turn = std::get_if<TurnPhase>(&phases_[i])) return turn->start.position;
+  if (const auto* stand = std::get_if<StandPhase>(&phases_[i])) return stand->pose.position;
+  const PlanarPath& path = std::get<DrivePhase>(phases_[i]).path;
+  return path.derivative(path.locate(t - phase_starts_[i]), 0);
+}
+
+Vector2 Motion::velocity(double t) const {
+  require(!phases_.empty(), "velocity() of an empty motion");
+  const int i = phase_at(t);
+  const auto* drive = std::get_if<DrivePhase>(&phases_[i]);
+  if (drive == nullptr || t < start_time_s_ || t >= end_time()) return Vector2::Zero();
+  return drive->path.derivative(drive->path.locate(t - phase_starts_[i]), 1);
+}
+
 Pose Motion::end_pose() const { return at(end_time()).pose; }
 
 double Motion::length_m() const {

@@ -65,6 +65,9 @@ class Motion {
 
   /// State at absolute time t [s].
   MotionState at(double t) const;
+  /// The same position and velocity, several times faster, as a heading costs more than a place.
+  Vector2 position(double t) const;
+  Vector2 velocity(double t) const;
   Pose end_pose() const;
   double length_m() const;
 

@@ -1,11 +1,28 @@
 #include "trajectory/piecewise_polynomial.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 namespace mocha {
+namespace {
+
+/// [order][k]: the factor that u^k gets by deriving it so often.
+template <int Coefficients>
+constexpr auto falling_factorials() {
+  std::array<std::array<double, Coefficients>, Coefficients> factors{};
+  for (int order = 0; order < Coefficients; ++order) {
+    for (int k = order; k < Coefficients; ++k) {
+      factors[order][k] = 1.0;
+      for (int j = 0; j < order; ++j) factors[order][k] *= k - j;
+    }
+  }
+  return factors;
+}
+
+}  // namespace
 
 template <int D, int S>
 PiecewisePolynomial<D, S>::PiecewisePolynomial(std::vector<Piece> pieces,
@@ -37,13 +54,10 @@ auto PiecewisePolynomial<D, S>::derivative(double t, int order) const -> Vector 
 
 template <int D, int S>
 auto PiecewisePolynomial<D, S>::derivative(const Location& at, int order) const -> Vector {
+  static constexpr auto kFalling = falling_factorials<kCoefficients>();
   const Piece& c = pieces_[at.piece];
   Vector sum = Vector::Zero();
-  for (int k = kCoefficients - 1; k >= order; --k) {
-    double falling = 1.0;
-    for (int j = 0; j < order; ++j) falling *= k - j;
-    sum = sum * at.u + falling * c.col(k);
-  }
+  for (int k = kCoefficients - 1; k >= order; --k) sum = sum * at.u + kFalling[order][k] * c.col(k);
   double scale = 1.0;
   for (int j = 0; j < order; ++j) scale *= durations_[at.piece];
   return sum / scale;

@@ -38,14 +38,14 @@ class Track {
  public:
   explicit Track(const Motion& motion) {
     if (motion.empty()) throw std::invalid_argument("separation: a motion is empty");
-    spans_.push_back(standing(motion.at(motion.start_time()).pose.position, motion.start_time()));
+    spans_.push_back(standing(motion.position(motion.start_time()), motion.start_time()));
     for (int i = 0; i < static_cast<int>(motion.phases().size()); ++i) {
       const double begin = motion.phase_start_time(i);
       const Phase& phase = motion.phases()[i];
       if (const auto* drive = std::get_if<DrivePhase>(&phase)) {
         add(drive->path, begin);
       } else {
-        spans_.push_back(standing(motion.at(begin).pose.position, begin + duration_s(phase)));
+        spans_.push_back(standing(motion.position(begin), begin + duration_s(phase)));
       }
     }
     spans_.push_back(standing(motion.end_pose().position, kForever));

@@ -19,6 +19,7 @@ constexpr double kStand_s = 0.1;
 /// where that ends.
 struct Track {
   std::function<MotionState(double)> at;
+  std::function<double(double)> speed;  ///< never negative
   double start_s;
   double end_s;
 };
@@ -60,16 +61,16 @@ Schedule slow_down(const Track& track, double deceleration) {
   for (int i = 0;; ++i) {
     const double share = std::min(1.0, (i + 0.5) * schedule.step_s / ramp_s);
     const double rate = acceleration + share * (-deceleration - acceleration);
-    const double track_speed = track.at(t).velocity.norm();
+    const double track_speed = track.speed(t);
     speed = std::min(speed, track_speed);
     const double next_speed = speed + rate * schedule.step_s;
     const double step = next_speed > 0.0 ? schedule.step_s : -speed / rate;
     // Half a step ahead on the track, for its speed in the middle of the step.
     const double ahead = t + 0.5 * step * speed / track_speed;
     const double middle_speed = 0.5 * (speed + std::max(0.0, next_speed));
-    t += step * std::min(1.0, middle_speed / track.at(ahead).velocity.norm());
+    t += step * std::min(1.0, middle_speed / track.speed(ahead));
     schedule.duration_s += step;
-    if (!(t < track.end_s) || !(track.at(t).velocity.norm() > kSlowest)) {
+    if (!(t < track.end_s) || !(track.speed(t) > kSlowest)) {
       schedule.reaches_end = true;
       return schedule;
     }
@@ -139,7 +140,9 @@ std::vector<Phase> brake_along(const Motion& motion, double t, double decelerati
   t = motion.switch_time(t);
   const MotionState now = motion.at(t);
   if (now.velocity.norm() < kSlowest) return {StandPhase{now.pose, kStand_s}};
-  const Track track{[&motion](double when) { return motion.at(when); }, t, path_end(motion, t)};
+  const Track track{[&motion](double when) { return motion.at(when); },
+                    [&motion](double when) { return motion.velocity(when).norm(); }, t,
+                    path_end(motion, t)};
   const Schedule schedule = slow_down(track, deceleration);
   if (schedule.reaches_end) return motion.phases_between(t, track.end_s);
   return {drive_to_rest(track, schedule, deceleration)};
@@ -149,7 +152,8 @@ std::vector<Phase> brake_from(const Pose& pose, double speed, double yaw_rate,
                               double deceleration) {
   check_deceleration(deceleration);
   if (std::abs(speed) < kSlowest) return {StandPhase{pose, kStand_s}};
-  const Track track{[&](double t) { return on_circle(pose, speed, yaw_rate, t); }, 0.0,
+  const Track track{[&](double t) { return on_circle(pose, speed, yaw_rate, t); },
+                    [speed](double) { return std::abs(speed); }, 0.0,
                     std::numeric_limits<double>::infinity()};
   return {drive_to_rest(track, slow_down(track, deceleration), deceleration)};
 }

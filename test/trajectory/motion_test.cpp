@@ -52,6 +52,17 @@ TEST(Motion, StandsBeforeAndAfter) {
   EXPECT_LT((after.pose.position - motion.end_pose().position).norm(), 1e-12);
 }
 
+TEST(Motion, PositionAndVelocityAreThoseOfTheState) {
+  const Motion motion = all_kinds(100.0);
+  for (double t = 99.0; t < motion.end_time() + 1.0; t += 0.0171) {
+    EXPECT_EQ(motion.position(t), motion.at(t).pose.position) << t;
+    EXPECT_EQ(motion.velocity(t), motion.at(t).velocity) << t;
+  }
+  EXPECT_EQ(motion.velocity(motion.end_time()), Vector2::Zero());
+  EXPECT_THROW(Motion().position(0.0), std::invalid_argument);
+  EXPECT_THROW(Motion().velocity(0.0), std::invalid_argument);
+}
+
 TEST(Motion, StateIsTheDerivativeOfThePoseThroughAllPhases) {
   const Motion motion = all_kinds(100.0);
   const double h = 1e-5;
