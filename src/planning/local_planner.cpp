@@ -1,6 +1,7 @@
 #include "planning/local_planner.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -41,6 +42,17 @@ double clearance_radius_m(const RobotModel& robot) {
   return radius_m;
 }
 
+SpaceTimeRules space_time_rules(const RobotModel& robot, const LocalRules& rules) {
+  SpaceTimeRules space_time;
+  space_time.max_speed = robot.limits.max_speed;
+  space_time.required_clearance_m =
+      clearance_radius_m(robot) + MarginBudget::of(robot).static_margin_m() + kSlack_m;
+  space_time.samples = rules.samples;
+  space_time.classes = rules.classes;
+  space_time.longest_ratio = rules.longest_ratio;
+  return space_time;
+}
+
 std::vector<Vector2> places_of(const TimedPath& way) {
   std::vector<Vector2> places;
   for (const TimedPoint& point : way) places.push_back(point.position);
@@ -74,43 +86,38 @@ bool only_after(const Violation& violation, double time_s) {
 LocalPlanner::LocalPlanner(const RobotModel& robot, const LocalRules& rules)
     : robot_(robot),
       rules_(rules),
+      space_time_rules_(space_time_rules(robot, rules)),
       margin_m_(MarginBudget::of(robot).static_margin_m()),
       optimizer_(robot, rules, margin_m_),
       openings_(robot.limits, rules.smooth_start_rad, optimizer_.rest_acceleration()) {}
 
-std::optional<LocalPlanner::Task> LocalPlanner::next_task(const LocalQuery& query,
-                                                          const LocalScene& scene,
-                                                          int& attempt) const {
+std::vector<LocalPlanner::Task> LocalPlanner::tasks(const LocalQuery& query,
+                                                    const LocalScene& scene) const {
   const MotionState start = query.committed.at(query.start_time_s);
-  for (; attempt < static_cast<int>(std::size(kAttempts)); ++attempt) {
-    const Attempt& tried = kAttempts[attempt];
+  std::vector<Task> tasks;
+  for (const Attempt& tried : kAttempts) {
     const auto anchor =
         rejoining_point(query.plan, query.progress_s, (1.0 + tried.farther) * rules_.mu_s);
-    if (!anchor) return std::nullopt;
-    const bool farther = tried.farther > 0.0;
-    if (farther && anchor->plan_time_s >= query.plan.end_time()) continue;
-    Task task{*anchor, anchor->drive_s, {}};
-    task.earliest_s += catching_up_s(start.speed, query.plan.velocity(query.progress_s).norm(),
-                                     optimizer_.rest_acceleration());
+    if (!anchor) break;
+    if (tried.farther > 0.0 && anchor->plan_time_s >= query.plan.end_time()) continue;
+    const double plan_speed = query.plan.velocity(query.progress_s).norm();
+    const double earliest_s =
+        anchor->drive_s + catching_up_s(start.speed, plan_speed, optimizer_.rest_acceleration());
     SpaceTimeQuery ways;
     ways.start = {start.pose.position, query.start_time_s};
-    ways.goal = {anchor->state.col(0),
-                 query.start_time_s + task.earliest_s + tried.later * rules_.mu_s};
+    ways.goal = {anchor->state.col(0), query.start_time_s + earliest_s + tried.later * rules_.mu_s};
     ways.moving = foreseen(scene.moving);
     for (MovingThing& thing : ways.moving) thing.keep_m += kSlack_m;
     ways.driven = timed_path_of(query.driven, query.start_time_s, ways.goal.time_s);
-    SpaceTimeRules rules;
-    rules.max_speed = robot_.limits.max_speed;
-    rules.required_clearance_m = clearance_radius_m(robot_) + margin_m_ + kSlack_m;
-    rules.samples = rules_.samples;
-    rules.classes = rules_.classes;
-    rules.longest_ratio = rules_.longest_ratio;
-    task.ways = find_space_time_ways(*scene.terrain, ways, rules);
-    if (task.ways.ways.empty()) continue;
-    ++attempt;
-    return task;
+    tasks.push_back({*anchor, earliest_s, std::move(ways)});
   }
-  return std::nullopt;
+  return tasks;
+}
+
+Cuts<2> LocalPlanner::cuts_for(const std::vector<Task>& tasks, const LocalScene& scene) const {
+  Eigen::AlignedBox2d reach;
+  for (const Task& task : tasks) reach.extend(reach_of(task.ways, robot_.limits.max_speed));
+  return cuts_within(*scene.terrain, reach, tasks.front().ways.start.position, space_time_rules_);
 }
 
 Violation LocalPlanner::certify(const Motion& motion, const LocalScene& scene,
@@ -131,7 +138,8 @@ Violation LocalPlanner::certify(const Motion& motion, const LocalScene& scene,
 }
 
 void LocalPlanner::drive(const LocalQuery& query, const LocalScene& scene, const Task& task,
-                         const Opening& opening, LocalCandidate& candidate) const {
+                         const Opening& opening, const ShouldStop& should_stop,
+                         LocalCandidate& candidate) const {
   DriveQuery drive;
   drive.path = opening.path;
   drive.start = opening.state;
@@ -144,8 +152,8 @@ void LocalPlanner::drive(const LocalQuery& query, const LocalScene& scene, const
   Effort effort;
   for (int i = 0; i < kEfforts; ++i) {
     const auto found =
-        optimizer_.optimize_drive(drive, scene.terrain->field(), effort, [] { return false; });
-    if (found.curve.pieces() == 0) return;
+        optimizer_.optimize_drive(drive, scene.terrain->field(), effort, should_stop);
+    if (found.curve.pieces() == 0 || should_stop()) return;
     std::vector<Phase> phases = opening.phases;
     phases.emplace_back(DrivePhase{1, found.curve});
     candidate.terms = found.terms;
@@ -177,30 +185,21 @@ std::vector<Opening> LocalPlanner::openings(const LocalQuery& query,
 }
 
 LocalCandidate LocalPlanner::candidate(const LocalQuery& query, const LocalScene& scene,
-                                       const Task& task, const SpaceTimeWay& way) const {
+                                       const Task& task, const SpaceTimeWay& way,
+                                       const ShouldStop& should_stop) const {
   LocalCandidate candidate;
   candidate.way = way.points;
   candidate.signature = way.signature;
   candidate.driven = way.driven;
   for (const Opening& opening : openings(query, places_of(way.points))) {
     try {
-      drive(query, scene, task, opening, candidate);
+      drive(query, scene, task, opening, should_stop, candidate);
     } catch (const std::invalid_argument&) {  // what the optimiser found is no motion
       candidate.motion = Motion();
     }
     if (candidate.reason == PlanReason::kSolved) break;
   }
   return candidate;
-}
-
-std::vector<LocalCandidate> LocalPlanner::optimised(const LocalQuery& query,
-                                                    const LocalScene& scene,
-                                                    const Task& task) const {
-  std::vector<LocalCandidate> candidates(task.ways.ways.size());
-  in_parallel(candidates.size(), rules_.threads, [&](std::size_t i) {
-    candidates[i] = candidate(query, scene, task, task.ways.ways[i]);
-  });
-  return candidates;
 }
 
 void LocalPlanner::select(const LocalQuery& query, const LocalScene& scene, const Task& task,
@@ -229,16 +228,43 @@ void LocalPlanner::select(const LocalQuery& query, const LocalScene& scene, cons
   plan.switches_class = !chosen.driven;
 }
 
-LocalPlan LocalPlanner::plan(const LocalQuery& query, const LocalScene& scene) const {
+LocalPlan LocalPlanner::attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,
+                                const Cuts<2>& cuts, const ShouldStop& should_stop) const {
   LocalPlan plan;
   plan.message = "no way through space-time back to the plan";
-  int attempt = 0;
-  while (auto task = next_task(query, scene, attempt)) {
-    plan.candidates = optimised(query, scene, *task);
-    select(query, scene, *task, plan);
-    if (plan.reason == PlanReason::kSolved) break;
-  }
+  const std::vector<SpaceTimeWay> ways =
+      find_space_time_ways(*scene.terrain, cuts, task.ways, space_time_rules_).ways;
+  if (ways.empty()) return plan;
+  plan.candidates.resize(ways.size());
+  in_parallel(ways.size(), rules_.threads, [&](std::size_t i) {
+    plan.candidates[i] = candidate(query, scene, task, ways[i], should_stop);
+  });
+  select(query, scene, task, plan);
   return plan;
+}
+
+LocalPlan LocalPlanner::plan(const LocalQuery& query, const LocalScene& scene) const {
+  const std::vector<Task> tasks = this->tasks(query, scene);
+  std::vector<LocalPlan> plans(std::max<std::size_t>(1, tasks.size()));
+  if (tasks.empty()) return plans.front();
+  const Cuts<2> cuts = cuts_for(tasks, scene);
+  // The first one mostly succeeds. If it does not, it is urgent.
+  plans[0] = attempt(query, scene, tasks[0], cuts, [] { return false; });
+  if (plans[0].reason == PlanReason::kSolved) return plans[0];
+  std::atomic<std::size_t> solved{tasks.size()};
+  in_parallel(tasks.size() - 1, rules_.threads, [&](std::size_t i) {
+    ++i;
+    const auto needless = [&solved, i] { return solved < i; };
+    if (needless()) return;
+    plans[i] = attempt(query, scene, tasks[i], cuts, needless);
+    if (plans[i].reason != PlanReason::kSolved) return;
+    std::size_t first = solved;
+    while (i < first && !solved.compare_exchange_weak(first, i)) continue;
+  });
+  if (solved < tasks.size()) return plans[solved];
+  const auto tells_most = std::find_if(
+      plans.rbegin(), plans.rend(), [](const LocalPlan& plan) { return !plan.candidates.empty(); });
+  return tells_most == plans.rend() ? plans.front() : *tells_most;
 }
 
 }  // namespace mocha

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,7 +47,7 @@ struct LocalCandidate {
 
 struct LocalPlan {
   PlanReason reason = PlanReason::kNoPath;
-  std::string message;
+  std::string message = "no plan to come back to";
   Violation violation;  ///< of the first candidate, where none is certified
   /// From start_time_s past everything that moves to the anchor, and on along the plan, shifted in
   /// time. Certified up to the anchor; empty unless solved.
@@ -67,33 +68,34 @@ class LocalPlanner {
 
   LocalPlan plan(const LocalQuery& query, const LocalScene& scene) const;
 
-  /// The stages of plan(), for whoever wants to look in between. The ways from the start to one
-  /// anchor.
+ private:
+  /// To come back to the plan at one place and time.
   struct Task {
     RejoiningPoint anchor;
-    double earliest_s;  ///< about the least time that the robot takes to the anchor
-    SpaceTimeWays ways;
+    double earliest_s;  // about the least time that the robot takes to the anchor
+    SpaceTimeQuery ways;
   };
-  /// With anchors ever farther and arrivals ever later, until a way is found; the number of the
-  /// attempt goes on from `attempt`. Nothing where all are tried.
-  std::optional<Task> next_task(const LocalQuery& query, const LocalScene& scene,
-                                int& attempt) const;
-  std::vector<LocalCandidate> optimised(const LocalQuery& query, const LocalScene& scene,
-                                        const Task& task) const;
+  using ShouldStop = std::function<bool()>;
 
- private:
+  /// With anchors ever farther and arrivals ever later.
+  std::vector<Task> tasks(const LocalQuery& query, const LocalScene& scene) const;
+  Cuts<2> cuts_for(const std::vector<Task>& tasks, const LocalScene& scene) const;
+  LocalPlan attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,
+                    const Cuts<2>& cuts, const ShouldStop& should_stop) const;
   LocalCandidate candidate(const LocalQuery& query, const LocalScene& scene, const Task& task,
-                           const SpaceTimeWay& way) const;
+                           const SpaceTimeWay& way, const ShouldStop& should_stop) const;
   /// How to begin on a way: at once, or after braking and turning.
   std::vector<Opening> openings(const LocalQuery& query, std::vector<Vector2> path) const;
   void drive(const LocalQuery& query, const LocalScene& scene, const Task& task,
-             const Opening& opening, LocalCandidate& candidate) const;
+             const Opening& opening, const ShouldStop& should_stop,
+             LocalCandidate& candidate) const;
   Violation certify(const Motion& motion, const LocalScene& scene, double from_s) const;
   void select(const LocalQuery& query, const LocalScene& scene, const Task& task,
               LocalPlan& plan) const;
 
   const RobotModel robot_;
   const LocalRules rules_;
+  const SpaceTimeRules space_time_rules_;
   const double margin_m_;
   const DriveOptimizer optimizer_;
   const Openings openings_;

@@ -20,29 +20,6 @@ constexpr int kSpare = 2;           // ways that are shortened, for each one tha
 constexpr double kNarrowest = 0.5;  // passage that obstacles are told apart by, of the required
 constexpr double kFinest_m = 1e-3;  // such a passage, at least
 
-/// Around all that can be visited on the way to the goal: an ellipse.
-Eigen::AlignedBox2d reach_of(const SpaceTimeQuery& query, double max_speed) {
-  const double half_m = 0.5 * max_speed * (query.goal.time_s - query.start.time_s);
-  const Vector2 middle = 0.5 * (query.start.position + query.goal.position);
-  const Vector2 focus = 0.5 * (query.goal.position - query.start.position);
-  const double across2 = std::max(0.0, half_m * half_m - focus.squaredNorm());
-  const Vector2 half = (focus.cwiseAbs2() + Vector2::Constant(across2)).cwiseSqrt();
-  return {middle - half, middle + half};
-}
-
-std::vector<Vector2> representatives_near(const Terrain& terrain, const SpaceTimeQuery& query,
-                                          const SpaceTimeRules& rules) {
-  // What one starts between can be passed, though it be too narrow elsewhere.
-  const double required_m = rules.required_clearance_m;
-  const double start_m = terrain.field().sample(query.start.position).distance_m;
-  const double passage_m = std::clamp(start_m, kNarrowest * required_m, required_m);
-  std::vector<Vector2> representatives;
-  for (const ObstacleGroup& group :
-       terrain.groups_within(reach_of(query, rules.max_speed), std::max(kFinest_m, passage_m)))
-    representatives.push_back(group.representative);
-  return representatives;
-}
-
 /// Without a look at how exactly it moves.
 bool out_of_reach(const MovingThing& thing, const SpaceTimeQuery& query, double max_speed) {
   const double now_s = query.start.time_s;
@@ -152,12 +129,53 @@ void check(const SpaceTimeRules& rules) {
   require(rules.longest_ratio >= 1.0, "longest_ratio", rules.longest_ratio, "at least 1");
 }
 
+/// Whoever is there at the goal's time; found out before all that costs more.
+bool is_taken(const TimedPoint& goal, const std::vector<Tube<2>>& tubes) {
+  const auto holds_goal = [&goal](const TubePiece<2>& piece) {
+    return least_gap_m<2>(piece, goal.position, goal.time_s, goal.position, goal.time_s) < 0.0;
+  };
+  return std::any_of(tubes.begin(), tubes.end(), [&](const Tube<2>& tube) {
+    return std::any_of(tube.begin(), tube.end(), holds_goal);
+  });
+}
+
 bool is_finite(const TimedPoint& p) { return p.position.allFinite() && std::isfinite(p.time_s); }
 
 }  // namespace
 
+Eigen::AlignedBox2d reach_of(const SpaceTimeQuery& query, double max_speed) {
+  const double half_m = 0.5 * max_speed * (query.goal.time_s - query.start.time_s);
+  const Vector2 middle = 0.5 * (query.start.position + query.goal.position);
+  const Vector2 focus = 0.5 * (query.goal.position - query.start.position);
+  const double across2 = std::max(0.0, half_m * half_m - focus.squaredNorm());  // of an ellipse
+  const Vector2 half = (focus.cwiseAbs2() + Vector2::Constant(across2)).cwiseSqrt();
+  return {middle - half, middle + half};
+}
+
+Cuts<2> cuts_within(const Terrain& terrain, const Eigen::AlignedBox2d& reach, const Vector2& start,
+                    const SpaceTimeRules& rules) {
+  // What one starts between can be passed, though it be too narrow elsewhere.
+  const double required_m = rules.required_clearance_m;
+  const double start_m = terrain.field().sample(start).distance_m;
+  const double passage_m = std::clamp(start_m, kNarrowest * required_m, required_m);
+  std::vector<Vector2> representatives;
+  for (const ObstacleGroup& group : terrain.groups_within(reach, std::max(kFinest_m, passage_m)))
+    representatives.push_back(group.representative);
+  return Cuts<2>(representatives);
+}
+
 SpaceTimeWays find_space_time_ways(const Terrain& terrain, const SpaceTimeQuery& query,
                                    const SpaceTimeRules& rules) {
+  check(rules);
+  if (!is_finite(query.start) || !is_finite(query.goal))
+    return find_space_time_ways(terrain, Cuts<2>({}), query, rules);
+  const Cuts<2> cuts =
+      cuts_within(terrain, reach_of(query, rules.max_speed), query.start.position, rules);
+  return find_space_time_ways(terrain, cuts, query, rules);
+}
+
+SpaceTimeWays find_space_time_ways(const Terrain& terrain, const Cuts<2>& cuts,
+                                   const SpaceTimeQuery& query, const SpaceTimeRules& rules) {
   using Outcome = SpaceTimeWays::Outcome;
   check(rules);
   const TimedPoint& start = query.start;
@@ -165,10 +183,11 @@ SpaceTimeWays find_space_time_ways(const Terrain& terrain, const SpaceTimeQuery&
   if (!is_finite(start)) return {Outcome::kStartBlocked, {}};
   if (!is_finite(goal)) return {Outcome::kGoalBlocked, {}};
   if (!(start.time_s < goal.time_s)) return {Outcome::kNoPath, {}};
-  const Cuts<2> cuts(representatives_near(terrain, query, rules));
+  std::vector<Tube<2>> tubes = tubes_of(query, rules.max_speed);
+  if (is_taken(goal, tubes)) return {Outcome::kGoalBlocked, {}};
   const SpaceTime<2> space(terrain.field(), cuts, terrain.bounds(),
                            {start.position, goal.position, start.time_s, goal.time_s},
-                           rules.max_speed, tubes_of(query, rules.max_speed),
+                           rules.max_speed, std::move(tubes),
                            {rules.required_clearance_m, rules.escape_radius_m});
   if (!space.clearance_m(space.start())) return {Outcome::kStartBlocked, {}};
   if (!space.clearance_m(space.goal())) return {Outcome::kGoalBlocked, {}};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -60,5 +61,17 @@ struct SpaceTimeWays {
 /// throughout. Throws std::invalid_argument for rules out of range.
 SpaceTimeWays find_space_time_ways(const Terrain& terrain, const SpaceTimeQuery& query,
                                    const SpaceTimeRules& rules);
+
+/// The same with cuts that serve several queries: of what stands in the reach of all of them.
+SpaceTimeWays find_space_time_ways(const Terrain& terrain, const Cuts<2>& cuts,
+                                   const SpaceTimeQuery& query, const SpaceTimeRules& rules);
+
+/// Around all that can be visited from the start on the way to the goal; empty without time for
+/// that.
+Eigen::AlignedBox2d reach_of(const SpaceTimeQuery& query, double max_speed);
+
+/// Of the groups of obstacles within reach that ways from `start` are told apart by.
+Cuts<2> cuts_within(const Terrain& terrain, const Eigen::AlignedBox2d& reach, const Vector2& start,
+                    const SpaceTimeRules& rules);
 
 }  // namespace mocha

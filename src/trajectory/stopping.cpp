@@ -56,7 +56,7 @@ Schedule slow_down(const Track& track, double deceleration) {
   const double drop = std::max(deceleration - acceleration, 1e-3 * deceleration);
   const double ramp_s = std::min(kRamp_s, speed / drop);
   const double expected_s = ramp_s + speed / deceleration;
-  Schedule schedule{{track.start_s}, std::min(0.004, expected_s / 64.0), 0.0, false};
+  Schedule schedule{{track.start_s}, std::min(0.01, expected_s / 64.0), 0.0, false};
   double t = track.start_s;
   for (int i = 0;; ++i) {
     const double share = std::min(1.0, (i + 0.5) * schedule.step_s / ramp_s);
