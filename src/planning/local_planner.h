@@ -16,10 +16,19 @@
 namespace mocha {
 
 /// What is around: static obstacles (unknown space counts as free), and what moves, with the
-/// distance that is proved to be kept.
+/// distance that is to be kept.
 struct LocalScene {
   std::shared_ptr<const Terrain> terrain;
-  std::vector<MovingThing> moving;
+  std::vector<MovingThing> moving;    ///< as surely as is asked for
+  std::vector<MovingThing> expected;  ///< on its most likely course; empty: the same
+};
+
+/// What was proved of a motion, from the best on. In any case it keeps clear of what stands.
+enum class LocalProof {
+  kAsked,      ///< keeps from what moves, as surely as is asked for
+  kLikely,     ///< keeps from its most likely course
+  kEmergency,  ///< the same, but more abruptly than the robot is wanted to drive
+  kNone
 };
 
 /// Out of which motion, and back into which plan. Map frame, absolute times.
@@ -36,7 +45,8 @@ struct LocalCandidate {
   TimedPath way;  ///< of the front end, from which the optimisation started
   Signature signature;
   PlanReason reason = PlanReason::kNotCertified;
-  Violation violation;  ///< the first one before the anchor
+  LocalProof proof = LocalProof::kNone;
+  Violation violation;  ///< the first one before the anchor, of what is asked for
   double cost = 0.0;    ///< J (14) with (39), (40)
   CostTerms terms;
   Motion motion;         ///< up to the plan's end
@@ -49,8 +59,9 @@ struct LocalPlan {
   PlanReason reason = PlanReason::kNoPath;
   std::string message = "no plan to come back to";
   Violation violation;  ///< of the first candidate, where none is certified
+  LocalProof proof = LocalProof::kNone;
   /// From start_time_s past everything that moves to the anchor, and on along the plan, shifted in
-  /// time. Certified up to the anchor; empty unless solved.
+  /// time. Proved up to the anchor as `proof` says; empty unless solved.
   Motion motion;
   Vector2 anchor = Vector2::Zero();
   double rejoins_s = 0.0;       ///< absolute time at which the motion is at the anchor
@@ -80,6 +91,8 @@ class LocalPlanner {
   /// With anchors ever farther and arrivals ever later.
   std::vector<Task> tasks(const LocalQuery& query, const LocalScene& scene) const;
   Cuts<2> cuts_for(const std::vector<Task>& tasks, const LocalScene& scene) const;
+  /// Against scene.moving; the others are what else is proved of what comes out.
+  LocalPlan search(const LocalQuery& query, const LocalScene& scene) const;
   LocalPlan attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,
                     const Cuts<2>& cuts, const ShouldStop& should_stop) const;
   LocalCandidate candidate(const LocalQuery& query, const LocalScene& scene, const Task& task,
@@ -89,11 +102,16 @@ class LocalPlanner {
   void drive(const LocalQuery& query, const LocalScene& scene, const Task& task,
              const Opening& opening, const ShouldStop& should_stop,
              LocalCandidate& candidate) const;
-  Violation certify(const Motion& motion, const LocalScene& scene, double from_s) const;
+  Violation certify(const Motion& motion, const std::vector<MovingThing>& moving,
+                    double from_s) const;
+  /// Up to until_s, which is the beginning of what is only planned.
+  LocalProof proof_of(const Motion& motion, const LocalScene& scene, double from_s, double until_s,
+                      Violation& violation) const;
   void select(const LocalQuery& query, const LocalScene& scene, const Task& task,
               LocalPlan& plan) const;
 
   const RobotModel robot_;
+  const MotionLimits emergency_limits_;
   const LocalRules rules_;
   const SpaceTimeRules space_time_rules_;
   const double margin_m_;

@@ -223,9 +223,11 @@ bool LocalReplanner::under_way() const {
 }
 
 void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, Output& output) {
-  const bool just_tried = swerved_s_ == now_s;  // only then it is tried harder, too
-  if (just_tried && swerve_in(now_s, scene.most_likely(), hard_planner_, output)) {
-    squeezes_ = true;
+  const bool just_tried = swerved_s_ == now_s && output.local && !output.local->candidates.empty();
+  if (just_tried && output.local->proof == LocalProof::kNone)
+    output.local = planned(now_s, scene.most_likely(), hard_planner_);
+  if (just_tried && output.local->proof != LocalProof::kNone &&
+      adopt(now_s, *output.local, scene.most_likely(), output)) {
     output.message = "swerves harder than it would like to";
     return;
   }
@@ -248,41 +250,47 @@ std::optional<double> LocalReplanner::progress_at(double join_s) const {
   return progress_on(plan_, committed_.position(join_s), plan_.start_time(), kOffPlan_m);
 }
 
+std::optional<LocalPlan> LocalReplanner::planned(double now_s, const PromiseScene& scene,
+                                                 const LocalPlanner& planner) const {
+  const double join_s = committed_.switch_time(now_s + rules_.settle_s);
+  const auto progress_s = progress_at(join_s);
+  if (!progress_s) return std::nullopt;
+  const LocalQuery query{committed_, join_s, plan_, *progress_s,
+                         follows_plan_at(join_s) ? plan_ : Motion()};
+  LocalScene around{
+      std::make_shared<MapTerrain>(scene.obstacles), builder_.kept_from(scene, now_s, 1.0), {}};
+  if (!scene.expected.empty())
+    around.expected = builder_.kept_from(scene.most_likely(), now_s, 1.0);
+  return planner.plan(query, around);
+}
+
 bool LocalReplanner::swerve(double now_s, const PromiseScene& scene, Output& output) {
   if (plan_.empty() || now_s < swerved_s_ + kAgain_s) return false;
   swerved_s_ = now_s;
-  if (swerve_in(now_s, scene, planner_, output)) {
-    squeezes_ = false;
-    return true;
-  }
-  if (!swerve_in(now_s, scene.most_likely(), planner_, output)) return false;
-  squeezes_ = true;
-  return true;
-}
-
-bool LocalReplanner::swerve_in(double now_s, const PromiseScene& scene, const LocalPlanner& planner,
-                               Output& output) {
-  const double join_s = committed_.switch_time(now_s + rules_.settle_s);
-  const auto progress_s = progress_at(join_s);
-  if (!progress_s) return false;
-  const LocalQuery query{committed_, join_s, plan_, *progress_s,
-                         follows_plan_at(join_s) ? plan_ : Motion()};
-  const LocalScene around{std::make_shared<MapTerrain>(scene.obstacles),
-                          builder_.kept_from(scene, now_s, 1.0)};
-  output.local = planner.plan(query, around);
+  output.local = planned(now_s, scene, planner_);
+  if (!output.local) return false;
   const LocalPlan& local = *output.local;
-  if (local.reason != PlanReason::kSolved) return false;
-  const Motion onward = continued(committed_, now_s, join_s, local.motion);
-  const auto promise = builder_.longest(onward, scene, now_s, join_s, now_s + rules_.horizon_s);
-  if (!promise || promise->follows_until_s < join_s + kWorthwhile_s) return false;
-  plan_ = local.motion;
-  ++plan_id_;
-  propose(now_s, remainder(promise->motion, join_s), false, {plan_id_, promise->follows_until_s},
-          output);
+  if (local.proof > LocalProof::kLikely || !adopt(now_s, local, scene, output)) return false;
   output.message = "swerves";
   if (local.late || local.beyond)
     ask_for_plan(local.beyond, local.late ? "the swerve takes long" : describe(local.beyond),
                  output);
+  return true;
+}
+
+bool LocalReplanner::adopt(double now_s, const LocalPlan& local, const PromiseScene& scene,
+                           Output& output) {
+  const double join_s = committed_.switch_time(now_s + rules_.settle_s);
+  const bool squeezes = local.proof != LocalProof::kAsked;
+  const Motion onward = continued(committed_, now_s, join_s, local.motion);
+  const auto promise = builder_.longest(onward, squeezes ? scene.most_likely() : scene, now_s,
+                                        join_s, now_s + rules_.horizon_s);
+  if (!promise || promise->follows_until_s < join_s + kWorthwhile_s) return false;
+  plan_ = local.motion;
+  ++plan_id_;
+  squeezes_ = squeezes;
+  propose(now_s, remainder(promise->motion, join_s), false, {plan_id_, promise->follows_until_s},
+          output);
   return true;
 }
 

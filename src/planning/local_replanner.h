@@ -85,10 +85,12 @@ class LocalReplanner {
   void start(double now_s, const RobotState& measured, Output& output);
   bool off_track(double now_s, const RobotState& measured) const;
   void stop_here(double now_s, const RobotState& measured, Output& output);
-  /// With the confidence that is asked for, else on the most likely course of what moves.
+  std::optional<LocalPlan> planned(double now_s, const PromiseScene& scene,
+                                   const LocalPlanner& planner) const;
   bool swerve(double now_s, const PromiseScene& scene, Output& output);
-  bool swerve_in(double now_s, const PromiseScene& scene, const LocalPlanner& planner,
-                 Output& output);
+  /// Makes it the plan, and proposes as much of it as can be promised; false where that is next to
+  /// nothing.
+  bool adopt(double now_s, const LocalPlan& local, const PromiseScene& scene, Output& output);
   std::optional<double> progress_at(double join_s) const;
   void shorten(double now_s, const Violation& violation, const PromiseScene& scene, Output& output);
   WayOut::Times times(double now_s) const;

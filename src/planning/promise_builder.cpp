@@ -39,7 +39,8 @@ Motion continued(const Motion& committed, double now_s, double join_s, const Mot
 
 PromiseScene PromiseScene::most_likely() const {
   PromiseScene scene = *this;
-  if (!expected.empty()) scene.moving = expected;
+  if (!expected.empty()) scene.moving.swap(scene.expected);
+  scene.expected.clear();
   return scene;
 }
 

@@ -77,7 +77,7 @@ class LocalPlannerTest : public ::testing::Test {
     return thing(std::make_shared<PredictedDisc>("person", query().start_time_s + after_s, place,
                                                  velocity, kPerson_m, 0.0));
   }
-  LocalScene scene(std::vector<MovingThing> moving) const { return {open_, std::move(moving)}; }
+  LocalScene scene(std::vector<MovingThing> moving) const { return {open_, std::move(moving), {}}; }
 
   void expect_sound(const LocalPlan& plan, const LocalQuery& query, const LocalScene& scene) const {
     ASSERT_EQ(plan.reason, PlanReason::kSolved) << plan.message;
@@ -296,7 +296,7 @@ TEST_F(LocalPlannerTest, SaysWhyThereIsNoWay) {
   OccupancyGrid walled = grid_;
   fill_box(walled, {-2.0, 3.0}, {16.0, 5.0});
   fill_box(walled, {-2.0, -5.0}, {16.0, -3.0});
-  const LocalPlan plan = planner_.plan(query(), {terrain_of(walled), row});
+  const LocalPlan plan = planner_.plan(query(), {terrain_of(walled), row, {}});
   EXPECT_EQ(plan.reason, PlanReason::kNoPath);
   EXPECT_FALSE(plan.message.empty());
   EXPECT_TRUE(plan.motion.empty());
