@@ -61,12 +61,17 @@ std::vector<Vector2> places_of(const TimedPath& way) {
   return places;
 }
 
-TimedPath timed_path_of(const Motion& motion, double from_s, double until_s) {
+/// What is driven, up to where it is nearest to the anchor; empty where that is not near.
+TimedPath driven_to(const RejoiningPoint& anchor, const LocalQuery& query) {
   constexpr double kStep_s = 0.25;
+  constexpr double kNear_m = 1.0;
   TimedPath path;
-  if (motion.empty()) return path;
-  for (double t = from_s; t < until_s + kStep_s; t += kStep_s)
-    path.push_back({motion.position(t), t});
+  const Vector2 place = anchor.state.col(0);
+  const auto until_s = progress_on(query.driven, place, query.start_time_s, kNear_m);
+  if (!until_s) return path;
+  for (double t = query.start_time_s; t < *until_s; t += kStep_s)
+    path.push_back({query.driven.position(t), t});
+  path.push_back({place, std::max(*until_s, query.start_time_s + kStep_s)});
   return path;
 }
 
@@ -140,7 +145,7 @@ std::vector<LocalPlanner::Task> LocalPlanner::tasks(const LocalQuery& query,
     ways.goal = {anchor->state.col(0), query.start_time_s + earliest_s + tried.later * rules_.mu_s};
     ways.moving = foreseen(scene.moving);
     for (MovingThing& thing : ways.moving) thing.keep_m += kSlack_m;
-    ways.driven = timed_path_of(query.driven, query.start_time_s, ways.goal.time_s);
+    ways.driven = driven_to(*anchor, query);
     tasks.push_back({*anchor, earliest_s, std::move(ways)});
   }
   return tasks;
@@ -291,7 +296,35 @@ LocalPlan LocalPlanner::attempt(const LocalQuery& query, const LocalScene& scene
   return plan;
 }
 
+LocalPlan LocalPlanner::kept_on(const LocalQuery& query, const LocalScene& scene) const {
+  LocalPlan plan;
+  const auto anchor = rejoining_point(query.plan, query.progress_s, rules_.mu_s);
+  if (query.driven.empty() || !anchor) return plan;
+  const Task task{*anchor, anchor->drive_s, {}};
+  SpaceTimeWay way;
+  way.points = driven_to(*anchor, query);
+  way.driven = true;
+  if (way.points.empty()) return plan;
+  plan.candidates = {candidate(query, scene, task, way, [] { return false; })};
+  select(query, scene, task, plan);
+  return plan;
+}
+
 LocalPlan LocalPlanner::search(const LocalQuery& query, const LocalScene& scene) const {
+  LocalPlan kept = kept_on(query, scene);
+  const bool is_kept = kept.proof == LocalProof::kAsked;
+  // Costs are not negative: nothing could be cheaper by enough.
+  if (is_kept && kept.candidates.front().cost < rules_.switch_gain) return kept;
+  LocalPlan other = best_attempt(query, scene);
+  if (kept.proof == LocalProof::kNone || kept.proof != other.proof)
+    return kept.proof < other.proof ? kept : other;
+  const auto chosen = std::find_if(other.candidates.begin(), other.candidates.end(),
+                                   [](const LocalCandidate& each) { return each.selected; });
+  const std::vector<LocalCandidate> both = {kept.candidates.front(), *chosen};
+  return winner(both, rules_.switch_margin, rules_.switch_gain) == 0 ? kept : other;
+}
+
+LocalPlan LocalPlanner::best_attempt(const LocalQuery& query, const LocalScene& scene) const {
   const std::vector<Task> tasks = this->tasks(query, scene);
   std::vector<LocalPlan> plans(std::max<std::size_t>(1, tasks.size()));
   if (tasks.empty()) return plans.front();

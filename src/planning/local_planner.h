@@ -91,8 +91,11 @@ class LocalPlanner {
   /// With anchors ever farther and arrivals ever later.
   std::vector<Task> tasks(const LocalQuery& query, const LocalScene& scene) const;
   Cuts<2> cuts_for(const std::vector<Task>& tasks, const LocalScene& scene) const;
-  /// Against scene.moving; the others are what else is proved of what comes out.
+  /// What is driven, made to fit: no other way is looked for. No candidate where nothing is driven.
+  LocalPlan kept_on(const LocalQuery& query, const LocalScene& scene) const;
+  /// Past scene.moving; scene.expected is what else is proved of what comes out.
   LocalPlan search(const LocalQuery& query, const LocalScene& scene) const;
+  LocalPlan best_attempt(const LocalQuery& query, const LocalScene& scene) const;
   LocalPlan attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,
                     const Cuts<2>& cuts, const ShouldStop& should_stop) const;
   LocalCandidate candidate(const LocalQuery& query, const LocalScene& scene, const Task& task,

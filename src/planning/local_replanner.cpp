@@ -22,6 +22,8 @@ constexpr double kJoinTolerance_mps = 0.03;
 constexpr double kSamePlace_m = 0.5;      // of two plans' ends
 constexpr double kOffPlan_m = 1.5;        // farther from the plan, it is not come back to
 constexpr double kAgain_s = 0.19;         // between two local plans
+constexpr double kHurryEvery_s = 0.5;     // a swerve is tried again, as people move on
+constexpr double kSooner_s = 0.2;         // to arrive by less is not worth a change
 constexpr double kShareOfTrigger = 0.75;  // of the clearance to what moves, below which (37) is met
 constexpr double kWorthwhile_s =
     0.15;  // a promise that reaches less farther is not worth a message
@@ -93,7 +95,7 @@ LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& stat
   const bool in_the_way = violation && committed_.end_time() > now_s;
   const PromiseScene likely = scene.most_likely();
   const PromiseScene& asked = squeezes_ ? likely : scene;
-  const bool conflicting{conflict(plan_, now_s, asked)};
+  const bool conflicting{conflict(plan_, now_s, asked, rules_.mu_pre_s)};
   if ((in_the_way || conflicting) && waits_for_answer(now_s, scene)) return output;
   // Only where the promise brakes and the plan does not, the plan has to be promised on.
   if (in_the_way && !conflicting && !pending && follows_plan_at(now_s) &&
@@ -117,7 +119,7 @@ LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& stat
   }
   if (in_the_way) {
     shorten(now_s, violation, scene, output);
-  } else if (!pending && !plan_.empty()) {
+  } else if (!pending && !plan_.empty() && !hurry(now_s, scene, output)) {
     extend(now_s, asked, rules_.extend_every_s, output);
   }
   return output;
@@ -128,21 +130,26 @@ void LocalReplanner::take_offer(double now_s, const PromiseScene& scene, Output&
   const bool to_the_same_place =
       !plan_.empty() && !offered_->empty() &&
       (plan_.end_pose().position - offered_->end_pose().position).norm() < kSamePlace_m;
-  output.keeps_plan = to_the_same_place && follows_plan_at(now_s) &&
-                      !conflict(plan_, now_s, scene) && conflict(*offered_, now_s, scene);
+  if (to_the_same_place && follows_plan_at(now_s)) {
+    const double horizon_s = scene.predicted_until_s - now_s;
+    const Violation of_plan = conflict(plan_, now_s, scene, horizon_s);
+    const Violation of_offer = conflict(*offered_, now_s, scene, horizon_s);
+    output.keeps_plan = of_offer && (!of_plan || of_plan.time_s > of_offer.time_s);
+  }
   if (!output.keeps_plan) {
     plan_ = std::move(*offered_);
+    route_ = Motion();
     ++plan_id_;
     squeezes_ = false;
   }
   offered_.reset();
 }
 
-Violation LocalReplanner::conflict(const Motion& plan, double now_s,
-                                   const PromiseScene& scene) const {
+Violation LocalReplanner::conflict(const Motion& plan, double now_s, const PromiseScene& scene,
+                                   double horizon_s) const {
   if (plan.empty()) return {};
   return conflict_of(plan, builder_.kept_from(scene, now_s, kShareOfTrigger), own_radius_m_, now_s,
-                     rules_.mu_pre_s);
+                     horizon_s);
 }
 
 bool LocalReplanner::waits_for_answer(double now_s, const PromiseScene& scene) const {
@@ -245,23 +252,31 @@ void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, O
   }
 }
 
-std::optional<double> LocalReplanner::progress_at(double join_s) const {
-  if (follows_plan_at(join_s)) return join_s;
-  return progress_on(plan_, committed_.position(join_s), plan_.start_time(), kOffPlan_m);
+std::optional<LocalQuery> LocalReplanner::way_back(double join_s) const {
+  LocalQuery query{committed_, join_s, {}, 0.0, follows_plan_at(join_s) ? plan_ : Motion()};
+  const Vector2 place = committed_.position(join_s);
+  for (const Motion* plan : {&route_, &plan_}) {
+    if (plan->empty()) continue;
+    const auto progress_s = plan == &plan_ && follows_plan_at(join_s)
+                                ? join_s
+                                : progress_on(*plan, place, plan->start_time(), kOffPlan_m);
+    if (!progress_s) continue;
+    query.plan = *plan;
+    query.progress_s = *progress_s;
+    return query;
+  }
+  return std::nullopt;
 }
 
 std::optional<LocalPlan> LocalReplanner::planned(double now_s, const PromiseScene& scene,
                                                  const LocalPlanner& planner) const {
-  const double join_s = committed_.switch_time(now_s + rules_.settle_s);
-  const auto progress_s = progress_at(join_s);
-  if (!progress_s) return std::nullopt;
-  const LocalQuery query{committed_, join_s, plan_, *progress_s,
-                         follows_plan_at(join_s) ? plan_ : Motion()};
+  const auto query = way_back(committed_.switch_time(now_s + rules_.settle_s));
+  if (!query) return std::nullopt;
   LocalScene around{
       std::make_shared<MapTerrain>(scene.obstacles), builder_.kept_from(scene, now_s, 1.0), {}};
   if (!scene.expected.empty())
     around.expected = builder_.kept_from(scene.most_likely(), now_s, 1.0);
-  return planner.plan(query, around);
+  return planner.plan(*query, around);
 }
 
 bool LocalReplanner::swerve(double now_s, const PromiseScene& scene, Output& output) {
@@ -286,11 +301,26 @@ bool LocalReplanner::adopt(double now_s, const LocalPlan& local, const PromiseSc
   const auto promise = builder_.longest(onward, squeezes ? scene.most_likely() : scene, now_s,
                                         join_s, now_s + rules_.horizon_s);
   if (!promise || promise->follows_until_s < join_s + kWorthwhile_s) return false;
+  if (route_.empty()) route_ = std::move(plan_);
   plan_ = local.motion;
+  rejoins_s_ = local.rejoins_s;
   ++plan_id_;
   squeezes_ = squeezes;
   propose(now_s, remainder(promise->motion, join_s), false, {plan_id_, promise->follows_until_s},
           output);
+  return true;
+}
+
+bool LocalReplanner::hurry(double now_s, const PromiseScene& scene, Output& output) {
+  const bool on_the_way = !route_.empty() && now_s < rejoins_s_ && follows_plan_at(now_s);
+  if (!on_the_way || now_s < swerved_s_ + kHurryEvery_s) return false;
+  swerved_s_ = now_s;
+  const auto local = planned(now_s, scene, planner_);
+  const bool sooner = local && local->proof == LocalProof::kAsked && !local->switches_class &&
+                      local->motion.end_time() < plan_.end_time() - kSooner_s;
+  if (!sooner || !adopt(now_s, *local, scene, output)) return false;
+  output.local = local;
+  output.message = "swerves less";
   return true;
 }
 
@@ -347,13 +377,12 @@ void LocalReplanner::extend(double now_s, const PromiseScene& scene, double ever
   const bool unseen =
       promise->cut_by.term == ViolatedTerm::kUnseenSpace;  // will be seen on the way
   output.violation = promise->cut_by;
+  const bool meets_something = promise->cut_by.term == ViolatedTerm::kSeparation;
+  if (nowhere && meets_something && swerve(now_s, scene, output)) return;
   if (promise->cut_by && ((waits && nowhere) || !unseen)) {
     ask_for_plan(promise->cut_by, describe(promise->cut_by), output);
   }
-  if (nowhere) {
-    if (promise->cut_by.term == ViolatedTerm::kSeparation) swerve(now_s, scene, output);
-    return;
-  }
+  if (nowhere) return;
   propose(now_s, remainder(promise->motion, join_s), false, {plan_id_, promise->follows_until_s},
           output);
 }

@@ -55,7 +55,8 @@ class LocalReplanner {
                  const LocalRules& local_rules);
 
   /// The newest plan to the goal. An empty motion means there is none. One that leads to where the
-  /// plan at hand leads is passed over where it meets something that moves and that one does not.
+  /// plan at hand leads is passed over where it meets something that moves, and that one does not
+  /// or later.
   void set_plan(Motion plan);
   /// The motion in force, as the broadcaster says. Sequences of own proposals continue after it.
   void set_committed(std::uint32_t sequence, Motion motion);
@@ -80,7 +81,8 @@ class LocalReplanner {
   void take_offer(double now_s, const PromiseScene& scene, Output& output);
   /// The plan leads farther than what is in force.
   bool under_way() const;
-  Violation conflict(const Motion& plan, double now_s, const PromiseScene& scene) const;
+  Violation conflict(const Motion& plan, double now_s, const PromiseScene& scene,
+                     double horizon_s) const;
   bool waits_for_answer(double now_s, const PromiseScene& scene) const;
   void start(double now_s, const RobotState& measured, Output& output);
   bool off_track(double now_s, const RobotState& measured) const;
@@ -91,7 +93,10 @@ class LocalReplanner {
   /// Makes it the plan, and proposes as much of it as can be promised; false where that is next to
   /// nothing.
   bool adopt(double now_s, const LocalPlan& local, const PromiseScene& scene, Output& output);
-  std::optional<double> progress_at(double join_s) const;
+  /// Out of the motion in force, back into the route, or else into the plan.
+  std::optional<LocalQuery> way_back(double join_s) const;
+  /// A swerve is as slow as it had to be when it began; tries whether it could be quicker by now.
+  bool hurry(double now_s, const PromiseScene& scene, Output& output);
   void shorten(double now_s, const Violation& violation, const PromiseScene& scene, Output& output);
   WayOut::Times times(double now_s) const;
   void take(double now_s, const WayOut::Choice& choice, Output& output);
@@ -116,7 +121,9 @@ class LocalReplanner {
   LocalPlanner hard_planner_;  // the same, for accelerations that only an emergency calls for
   LocalReplannerRules rules_;
   std::optional<Motion> offered_;
-  Motion plan_;
+  Motion plan_;             // what is followed
+  Motion route_;            // where that is a swerve: the plan that it comes back to
+  double rejoins_s_ = 0.0;  // absolute
   std::uint32_t plan_id_ = 0;
   bool squeezes_ = false;  // the plan keeps clear of the most likely course only
   Motion committed_;

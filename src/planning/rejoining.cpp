@@ -16,6 +16,7 @@ constexpr double kAlmostEnd_s = 0.6;  // of a drive: it is joined at its end
 std::optional<double> progress_on(const Motion& plan, const Vector2& p, double from_s,
                                   double within_m) {
   std::optional<double> best_s;
+  if (plan.empty()) return best_s;
   double nearest_m = within_m;
   for (double t = std::max(from_s, plan.start_time()); t <= plan.end_time(); t += kStep_s) {
     const double distance_m = (plan.position(t) - p).norm();
