@@ -128,6 +128,12 @@ LocalPlanner::LocalPlanner(const RobotModel& robot, const LocalRules& rules)
       optimizer_(robot, rules, margin_m_),
       openings_(robot.limits, rules.smooth_start_rad, optimizer_.rest_acceleration()) {}
 
+double LocalPlanner::earliest_s(const LocalQuery& query, const RejoiningPoint& anchor) const {
+  const double speed = query.committed.at(query.start_time_s).speed;
+  const double plan_speed = query.plan.velocity(query.progress_s).norm();
+  return anchor.drive_s + catching_up_s(speed, plan_speed, optimizer_.rest_acceleration());
+}
+
 std::vector<LocalPlanner::Task> LocalPlanner::tasks(const LocalQuery& query,
                                                     const LocalScene& scene) const {
   const MotionState start = query.committed.at(query.start_time_s);
@@ -137,9 +143,7 @@ std::vector<LocalPlanner::Task> LocalPlanner::tasks(const LocalQuery& query,
         rejoining_point(query.plan, query.progress_s, (1.0 + tried.farther) * rules_.mu_s);
     if (!anchor) break;
     if (tried.farther > 0.0 && anchor->plan_time_s >= query.plan.end_time()) continue;
-    const double plan_speed = query.plan.velocity(query.progress_s).norm();
-    const double earliest_s =
-        anchor->drive_s + catching_up_s(start.speed, plan_speed, optimizer_.rest_acceleration());
+    const double earliest_s = this->earliest_s(query, *anchor);
     SpaceTimeQuery ways;
     ways.start = {start.pose.position, query.start_time_s};
     ways.goal = {anchor->state.col(0), query.start_time_s + earliest_s + tried.later * rules_.mu_s};
@@ -300,7 +304,7 @@ LocalPlan LocalPlanner::kept_on(const LocalQuery& query, const LocalScene& scene
   LocalPlan plan;
   const auto anchor = rejoining_point(query.plan, query.progress_s, rules_.mu_s);
   if (query.driven.empty() || !anchor) return plan;
-  const Task task{*anchor, anchor->drive_s, {}};
+  const Task task{*anchor, earliest_s(query, *anchor), {}};
   SpaceTimeWay way;
   way.points = driven_to(*anchor, query);
   way.driven = true;
@@ -316,7 +320,8 @@ LocalPlan LocalPlanner::search(const LocalQuery& query, const LocalScene& scene)
   // Costs are not negative: nothing could be cheaper by enough.
   if (is_kept && kept.candidates.front().cost < rules_.switch_gain) return kept;
   LocalPlan other = best_attempt(query, scene);
-  if (kept.proof == LocalProof::kNone || kept.proof != other.proof)
+  // A driven way is not given up only because it keeps from what is likely, and another from more.
+  if (std::max(kept.proof, other.proof) > LocalProof::kLikely)
     return kept.proof < other.proof ? kept : other;
   const auto chosen = std::find_if(other.candidates.begin(), other.candidates.end(),
                                    [](const LocalCandidate& each) { return each.selected; });

@@ -83,11 +83,13 @@ class LocalPlanner {
   /// To come back to the plan at one place and time.
   struct Task {
     RejoiningPoint anchor;
-    double earliest_s;  // about the least time that the robot takes to the anchor
+    double earliest_s;
     SpaceTimeQuery ways;
   };
   using ShouldStop = std::function<bool()>;
 
+  /// About the least time to the anchor.
+  double earliest_s(const LocalQuery& query, const RejoiningPoint& anchor) const;
   /// With anchors ever farther and arrivals ever later.
   std::vector<Task> tasks(const LocalQuery& query, const LocalScene& scene) const;
   Cuts<2> cuts_for(const std::vector<Task>& tasks, const LocalScene& scene) const;
