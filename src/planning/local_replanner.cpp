@@ -22,6 +22,7 @@ constexpr double kJoinTolerance_mps = 0.03;
 constexpr double kSamePlace_m = 0.5;      // of two plans' ends
 constexpr double kOffPlan_m = 1.5;        // farther from the plan, it is not come back to
 constexpr double kAgain_s = 0.19;         // between two local plans
+constexpr double kAfterFailure_s = 0.39;  // where there was no way just now
 constexpr double kHurryEvery_s = 0.5;     // a swerve is tried again, as people move on
 constexpr double kSooner_s = 0.2;         // to arrive by less is not worth a change
 constexpr double kShareOfTrigger = 0.75;  // of the clearance to what moves, below which (37) is met
@@ -280,12 +281,14 @@ std::optional<LocalPlan> LocalReplanner::planned(double now_s, const PromiseScen
 }
 
 bool LocalReplanner::swerve(double now_s, const PromiseScene& scene, Output& output) {
-  if (plan_.empty() || now_s < swerved_s_ + kAgain_s) return false;
+  if (plan_.empty() || now_s < not_before_s_) return false;
   swerved_s_ = now_s;
+  not_before_s_ = now_s + kAfterFailure_s;
   output.local = planned(now_s, scene, planner_);
   if (!output.local) return false;
   const LocalPlan& local = *output.local;
   if (local.proof > LocalProof::kLikely || !adopt(now_s, local, scene, output)) return false;
+  not_before_s_ = now_s + kAgain_s;
   output.message = "swerves";
   if (local.late || local.beyond)
     ask_for_plan(local.beyond, local.late ? "the swerve takes long" : describe(local.beyond),

@@ -134,6 +134,7 @@ class LocalReplanner {
   Motion pending_;
   bool pending_brake_ = false;  // what is pending brakes for a violation
   double swerved_s_ = 0.0;      // when local planning was last tried
+  double not_before_s_ = 0.0;   // it is tried again
   int least_bad_ = 0;
 };
 
