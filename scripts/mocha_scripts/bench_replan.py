@@ -39,11 +39,14 @@ def summarise(rows):
     solvable = [row for row in rows if row["solvable"]]
     lost = [row["time_lost_s"] for row in rows if row["time_lost_s"] is not None]
     plans = [seconds for row in rows for seconds in row["replans_s"]]
+    stages = [sum(row[stage] for row in rows) for stage in ("front_end_s", "optimisation_s")]
     return {"scenes": len(rows), "solvable": len(solvable), "success": share(solvable, succeeded),
             "contacts": sum(row["contact"] for row in rows), "not_reached": sum(not row["reached"] for row in rows),
             "min_clearance_m": min((row["min_clearance_m"] for row in rows), default=None),
             "time_lost_s": {"median": percentile(lost, 50), "p90": percentile(lost, 90)},
             "t_plan_s": {"median": percentile(plans, 50), "p99": percentile(plans, 99), "most": percentile(plans, 100)},
+            "share_of_front_end": round(stages[0] / sum(stages), 4) if sum(stages) > 0.0 else None,
+            "share_of_optimisation": round(stages[1] / sum(stages), 4) if sum(stages) > 0.0 else None,
             "replans_per_scene": round(statistics.mean(row["replans"] for row in rows), 2) if rows else None,
             "replans_taken": round(sum(row["taken"] for row in rows) / max(1, sum(row["replans"] for row in rows)), 4),
             "switches": sum(row["switches"] for row in rows), "would_meet": share(rows, lambda row: row["would_meet"])}

@@ -23,6 +23,8 @@ constexpr int kEfforts = 2;          // of one optimisation
 constexpr double kSlack_m = 0.01;    // over what is proved, for the optimiser to work in
 constexpr double kLeastShare = 0.5;  // of mu that is left for the drive after a turn in place
 
+const auto kNever = [] { return false; };
+
 /// Arrivals later than the plan's, and anchors farther along it, in shares of mu. A swerve takes a
 /// little longer than the straight way; who has to wait comes much later; and what stands on the
 /// anchor is passed.
@@ -119,8 +121,9 @@ bool begins_inside(const std::vector<MovingThing>& things, const TimedPoint& sta
 
 }  // namespace
 
-LocalPlanner::LocalPlanner(const RobotModel& robot, const LocalRules& rules)
-    : robot_(robot),
+LocalPlanner::LocalPlanner(const RobotModel& robot, const LocalRules& rules, Watch watch)
+    : watch_(std::move(watch)),
+      robot_(robot),
       emergency_limits_(WayOut::hardened(robot).limits),
       rules_(rules),
       space_time_rules_(space_time_rules(robot, rules)),
@@ -276,7 +279,6 @@ void LocalPlanner::select(const LocalQuery& query, const LocalScene& scene, cons
   plan.message = "solved";
   plan.violation = {};
   plan.motion = chosen.motion;
-  plan.anchor = task.anchor.state.col(0);
   plan.rejoins_s = chosen.rejoins_s;
   const double drive_s = chosen.rejoins_s - query.start_time_s;
   plan.delay_s = drive_s - task.anchor.drive_s;
@@ -285,37 +287,51 @@ void LocalPlanner::select(const LocalQuery& query, const LocalScene& scene, cons
   plan.switches_class = !chosen.driven;
 }
 
-LocalPlan LocalPlanner::attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,
-                                const Cuts<2>& cuts, const ShouldStop& should_stop) const {
+LocalPlan LocalPlanner::along(const std::vector<SpaceTimeWay>& ways, const LocalQuery& query,
+                              const LocalScene& scene, const Task& task,
+                              const ShouldStop& should_stop) const {
   LocalPlan plan;
   plan.message = "no way through space-time back to the plan";
-  const std::vector<SpaceTimeWay> ways =
-      find_space_time_ways(*scene.terrain, cuts, task.ways, space_time_rules_).ways;
+  plan.anchor = task.anchor;
   if (ways.empty()) return plan;
+  watch_(LocalStage::kOptimisation);
   plan.candidates.resize(ways.size());
   in_parallel(ways.size(), rules_.threads, [&](std::size_t i) {
     plan.candidates[i] = candidate(query, scene, task, ways[i], should_stop);
   });
   select(query, scene, task, plan);
+  watch_(LocalStage::kDone);
   return plan;
 }
 
-LocalPlan LocalPlanner::kept_on(const LocalQuery& query, const LocalScene& scene) const {
-  LocalPlan plan;
+LocalPlan LocalPlanner::attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,
+                                const Cuts<2>& cuts, const ShouldStop& should_stop) const {
+  watch_(LocalStage::kFrontEnd);
+  const auto found = find_space_time_ways(*scene.terrain, cuts, task.ways, space_time_rules_);
+  watch_(LocalStage::kDone);
+  return along(found.ways, query, scene, task, should_stop);
+}
+
+LocalPlan LocalPlanner::keep_on(const LocalQuery& query, const LocalScene& scene) const {
   const auto anchor = rejoining_point(query.plan, query.progress_s, rules_.mu_s);
-  if (query.driven.empty() || !anchor) return plan;
-  const Task task{*anchor, earliest_s(query, *anchor), {}};
+  if (query.driven.empty() || !anchor) return {};
   SpaceTimeWay way;
   way.points = driven_to(*anchor, query);
   way.driven = true;
-  if (way.points.empty()) return plan;
-  plan.candidates = {candidate(query, scene, task, way, [] { return false; })};
-  select(query, scene, task, plan);
-  return plan;
+  if (way.points.empty()) return {};
+  return along({way}, query, scene, {*anchor, earliest_s(query, *anchor), {}}, kNever);
+}
+
+LocalPlan LocalPlanner::again(const LocalQuery& query, const LocalScene& scene,
+                              const LocalPlan& failed) const {
+  std::vector<SpaceTimeWay> ways;
+  for (const LocalCandidate& each : failed.candidates)
+    ways.push_back({each.way, 0.0, each.signature, each.driven});
+  return along(ways, query, scene, {failed.anchor, earliest_s(query, failed.anchor), {}}, kNever);
 }
 
 LocalPlan LocalPlanner::search(const LocalQuery& query, const LocalScene& scene) const {
-  LocalPlan kept = kept_on(query, scene);
+  LocalPlan kept = keep_on(query, scene);
   const bool is_kept = kept.proof == LocalProof::kAsked;
   // Costs are not negative: nothing could be cheaper by enough.
   if (is_kept && kept.candidates.front().cost < rules_.switch_gain) return kept;
@@ -335,7 +351,7 @@ LocalPlan LocalPlanner::best_attempt(const LocalQuery& query, const LocalScene& 
   if (tasks.empty()) return plans.front();
   const Cuts<2> cuts = cuts_for(tasks, scene);
   // The first one mostly succeeds. If it does not, it is urgent.
-  plans[0] = attempt(query, scene, tasks[0], cuts, [] { return false; });
+  plans[0] = attempt(query, scene, tasks[0], cuts, kNever);
   if (plans[0].proof == LocalProof::kAsked) return plans[0];
   std::atomic<std::size_t> solved{tasks.size()};
   in_parallel(tasks.size() - 1, rules_.threads, [&](std::size_t i) {

@@ -63,7 +63,7 @@ struct LocalPlan {
   /// From start_time_s past everything that moves to the anchor, and on along the plan, shifted in
   /// time. Proved up to the anchor as `proof` says; empty unless solved.
   Motion motion;
-  Vector2 anchor = Vector2::Zero();
+  RejoiningPoint anchor;        ///< where it is back on the plan, or would be
   double rejoins_s = 0.0;       ///< absolute time at which the motion is at the anchor
   double delay_s = 0.0;         ///< by how much it is later there than the plan would have been
   bool late = false;            ///< (42): the local drive takes longer than T_epsilon
@@ -72,12 +72,26 @@ struct LocalPlan {
   std::vector<LocalCandidate> candidates;
 };
 
+/// What a search is doing.
+enum class LocalStage { kFrontEnd, kOptimisation, kDone };
+
 /// Section V: leaves a plan in order to avoid what moves, and comes back to it.
 class LocalPlanner {
  public:
-  LocalPlanner(const RobotModel& robot, const LocalRules& rules);
+  /// Told when a stage begins, for whoever measures; called by several threads at once.
+  using Watch = std::function<void(LocalStage)>;
 
+  LocalPlanner(
+      const RobotModel& robot, const LocalRules& rules, Watch watch = [](LocalStage) {});
+
+  /// Tries what is driven first, then other ways.
   LocalPlan plan(const LocalQuery& query, const LocalScene& scene) const;
+  /// What is driven, made to fit; other ways are not looked for. No candidate where nothing is
+  /// driven.
+  LocalPlan keep_on(const LocalQuery& query, const LocalScene& scene) const;
+  /// On the ways of a plan for the same query that came to nothing, perhaps by a planner for a
+  /// robot that may do less.
+  LocalPlan again(const LocalQuery& query, const LocalScene& scene, const LocalPlan& failed) const;
 
  private:
   /// To come back to the plan at one place and time.
@@ -93,11 +107,11 @@ class LocalPlanner {
   /// With anchors ever farther and arrivals ever later.
   std::vector<Task> tasks(const LocalQuery& query, const LocalScene& scene) const;
   Cuts<2> cuts_for(const std::vector<Task>& tasks, const LocalScene& scene) const;
-  /// What is driven, made to fit: no other way is looked for. No candidate where nothing is driven.
-  LocalPlan kept_on(const LocalQuery& query, const LocalScene& scene) const;
   /// Past scene.moving; scene.expected is what else is proved of what comes out.
   LocalPlan search(const LocalQuery& query, const LocalScene& scene) const;
   LocalPlan best_attempt(const LocalQuery& query, const LocalScene& scene) const;
+  LocalPlan along(const std::vector<SpaceTimeWay>& ways, const LocalQuery& query,
+                  const LocalScene& scene, const Task& task, const ShouldStop& should_stop) const;
   LocalPlan attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,
                     const Cuts<2>& cuts, const ShouldStop& should_stop) const;
   LocalCandidate candidate(const LocalQuery& query, const LocalScene& scene, const Task& task,
@@ -115,6 +129,7 @@ class LocalPlanner {
   void select(const LocalQuery& query, const LocalScene& scene, const Task& task,
               LocalPlan& plan) const;
 
+  const Watch watch_;
   const RobotModel robot_;
   const MotionLimits emergency_limits_;
   const LocalRules rules_;

@@ -42,12 +42,12 @@ bool agree(const MotionState& a, const MotionState& b) {
 }  // namespace
 
 LocalReplanner::LocalReplanner(const RobotModel& robot, const LocalReplannerRules& rules,
-                               const LocalRules& local_rules)
+                               const LocalRules& local_rules, const LocalPlanner::Watch& watch)
     : own_radius_m_(robot.footprint.circumscribed_radius_m()),
       builder_(robot),
       way_out_(robot),
-      planner_(robot, local_rules),
-      hard_planner_(WayOut::hardened(robot), local_rules),
+      planner_(robot, local_rules, watch),
+      hard_planner_(WayOut::hardened(robot), local_rules, watch),
       rules_(rules) {}
 
 void LocalReplanner::set_plan(Motion plan) { offered_ = std::move(plan); }
@@ -232,8 +232,11 @@ bool LocalReplanner::under_way() const {
 
 void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, Output& output) {
   const bool just_tried = swerved_s_ == now_s && output.local && !output.local->candidates.empty();
-  if (just_tried && output.local->proof == LocalProof::kNone)
-    output.local = planned(now_s, scene.most_likely(), hard_planner_);
+  if (just_tried && output.local->proof == LocalProof::kNone) {
+    const PromiseScene likely = scene.most_likely();
+    output.local = hard_planner_.again(*way_back(times(now_s).settled_s), around(now_s, likely),
+                                       *output.local);
+  }
   if (just_tried && output.local->proof != LocalProof::kNone &&
       adopt(now_s, *output.local, scene.most_likely(), output)) {
     output.message = "swerves harder than it would like to";
@@ -269,23 +272,21 @@ std::optional<LocalQuery> LocalReplanner::way_back(double join_s) const {
   return std::nullopt;
 }
 
-std::optional<LocalPlan> LocalReplanner::planned(double now_s, const PromiseScene& scene,
-                                                 const LocalPlanner& planner) const {
-  const auto query = way_back(committed_.switch_time(now_s + rules_.settle_s));
-  if (!query) return std::nullopt;
+LocalScene LocalReplanner::around(double now_s, const PromiseScene& scene) const {
   LocalScene around{
       std::make_shared<MapTerrain>(scene.obstacles), builder_.kept_from(scene, now_s, 1.0), {}};
   if (!scene.expected.empty())
     around.expected = builder_.kept_from(scene.most_likely(), now_s, 1.0);
-  return planner.plan(*query, around);
+  return around;
 }
 
 bool LocalReplanner::swerve(double now_s, const PromiseScene& scene, Output& output) {
   if (plan_.empty() || now_s < not_before_s_) return false;
   swerved_s_ = now_s;
   not_before_s_ = now_s + kAfterFailure_s;
-  output.local = planned(now_s, scene, planner_);
-  if (!output.local) return false;
+  const auto query = way_back(committed_.switch_time(now_s + rules_.settle_s));
+  if (!query) return false;
+  output.local = planner_.plan(*query, around(now_s, scene));
   const LocalPlan& local = *output.local;
   if (local.proof > LocalProof::kLikely || !adopt(now_s, local, scene, output)) return false;
   not_before_s_ = now_s + kAgain_s;
@@ -318,11 +319,13 @@ bool LocalReplanner::hurry(double now_s, const PromiseScene& scene, Output& outp
   const bool on_the_way = !route_.empty() && now_s < rejoins_s_ && follows_plan_at(now_s);
   if (!on_the_way || now_s < swerved_s_ + kHurryEvery_s) return false;
   swerved_s_ = now_s;
-  const auto local = planned(now_s, scene, planner_);
-  const bool sooner = local && local->proof == LocalProof::kAsked && !local->switches_class &&
-                      local->motion.end_time() < plan_.end_time() - kSooner_s;
-  if (!sooner || !adopt(now_s, *local, scene, output)) return false;
-  output.local = local;
+  const auto query = way_back(committed_.switch_time(now_s + rules_.settle_s));
+  if (!query) return false;
+  LocalPlan local = planner_.keep_on(*query, around(now_s, scene));
+  const bool sooner =
+      local.proof == LocalProof::kAsked && local.motion.end_time() < plan_.end_time() - kSooner_s;
+  if (!sooner || !adopt(now_s, local, scene, output)) return false;
+  output.local = std::move(local);
   output.message = "swerves less";
   return true;
 }

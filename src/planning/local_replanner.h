@@ -51,8 +51,9 @@ class LocalReplanner {
     bool keeps_plan = false;  ///< an offered plan was no improvement
   };
 
-  LocalReplanner(const RobotModel& robot, const LocalReplannerRules& rules,
-                 const LocalRules& local_rules);
+  LocalReplanner(
+      const RobotModel& robot, const LocalReplannerRules& rules, const LocalRules& local_rules,
+      const LocalPlanner::Watch& watch = [](LocalStage) {});
 
   /// The newest plan to the goal. An empty motion means there is none. One that leads to where the
   /// plan at hand leads is passed over where it meets something that moves, and that one does not
@@ -87,8 +88,7 @@ class LocalReplanner {
   void start(double now_s, const RobotState& measured, Output& output);
   bool off_track(double now_s, const RobotState& measured) const;
   void stop_here(double now_s, const RobotState& measured, Output& output);
-  std::optional<LocalPlan> planned(double now_s, const PromiseScene& scene,
-                                   const LocalPlanner& planner) const;
+  LocalScene around(double now_s, const PromiseScene& scene) const;
   bool swerve(double now_s, const PromiseScene& scene, Output& output);
   /// Makes it the plan, and proposes as much of it as can be promised; false where that is next to
   /// nothing.

@@ -10,9 +10,12 @@ namespace mocha {
 
 /// Where a local drive meets the plan that it left (38).
 struct RejoiningPoint {
-  double plan_time_s;        ///< absolute time of the plan at which it is there
-  PlanarMinco::State state;  ///< position, velocity, acceleration of the plan there
-  double drive_s;            ///< what the plan itself drives from the progress to there [s]
+  double plan_time_s = 0.0;  ///< absolute time of the plan at which it is there
+  /// Position, velocity, acceleration of the plan there.
+  PlanarMinco::State state = PlanarMinco::State::Zero();
+  double drive_s = 0.0;  ///< what the plan itself drives from the progress to there [s]
+
+  Vector2 place() const { return state.col(0); }
 };
 
 /// The time of a plan, not before `from_s`, at which it is nearest to `p`; nothing where that is

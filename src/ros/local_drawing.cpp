@@ -35,7 +35,7 @@ void draw_local_plan(const LocalPlan& plan, Drawing& drawing) {
     drawing.add_line("local ways", drawn_way(candidate.way), 0.03, own, true);
   }
   if (plan.reason == PlanReason::kSolved)
-    drawing.add_square("anchor", plan.anchor, kAnchor_m, color(0.9, 0.05, 0.05));
+    drawing.add_square("anchor", plan.anchor.place(), kAnchor_m, color(0.9, 0.05, 0.05));
 }
 
 }  // namespace mocha

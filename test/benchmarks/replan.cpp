@@ -80,6 +80,8 @@ void print_row(int number) {
   const auto taken = std::count_if(found.run.replans.begin(), found.run.replans.end(),
                                    [](const Replan& replan) { return replan.taken; });
   std::printf(", \"replans\": %zu, \"taken\": %td", found.run.replans.size(), taken);
+  print_number("front_end_s", found.run.front_end_s, true);
+  print_number("optimisation_s", found.run.optimisation_s, true);
   std::printf(", \"replans_s\": [");
   for (const Replan& replan : found.run.replans) {
     std::printf("%s%.4g", &replan == &found.run.replans.front() ? "" : ", ", replan.t_plan_s);

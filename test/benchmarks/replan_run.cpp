@@ -1,10 +1,16 @@
 #include "benchmarks/replan_run.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <memory>
-#include <optional>
+#include <mutex>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include "planning/closed_loop.h"
 #include "world/prediction.h"
@@ -40,11 +46,36 @@ void predict_movers(const ReplanScene& scene, double t, ClosedLoop& loop, double
   }
 }
 
+/// Adds up what the stages of local planning take.
+class StageClock {
+ public:
+  void operator()(LocalStage stage) {
+    const auto now = std::chrono::steady_clock::now();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    auto& [last, since] =
+        threads_.try_emplace(std::this_thread::get_id(), stage, now).first->second;
+    spent_s_[static_cast<int>(last)] += std::chrono::duration<double>(now - since).count();
+    last = stage;
+    since = now;
+    used_ = true;
+  }
+  double spent_s(LocalStage stage) const { return spent_s_[static_cast<int>(stage)]; }
+  /// Whether it was told of anything since this was asked last.
+  bool was_used() { return std::exchange(used_, false); }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::thread::id, std::pair<LocalStage, std::chrono::steady_clock::time_point>> threads_;
+  std::array<double, 3> spent_s_ = {};
+  bool used_ = false;
+};
+
 /// What the last step planned locally.
-std::optional<Replan> replan_of(const ClosedLoop& loop, double t) {
+Replan replan_of(const ClosedLoop& loop, double t) {
   const auto& local = loop.output.local;
-  if (!local) return std::nullopt;
-  Replan replan{t, loop.replanner_took_s, false, local->anchor, local->rejoins_s, {}, false, {}};
+  if (!local) return {t, loop.replanner_took_s, false, Vector2::Zero(), 0.0, {}, false, {}};
+  Replan replan{t, loop.replanner_took_s, false, local->anchor.place(), local->rejoins_s, {}, false,
+                {}};
   replan.taken = local->reason == PlanReason::kSolved && loop.output.proposal;
   replan.other_class = replan.taken && local->switches_class;
   if (replan.taken) replan.motion = local->motion;
@@ -69,7 +100,7 @@ class Run {
   Run(const ReplanScene& scene, const RobotModel& robot)
       : scene_(scene),
         walls_(scene.obstacles, 1.0),
-        loop_(robot, scene.grid(), Vector2::Zero(), scene.goal),
+        loop_(robot, scene.grid(), Vector2::Zero(), scene.goal, std::ref(clock_)),
         begin_s_(loop_.now_s) {
     if (scene.start_speed > 0.0) loop_.begin_with(under_way(begin_s_, scene.start_speed));
   }
@@ -79,12 +110,14 @@ class Run {
       const double next_s = elapsed_s() + ClosedLoop::kStep_s;
       predict_movers(scene_, next_s, loop_, begin_s_ + next_s);
       loop_.step();
-      if (auto replan = replan_of(loop_, elapsed_s())) add(std::move(*replan));
+      if (clock_.was_used()) add(replan_of(loop_, elapsed_s()));
       watch();
       const Vector2 to_goal = loop_.state().pose.position - scene_.goal;
       run_.reached = to_goal.norm() < 0.15 && loop_.state().twist.speed < 0.01;
     }
     run_.time_s = elapsed_s();
+    run_.front_end_s = clock_.spent_s(LocalStage::kFrontEnd);
+    run_.optimisation_s = clock_.spent_s(LocalStage::kOptimisation);
     return std::move(run_);
   }
 
@@ -122,6 +155,7 @@ class Run {
 
   const ReplanScene& scene_;
   const PrimitiveField<2> walls_;
+  StageClock clock_;
   ClosedLoop loop_;
   const double begin_s_;
   double taken_s_ = -std::numeric_limits<double>::infinity();  // the last local plan

@@ -17,7 +17,7 @@ struct RunSample {
   double to_movers_m;  ///< footprint to the nearest true disc
 };
 
-/// A step in which the replanner planned locally.
+/// A step in which the replanner planned locally; without ways where nothing came of it.
 struct Replan {
   double t;
   double t_plan_s;                         ///< wall time of the step
@@ -37,6 +37,8 @@ struct ReplanRun {
   double min_clearance_m = std::numeric_limits<double>::infinity();
   int switches = 0;  ///< of the class, soon after the last local plan
   std::vector<Replan> replans;
+  double front_end_s = 0.0;     ///< of all threads, in all of these
+  double optimisation_s = 0.0;  ///< the same, proofs included
   std::vector<RunSample> samples;
 };
 

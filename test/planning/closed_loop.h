@@ -38,13 +38,14 @@ class ClosedLoop {
   static constexpr double kPlanningTime_s = 0.5;
   static constexpr double kPredicted_s = 5.0;
 
-  ClosedLoop(const RobotModel& robot, const OccupancyGrid& world, const Vector2& start,
-             const Vector2& goal)
+  ClosedLoop(
+      const RobotModel& robot, const OccupancyGrid& world, const Vector2& start,
+      const Vector2& goal, const LocalPlanner::Watch& watch = [](LocalStage) {})
       : world(world),
         goal(goal),
         robot_(robot),
         planner_(robot, default_rules()),
-        replanner_(robot, default_replanner_rules(robot), default_local_rules()) {
+        replanner_(robot, default_replanner_rules(robot), default_local_rules(), watch) {
     pose_.position = start;
   }
 

@@ -107,7 +107,7 @@ class LocalPlannerTest : public ::testing::Test {
       expect_same(plan.motion.at(plan.rejoins_s - kMoment_s),
                   plan.motion.at(plan.rejoins_s + kMoment_s));
     }
-    EXPECT_LT((plan.motion.at(plan.rejoins_s).pose.position - plan.anchor).norm(), 1e-4);
+    EXPECT_LT((plan.motion.at(plan.rejoins_s).pose.position - plan.anchor.place()).norm(), 1e-4);
   }
 
   /// From the anchor on it is the plan, later by the delay.
@@ -186,7 +186,7 @@ TEST_F(LocalPlannerTest, ComesBackBeyondWhatStandsOnTheAnchor) {
   const LocalScene around = scene({person(planned(rules_.mu_s), 0.0, {0.0, 0.0})});
   const LocalPlan plan = planner_.plan(query(), around);
   expect_sound(plan, query(), around);
-  EXPECT_GT(plan.anchor.x(), planned(rules_.mu_s).x() + kPerson_m + keep_m_ - 1e-3);
+  EXPECT_GT(plan.anchor.place().x(), planned(rules_.mu_s).x() + kPerson_m + keep_m_ - 1e-3);
 }
 
 TEST_F(LocalPlannerTest, IsBesideThePlanAtItsEndWhereThatIsNear) {

@@ -27,7 +27,7 @@ LocalPlan swerve() {
   chosen.rejoins_s = 14.5;  // half of it
   plan.motion = chosen.motion;
   plan.rejoins_s = chosen.rejoins_s;
-  plan.anchor = {4.0, 0.0};
+  plan.anchor.state.col(0) << 4.0, 0.0;
   return plan;
 }
 
