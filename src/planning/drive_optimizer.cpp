@@ -117,17 +117,17 @@ DriveOptimizer::DriveOptimizer(const RobotModel& robot, const DriveRules& rules,
                                double static_margin_m)
     : robot_(robot), rules_(rules), static_margin_m_(static_margin_m) {}
 
-Effort raised(const Effort& effort, const Violation& violation) {
+Effort raised(const Effort& effort, const Violation& violation, double factor) {
   Effort more = effort;
   switch (violation.term) {
     case ViolatedTerm::kClearance:
-      more.obstacle_weight *= 20.0;
+      more.obstacle_weight *= factor;
       break;
     case ViolatedTerm::kSeparation:
-      more.moving_weight *= 20.0;
+      more.moving_weight *= factor;
       break;
     default:
-      more.limit_weight *= 20.0;
+      more.limit_weight *= factor;
   }
   more.camouflage = effort.camouflage && effort.spacing == 1.0;
   more.spacing = std::max(0.4, 0.7 * effort.spacing);

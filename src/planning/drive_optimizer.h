@@ -43,9 +43,9 @@ struct Effort {
   double speed = 1.0;            ///< relative to the robot's limit
 };
 
-/// More effort, where it is missing: against obstacles, against what moves, or against the limits
-/// of the robot.
-Effort raised(const Effort& effort, const Violation& violation);
+/// More effort, by the factor, where it is missing: against obstacles, against what moves, or
+/// against the limits of the robot.
+Effort raised(const Effort& effort, const Violation& violation, double factor = 20.0);
 
 /// Turns front-end paths into smooth drives: MINCO through knots that camouflage moves (14).
 class DriveOptimizer {

@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 constexpr double kLatest = 1.6;      // times mu, after the least time: later, a drive is none
+constexpr double kHeavier = 8.0;     // what is violated, in the second effort
 constexpr int kEfforts = 2;          // of one optimisation
 constexpr double kSlack_m = 0.01;    // over what is proved, for the optimiser to work in
 constexpr double kLeastShare = 0.5;  // of mu that is left for the drive after a turn in place
@@ -222,7 +223,7 @@ void LocalPlanner::drive(const LocalQuery& query, const LocalScene& scene, const
     const Violation violation = tried.violation;
     if (tried.proof <= candidate.proof) candidate = std::move(tried);
     if (candidate.proof == LocalProof::kAsked || !is_nearly_kept(violation)) return;
-    effort = raised(effort, violation);
+    effort = raised(effort, violation, kHeavier);
   }
 }
 

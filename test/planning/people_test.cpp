@@ -170,7 +170,7 @@ TEST(People, JitterOfPredictionsIsNotPassedOn) {
   drive_past_uncertain({{8.0, 0.0}, {{60.0, {-0.8, 0.0}}}});  // comes head-on
 }
 
-TEST(People, DISABLED_JitterIsNotPassedOnWhileOvertaking) {
+TEST(People, JitterIsNotPassedOnWhileOvertaking) {
   drive_past_uncertain({{2.5, 0.0}, {{60.0, {0.3, 0.0}}}});
 }
 
