@@ -14,6 +14,7 @@
 #include "ros/lockstep.h"
 #include "ros/parameters.h"
 #include "ros/simulation_messages.h"
+#include "ros/transport.h"
 #include "ros/world_markers.h"
 #include "simulation/world_simulator.h"
 
@@ -149,11 +150,10 @@ class FleetSimulatorNode {
     const std::string root = "/" + simulator_.robots()[robot].setup.name;
     const boost::function<void(const geometry_msgs::TwistConstPtr&)> on_command =
         [this, robot](const geometry_msgs::TwistConstPtr& twist) { command(robot, *twist); };
-    channels_.push_back(
-        {node.advertise<nav_msgs::Odometry>(root + "/odom", 50),
-         node.advertise<sensor_msgs::LaserScan>(root + "/scan", 20),
-         node.subscribe<geometry_msgs::Twist>(root + "/cmd_vel", 1, on_command, ros::VoidPtr(),
-                                              ros::TransportHints().tcpNoDelay())});
+    channels_.push_back({node.advertise<nav_msgs::Odometry>(root + "/odom", 50),
+                         node.advertise<sensor_msgs::LaserScan>(root + "/scan", 20),
+                         node.subscribe<geometry_msgs::Twist>(root + "/cmd_vel", 1, on_command,
+                                                              ros::VoidPtr(), at_once())});
   }
 
   void command(std::size_t robot, const geometry_msgs::Twist& twist) {

@@ -24,6 +24,7 @@
 #include "ros/run_node.h"
 #include "ros/status_conversions.h"
 #include "ros/step_loop.h"
+#include "ros/transport.h"
 #include "topology/map_terrain.h"
 #include "trajectory/stopping.h"
 
@@ -49,8 +50,10 @@ class GlobalPlannerNode {
         peers_(node, identity_.name, identity_.map_frame),
         committed_(node, identity_.name),
         outputs_(node, identity_, model_),
-        followed_(node.subscribe("local_trajectory", 2, &GlobalPlannerNode::on_followed, this)),
-        requests_(node.subscribe("replan_request", 10, &GlobalPlannerNode::on_request, this)),
+        followed_(node.subscribe("local_trajectory", 2, &GlobalPlannerNode::on_followed, this,
+                                 at_once())),
+        requests_(
+            node.subscribe("replan_request", 10, &GlobalPlannerNode::on_request, this, at_once())),
         service_(node.advertiseService("plan", &GlobalPlannerNode::on_plan_service, this)),
         inputs_(node, identity_, pose_.transforms(),
                 {[this](std::deque<Goal> goals) { take(std::move(goals)); },

@@ -21,6 +21,7 @@
 #include "ros/run_node.h"
 #include "ros/status_conversions.h"
 #include "ros/step_loop.h"
+#include "ros/transport.h"
 
 namespace mocha {
 namespace {
@@ -70,10 +71,12 @@ class LocalReplannerNode {
         leases_(node.advertise<mocha_ugv::Lease>("lease", 10)),
         requests_(node.advertise<mocha_ugv::PlannerStatus>("replan_request", 10)),
         statuses_(node.advertise<mocha_ugv::PlannerStatus>("replanner_status", 10, true)),
-        plans_(node.subscribe("global_trajectory", 2, &LocalReplannerNode::on_plan, this)),
-        commitments_(
-            node.subscribe("committed_trajectory", 10, &LocalReplannerNode::on_committed, this)),
-        settlements_(node.subscribe("settlement", 10, &LocalReplannerNode::on_settlement, this)),
+        plans_(
+            node.subscribe("global_trajectory", 2, &LocalReplannerNode::on_plan, this, at_once())),
+        commitments_(node.subscribe("committed_trajectory", 10, &LocalReplannerNode::on_committed,
+                                    this, at_once())),
+        settlements_(
+            node.subscribe("settlement", 10, &LocalReplannerNode::on_settlement, this, at_once())),
         loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }) {
     diagnostics_.setHardwareID(identity_.name);
     diagnostics_.add("promises", this, &LocalReplannerNode::diagnose);

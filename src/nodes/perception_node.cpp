@@ -31,6 +31,7 @@
 #include "ros/scan_queue.h"
 #include "ros/sensor_conversions.h"
 #include "ros/step_loop.h"
+#include "ros/transport.h"
 #include "world/robot_model.h"
 #include "world/world_file.h"
 
@@ -56,13 +57,14 @@ class PerceptionNode {
         sorter_(ScanSorterOptions::from(values)),
         timeout_s_(values.number("scan_timeout")),
         queue_(robot_.map_frame, values.number("integration_rate"), timeout_s_),
-        listener_(transforms_),
+        listener_(transforms_, node, false, at_once()),
         maps_(node.advertise<nav_msgs::OccupancyGrid>("map", 1, true)),
         cells_(node.advertise<sensor_msgs::PointCloud2>("occupied_cells", 1)),
         moving_(node.advertise<mocha_ugv::PredictedObstacles>("predicted_obstacles", 5)),
-        scans_(node.subscribe("scan", 20, &PerceptionNode::on_scan, this)),
-        points_(node.subscribe("points", 5, &PerceptionNode::on_points, this)),
-        fleet_(node.subscribe("fleet/trajectories", 10, &PerceptionNode::on_fleet, this)),
+        scans_(node.subscribe("scan", 20, &PerceptionNode::on_scan, this, at_once())),
+        points_(node.subscribe("points", 5, &PerceptionNode::on_points, this, at_once())),
+        fleet_(
+            node.subscribe("fleet/trajectories", 10, &PerceptionNode::on_fleet, this, at_once())),
         services_{node.advertiseService("save_map", &PerceptionNode::on_save, this),
                   node.advertiseService("load_map", &PerceptionNode::on_load, this),
                   node.advertiseService("clear_map", &PerceptionNode::on_clear, this)},

@@ -21,6 +21,7 @@
 #include "ros/robot_identity.h"
 #include "ros/run_node.h"
 #include "ros/step_loop.h"
+#include "ros/transport.h"
 #include "safety/margin_budget.h"
 #include "world/robot_model.h"
 
@@ -112,7 +113,7 @@ class TrajectoryBroadcasterNode {
   template <typename Message>
   ros::Subscriber subscribe(ros::NodeHandle& node, const std::string& topic,
                             void (TrajectoryBroadcasterNode::*handle)(const Event<Message>&)) {
-    return node.subscribe(topic, 100, handle, this, ros::TransportHints().tcpNoDelay());
+    return node.subscribe(topic, 100, handle, this, at_once());
   }
 
   void on_proposal(const Event<mocha_ugv::Trajectory>& event) {

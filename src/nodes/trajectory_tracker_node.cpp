@@ -19,6 +19,7 @@
 #include "ros/pose_source.h"
 #include "ros/robot_identity.h"
 #include "ros/step_loop.h"
+#include "ros/transport.h"
 
 namespace mocha {
 namespace {
@@ -60,10 +61,8 @@ class TrajectoryTrackerNode {
         commands_(node.advertise<geometry_msgs::Twist>("cmd_vel", 1)),
         errors_(node.advertise<geometry_msgs::Vector3Stamped>("tracking_error", 10)),
         trajectories_(node.subscribe("committed_trajectory", 5,
-                                     &TrajectoryTrackerNode::on_trajectory, this,
-                                     ros::TransportHints().tcpNoDelay())),
-        leases_(node.subscribe("lease", 10, &TrajectoryTrackerNode::on_lease, this,
-                               ros::TransportHints().tcpNoDelay())),
+                                     &TrajectoryTrackerNode::on_trajectory, this, at_once())),
+        leases_(node.subscribe("lease", 10, &TrajectoryTrackerNode::on_lease, this, at_once())),
         parameters_(values_,
                     [this](const ParameterTable& v) { tracker_.set_gains(feedback_gains(v)); }),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {

@@ -6,13 +6,14 @@
 #include <utility>
 
 #include "ros/conversions.h"
+#include "ros/transport.h"
 
 namespace mocha {
 
 CommitmentSource::CommitmentSource(ros::NodeHandle& node, std::string own_name)
     : own_name_(std::move(own_name)),
-      commitments_(
-          node.subscribe("committed_trajectory", 10, &CommitmentSource::on_committed, this)) {}
+      commitments_(node.subscribe("committed_trajectory", 10, &CommitmentSource::on_committed, this,
+                                  at_once())) {}
 
 void CommitmentSource::on_committed(const mocha_ugv::Trajectory& message) {
   try {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "ros/transport.h"
+
 namespace mocha {
 namespace {
 
@@ -38,8 +40,7 @@ Lockstep::Lockstep(ros::NodeHandle& node, AckRoster roster, ros::WallDuration st
       start_timeout_(start_timeout),
       ack_timeout_(ack_timeout),
       clock_(node.advertise<rosgraph_msgs::Clock>("/clock", kQueue)),
-      acks_(node.subscribe("/fleet_simulator/acks", kQueue, &Lockstep::on_ack, this,
-                           ros::TransportHints().tcpNoDelay())) {}
+      acks_(node.subscribe("/fleet_simulator/acks", kQueue, &Lockstep::on_ack, this, at_once())) {}
 
 void Lockstep::on_ack(const mocha_ugv::StepAck& ack) {
   roster_.acknowledge(ack.robot, ack.node, static_cast<std::int64_t>(ack.stamp.toNSec()));

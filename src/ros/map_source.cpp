@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ros/conversions.h"
+#include "ros/transport.h"
 
 namespace mocha {
 
@@ -64,6 +65,7 @@ std::shared_ptr<const DistanceField> NewestMap::field(DistanceField::Solid solid
 
 MapSource::MapSource(ros::NodeHandle& node, std::string frame)
     : NewestMap(std::move(frame)),
-      maps_(node.subscribe("map", 1, &NewestMap::on_map, static_cast<NewestMap*>(this))) {}
+      maps_(
+          node.subscribe("map", 1, &NewestMap::on_map, static_cast<NewestMap*>(this), at_once())) {}
 
 }  // namespace mocha

@@ -6,12 +6,13 @@
 #include <utility>
 
 #include "ros/conversions.h"
+#include "ros/transport.h"
 
 namespace mocha {
 
 PeerSource::PeerSource(ros::NodeHandle& node, std::string own_name, std::string frame)
     : own_name_(std::move(own_name)), frame_(std::move(frame)) {
-  fleet_ = node.subscribe("fleet/trajectories", 1, &PeerSource::on_fleet, this);
+  fleet_ = node.subscribe("fleet/trajectories", 1, &PeerSource::on_fleet, this, at_once());
 }
 
 std::shared_ptr<const MovingObstacle> PeerSource::former(const std::string& name) const {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ros/conversions.h"
+#include "ros/transport.h"
 
 namespace mocha {
 namespace {
@@ -91,8 +92,7 @@ PoseReading OdometryPose::read(const tf2::BufferCore& transforms, double now_s) 
 PoseSource::PoseSource(ros::NodeHandle& node, const RobotIdentity& robot, double max_odometry_age_s,
                        double max_transform_age_s)
     : pose_(robot.map_frame, node.resolveName("odom"), max_odometry_age_s, max_transform_age_s),
-      listener_(transforms_, node, false, ros::TransportHints().tcpNoDelay()),
-      odometry_(node.subscribe("odom", 5, &OdometryPose::on_odometry, &pose_,
-                               ros::TransportHints().tcpNoDelay())) {}
+      listener_(transforms_, node, false, at_once()),
+      odometry_(node.subscribe("odom", 5, &OdometryPose::on_odometry, &pose_, at_once())) {}
 
 }  // namespace mocha

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ros/transport.h"
 #include "world/prediction.h"
 
 namespace mocha {
@@ -72,6 +73,6 @@ PredictionSource::PredictionSource(ros::NodeHandle& node, std::string frame,
                                    const PredictionRules& rules)
     : NewestPredictions(std::move(frame), rules),
       predictions_(node.subscribe("predicted_obstacles", 5, &NewestPredictions::on_predictions,
-                                  static_cast<NewestPredictions*>(this))) {}
+                                  static_cast<NewestPredictions*>(this), at_once())) {}
 
 }  // namespace mocha

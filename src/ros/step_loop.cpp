@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "ros/transport.h"
+
 namespace mocha {
 
 StepLoop::StepLoop(ros::NodeHandle& node, const std::string& robot, double period_s,
@@ -13,8 +15,7 @@ StepLoop::StepLoop(ros::NodeHandle& node, const std::string& robot, double perio
   node_name_ = full_name.substr(full_name.rfind('/') + 1);
   if (ros::Time::isSimTime()) {
     acks_ = node.advertise<mocha_ugv::StepAck>("/fleet_simulator/acks", 50);
-    clock_ =
-        node.subscribe("/clock", 50, &StepLoop::on_clock, this, ros::TransportHints().tcpNoDelay());
+    clock_ = node.subscribe("/clock", 50, &StepLoop::on_clock, this, at_once());
   } else {
     timer_ =
         node.createSteadyTimer(ros::WallDuration(period_s),
