@@ -1,7 +1,6 @@
 #include "planning/local_planner.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -18,13 +17,12 @@ namespace mocha {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
+constexpr double kSooner_s = 0.2;    // by less, a farther anchor or a later arrival is not better
 constexpr double kLatest = 1.6;      // times mu, after the least time: later, a drive is none
 constexpr double kHeavier = 8.0;     // what is violated, in the second effort
 constexpr int kEfforts = 2;          // of one optimisation
 constexpr double kSlack_m = 0.01;    // over what is proved, for the optimiser to work in
 constexpr double kLeastShare = 0.5;  // of mu that is left for the drive after a turn in place
-
-const auto kNever = [] { return false; };
 
 /// Arrivals later than the plan's, and anchors farther along it, in shares of mu. A swerve takes a
 /// little longer than the straight way; who has to wait comes much later; and what stands on the
@@ -193,8 +191,7 @@ LocalProof LocalPlanner::proof_of(const Motion& motion, const LocalScene& scene,
 }
 
 void LocalPlanner::drive(const LocalQuery& query, const LocalScene& scene, const Task& task,
-                         const Opening& opening, const ShouldStop& should_stop,
-                         LocalCandidate& candidate) const {
+                         const Opening& opening, LocalCandidate& candidate) const {
   DriveQuery drive;
   drive.path = opening.path;
   drive.start = opening.state;
@@ -207,8 +204,8 @@ void LocalPlanner::drive(const LocalQuery& query, const LocalScene& scene, const
   Effort effort;
   for (int i = 0; i < kEfforts; ++i) {
     const auto found =
-        optimizer_.optimize_drive(drive, scene.terrain->field(), effort, should_stop);
-    if (found.curve.pieces() == 0 || should_stop()) return;
+        optimizer_.optimize_drive(drive, scene.terrain->field(), effort, [] { return false; });
+    if (found.curve.pieces() == 0) return;
     std::vector<Phase> phases = opening.phases;
     phases.emplace_back(DrivePhase{1, found.curve});
     LocalCandidate tried = candidate;
@@ -241,15 +238,14 @@ std::vector<Opening> LocalPlanner::openings(const LocalQuery& query,
 }
 
 LocalCandidate LocalPlanner::candidate(const LocalQuery& query, const LocalScene& scene,
-                                       const Task& task, const SpaceTimeWay& way,
-                                       const ShouldStop& should_stop) const {
+                                       const Task& task, const SpaceTimeWay& way) const {
   LocalCandidate candidate;
   candidate.way = way.points;
   candidate.signature = way.signature;
   candidate.driven = way.driven;
   for (const Opening& opening : openings(query, places_of(way.points))) {
     try {
-      drive(query, scene, task, opening, should_stop, candidate);
+      drive(query, scene, task, opening, candidate);
     } catch (const std::invalid_argument&) {
       continue;  // what the optimiser found is no motion
     }
@@ -289,28 +285,26 @@ void LocalPlanner::select(const LocalQuery& query, const LocalScene& scene, cons
 }
 
 LocalPlan LocalPlanner::along(const std::vector<SpaceTimeWay>& ways, const LocalQuery& query,
-                              const LocalScene& scene, const Task& task,
-                              const ShouldStop& should_stop) const {
+                              const LocalScene& scene, const Task& task) const {
   LocalPlan plan;
   plan.message = "no way through space-time back to the plan";
   plan.anchor = task.anchor;
   if (ways.empty()) return plan;
   watch_(LocalStage::kOptimisation);
   plan.candidates.resize(ways.size());
-  in_parallel(ways.size(), rules_.threads, [&](std::size_t i) {
-    plan.candidates[i] = candidate(query, scene, task, ways[i], should_stop);
-  });
+  in_parallel(ways.size(), rules_.threads,
+              [&](std::size_t i) { plan.candidates[i] = candidate(query, scene, task, ways[i]); });
   select(query, scene, task, plan);
   watch_(LocalStage::kDone);
   return plan;
 }
 
 LocalPlan LocalPlanner::attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,
-                                const Cuts<2>& cuts, const ShouldStop& should_stop) const {
+                                const Cuts<2>& cuts) const {
   watch_(LocalStage::kFrontEnd);
   const auto found = find_space_time_ways(*scene.terrain, cuts, task.ways, space_time_rules_);
   watch_(LocalStage::kDone);
-  return along(found.ways, query, scene, task, should_stop);
+  return along(found.ways, query, scene, task);
 }
 
 LocalPlan LocalPlanner::keep_on(const LocalQuery& query, const LocalScene& scene) const {
@@ -320,7 +314,7 @@ LocalPlan LocalPlanner::keep_on(const LocalQuery& query, const LocalScene& scene
   way.points = driven_to(*anchor, query);
   way.driven = true;
   if (way.points.empty()) return {};
-  return along({way}, query, scene, {*anchor, earliest_s(query, *anchor), {}}, kNever);
+  return along({way}, query, scene, {*anchor, earliest_s(query, *anchor), {}});
 }
 
 LocalPlan LocalPlanner::again(const LocalQuery& query, const LocalScene& scene,
@@ -328,7 +322,7 @@ LocalPlan LocalPlanner::again(const LocalQuery& query, const LocalScene& scene,
   std::vector<SpaceTimeWay> ways;
   for (const LocalCandidate& each : failed.candidates)
     ways.push_back({each.way, 0.0, each.signature, each.driven});
-  return along(ways, query, scene, {failed.anchor, earliest_s(query, failed.anchor), {}}, kNever);
+  return along(ways, query, scene, {failed.anchor, earliest_s(query, failed.anchor), {}});
 }
 
 LocalPlan LocalPlanner::search(const LocalQuery& query, const LocalScene& scene) const {
@@ -340,10 +334,13 @@ LocalPlan LocalPlanner::search(const LocalQuery& query, const LocalScene& scene)
   // A driven way is not given up only because it keeps from what is likely, and another from more.
   if (std::max(kept.proof, other.proof) > LocalProof::kLikely)
     return kept.proof < other.proof ? kept : other;
-  const auto chosen = std::find_if(other.candidates.begin(), other.candidates.end(),
-                                   [](const LocalCandidate& each) { return each.selected; });
-  const std::vector<LocalCandidate> both = {kept.candidates.front(), *chosen};
-  return winner(both, rules_.switch_margin, rules_.switch_gain) == 0 ? kept : other;
+  // Their anchors may differ, and so their costs may not be compared, but the time that they lose.
+  const auto loss = [this](const LocalPlan& plan) {
+    return rules_.weight_duration * std::pow(std::max(0.0, plan.delay_s), 3);
+  };
+  const double to_beat =
+      std::min((1.0 - rules_.switch_margin) * loss(kept), loss(kept) - rules_.switch_gain);
+  return !other.switches_class || loss(other) < to_beat ? other : kept;
 }
 
 LocalPlan LocalPlanner::best_attempt(const LocalQuery& query, const LocalScene& scene) const {
@@ -352,23 +349,16 @@ LocalPlan LocalPlanner::best_attempt(const LocalQuery& query, const LocalScene& 
   if (tasks.empty()) return plans.front();
   const Cuts<2> cuts = cuts_for(tasks, scene);
   // The first one mostly succeeds. If it does not, it is urgent.
-  plans[0] = attempt(query, scene, tasks[0], cuts, kNever);
+  plans[0] = attempt(query, scene, tasks[0], cuts);
   if (plans[0].proof == LocalProof::kAsked) return plans[0];
-  std::atomic<std::size_t> solved{tasks.size()};
-  in_parallel(tasks.size() - 1, rules_.threads, [&](std::size_t i) {
-    ++i;
-    const auto needless = [&solved, i] { return solved < i; };
-    if (needless()) return;
-    plans[i] = attempt(query, scene, tasks[i], cuts, needless);
-    if (plans[i].proof != LocalProof::kAsked) return;
-    std::size_t first = solved;
-    while (i < first && !solved.compare_exchange_weak(first, i)) continue;
-  });
-  return *std::min_element(plans.begin(), plans.begin() + std::min(plans.size(), solved + 1),
-                           [](const LocalPlan& a, const LocalPlan& b) {
-                             return std::pair(a.proof, a.candidates.empty()) <
-                                    std::pair(b.proof, b.candidates.empty());
-                           });
+  in_parallel(tasks.size() - 1, rules_.threads,
+              [&](std::size_t i) { plans[i + 1] = attempt(query, scene, tasks[i + 1], cuts); });
+  const auto is_better = [](const LocalPlan& a, const LocalPlan& b) {
+    if (a.proof != b.proof) return a.proof < b.proof;
+    if (a.proof == LocalProof::kNone) return b.candidates.empty() && !a.candidates.empty();
+    return a.delay_s < b.delay_s - kSooner_s;
+  };
+  return *std::min_element(plans.begin(), plans.end(), is_better);
 }
 
 LocalPlan LocalPlanner::plan(const LocalQuery& query, const LocalScene& scene) const {

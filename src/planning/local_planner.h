@@ -100,7 +100,6 @@ class LocalPlanner {
     double earliest_s;
     SpaceTimeQuery ways;
   };
-  using ShouldStop = std::function<bool()>;
 
   /// About the least time to the anchor.
   double earliest_s(const LocalQuery& query, const RejoiningPoint& anchor) const;
@@ -111,16 +110,15 @@ class LocalPlanner {
   LocalPlan search(const LocalQuery& query, const LocalScene& scene) const;
   LocalPlan best_attempt(const LocalQuery& query, const LocalScene& scene) const;
   LocalPlan along(const std::vector<SpaceTimeWay>& ways, const LocalQuery& query,
-                  const LocalScene& scene, const Task& task, const ShouldStop& should_stop) const;
+                  const LocalScene& scene, const Task& task) const;
   LocalPlan attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,
-                    const Cuts<2>& cuts, const ShouldStop& should_stop) const;
+                    const Cuts<2>& cuts) const;
   LocalCandidate candidate(const LocalQuery& query, const LocalScene& scene, const Task& task,
-                           const SpaceTimeWay& way, const ShouldStop& should_stop) const;
+                           const SpaceTimeWay& way) const;
   /// How to begin on a way: at once, or after braking and turning.
   std::vector<Opening> openings(const LocalQuery& query, std::vector<Vector2> path) const;
   void drive(const LocalQuery& query, const LocalScene& scene, const Task& task,
-             const Opening& opening, const ShouldStop& should_stop,
-             LocalCandidate& candidate) const;
+             const Opening& opening, LocalCandidate& candidate) const;
   Violation certify(const Motion& motion, const std::vector<MovingThing>& moving,
                     double from_s) const;
   /// Up to until_s, which is the beginning of what is only planned.
