@@ -330,7 +330,7 @@ LocalPlan LocalPlanner::search(const LocalQuery& query, const LocalScene& scene)
   const bool is_kept = kept.proof == LocalProof::kAsked;
   // Costs are not negative: nothing could be cheaper by enough.
   if (is_kept && kept.candidates.front().cost < rules_.switch_gain) return kept;
-  LocalPlan other = best_attempt(query, scene);
+  LocalPlan other = anew(query, scene);
   // A driven way is not given up only because it keeps from what is likely, and another from more.
   if (std::max(kept.proof, other.proof) > LocalProof::kLikely)
     return kept.proof < other.proof ? kept : other;
@@ -343,7 +343,7 @@ LocalPlan LocalPlanner::search(const LocalQuery& query, const LocalScene& scene)
   return !other.switches_class || loss(other) < to_beat ? other : kept;
 }
 
-LocalPlan LocalPlanner::best_attempt(const LocalQuery& query, const LocalScene& scene) const {
+LocalPlan LocalPlanner::anew(const LocalQuery& query, const LocalScene& scene) const {
   const std::vector<Task> tasks = this->tasks(query, scene);
   std::vector<LocalPlan> plans(std::max<std::size_t>(1, tasks.size()));
   if (tasks.empty()) return plans.front();

@@ -89,6 +89,8 @@ class LocalPlanner {
   /// What is driven, made to fit; other ways are not looked for. No candidate where nothing is
   /// driven.
   LocalPlan keep_on(const LocalQuery& query, const LocalScene& scene) const;
+  /// Other ways too, without a preference for what is driven; against scene.moving.
+  LocalPlan anew(const LocalQuery& query, const LocalScene& scene) const;
   /// On the ways of a plan for the same query that came to nothing, perhaps by a planner for a
   /// robot that may do less.
   LocalPlan again(const LocalQuery& query, const LocalScene& scene, const LocalPlan& failed) const;
@@ -108,7 +110,6 @@ class LocalPlanner {
   Cuts<2> cuts_for(const std::vector<Task>& tasks, const LocalScene& scene) const;
   /// Past scene.moving; scene.expected is what else is proved of what comes out.
   LocalPlan search(const LocalQuery& query, const LocalScene& scene) const;
-  LocalPlan best_attempt(const LocalQuery& query, const LocalScene& scene) const;
   LocalPlan along(const std::vector<SpaceTimeWay>& ways, const LocalQuery& query,
                   const LocalScene& scene, const Task& task) const;
   LocalPlan attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,

@@ -25,6 +25,7 @@ constexpr double kAgain_s = 0.19;         // between two local plans
 constexpr double kAfterFailure_s = 0.39;  // where there was no way just now
 constexpr double kHurryEvery_s = 0.5;     // a swerve is tried again, as people move on
 constexpr double kSooner_s = 0.2;         // to arrive by less is not worth a change
+constexpr double kMuchSooner_s = 1.0;     // nor, by less, one of class
 constexpr double kShareOfTrigger = 0.75;  // of the clearance to what moves, below which (37) is met
 constexpr double kWorthwhile_s =
     0.15;  // a promise that reaches less farther is not worth a message
@@ -321,10 +322,16 @@ bool LocalReplanner::hurry(double now_s, const PromiseScene& scene, Output& outp
   swerved_s_ = now_s;
   const auto query = way_back(committed_.switch_time(now_s + rules_.settle_s));
   if (!query) return false;
-  LocalPlan local = planner_.keep_on(*query, around(now_s, scene));
-  const bool sooner =
-      local.proof == LocalProof::kAsked && local.motion.end_time() < plan_.end_time() - kSooner_s;
-  if (!sooner || !adopt(now_s, local, scene, output)) return false;
+  const LocalScene around = this->around(now_s, scene);
+  const auto is_sooner = [this](const LocalPlan& local, double by_s) {
+    return local.proof == LocalProof::kAsked && local.motion.end_time() < plan_.end_time() - by_s;
+  };
+  LocalPlan local = planner_.keep_on(*query, around);
+  if (!is_sooner(local, kSooner_s)) {
+    local = planner_.anew(*query, around);
+    if (!is_sooner(local, local.switches_class ? kMuchSooner_s : kSooner_s)) return false;
+  }
+  if (!adopt(now_s, local, scene, output)) return false;
   output.local = std::move(local);
   output.message = "swerves less";
   return true;
