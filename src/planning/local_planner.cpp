@@ -279,7 +279,8 @@ void LocalPlanner::select(const LocalQuery& query, const LocalScene& scene, cons
   plan.rejoins_s = chosen.rejoins_s;
   const double drive_s = chosen.rejoins_s - query.start_time_s;
   plan.delay_s = drive_s - task.anchor.drive_s;
-  plan.late = drive_s > rules_.t_epsilon_s;
+  // Against an anchor that is farther, it takes longer in any case.
+  plan.late = drive_s - task.anchor.drive_s > rules_.t_epsilon_s - rules_.mu_s;
   proof_of(plan.motion, scene, chosen.rejoins_s, kForever, plan.beyond);
   plan.switches_class = !chosen.driven;
 }

@@ -66,7 +66,7 @@ struct LocalPlan {
   RejoiningPoint anchor;        ///< where it is back on the plan, or would be
   double rejoins_s = 0.0;       ///< absolute time at which the motion is at the anchor
   double delay_s = 0.0;         ///< by how much it is later there than the plan would have been
-  bool late = false;            ///< (42): the local drive takes longer than T_epsilon
+  bool late = false;            ///< (42): longer than T_epsilon, or as late at a farther anchor
   Violation beyond;             ///< what the plan violates after the anchor, shifted as it is
   bool switches_class = false;  ///< other than the plan's
   std::vector<LocalCandidate> candidates;
