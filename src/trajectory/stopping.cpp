@@ -115,6 +115,20 @@ double path_end(const Motion& motion, double t) {
   return end;
 }
 
+/// The time at which the drive under way at t began, where that was from rest and it has hardly
+/// moved since; else t. The direction of a crawl that is cut off says nothing about the heading.
+double before_crawling(const Motion& motion, double t) {
+  for (int i = 0; i < static_cast<int>(motion.phases().size()); ++i) {
+    const double begin = motion.phase_start_time(i);
+    const auto* drive = std::get_if<DrivePhase>(&motion.phases()[i]);
+    if (drive == nullptr || t <= begin || t - begin >= 0.5 * drive->path.duration()) continue;
+    const bool crawls = drive->path.derivative(0.0, 1).norm() < kSlowest &&
+                        drive->path.derivative(t - begin, 1).norm() < kSlowest;
+    if (crawls) return begin;
+  }
+  return t;
+}
+
 /// A circle driven at constant speed, or a straight line.
 MotionState on_circle(const Pose& pose, double speed, double yaw_rate, double t) {
   const double turned = yaw_rate * t;
@@ -160,6 +174,7 @@ std::vector<Phase> brake_from(const Pose& pose, double speed, double yaw_rate,
 
 Motion with_brake(const Motion& motion, double t0, double t_brake, double deceleration) {
   const double start = std::max(t0, motion.start_time());
+  t_brake = before_crawling(motion, t_brake);
   const double switch_s = motion.switch_time(t_brake);
   std::vector<Phase> phases = motion.phases_between(start, switch_s);
   if (phases.empty() || switch_s == t_brake) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "trajectory/random_motion.h"
 
 namespace mocha {
@@ -200,6 +202,23 @@ TEST(Stopping, RefusesDecelerationsThatAreNone) {
     EXPECT_THROW(brake_along(motion, 1.0, deceleration), std::invalid_argument);
     EXPECT_THROW(brake_from({}, 1.0, 0.0, deceleration), std::invalid_argument);
     EXPECT_THROW(with_brake(motion, 0.0, 1.0, deceleration), std::invalid_argument);
+  }
+}
+
+TEST(Stopping, WhoHasHardlySetOffKeepsHisHeading) {
+  for (const int direction : {1, -1}) {
+    PlanarPath::Piece piece = PlanarPath::Piece::Zero();  // 1 m at 0.7 rad, minimum jerk
+    const Vector2 along(std::cos(0.7), std::sin(0.7));
+    piece.col(3) = 10.0 * along;
+    piece.col(4) = -15.0 * along;
+    piece.col(5) = 6.0 * along;
+    const Motion motion(1.7e9 + 0.3, {DrivePhase{direction, PlanarPath({piece}, {4.0})}});
+    const double yaw_rad = motion.at(motion.start_time()).pose.yaw_rad;
+    for (double after_s = 2e-5; after_s < 0.5; after_s *= 1.05) {
+      const Motion stopped =
+          with_brake(motion, motion.start_time(), motion.start_time() + after_s, 0.4);
+      EXPECT_NEAR(wrap_angle(stopped.end_pose().yaw_rad - yaw_rad), 0.0, 1e-3) << after_s;
+    }
   }
 }
 
