@@ -84,8 +84,8 @@ std::vector<Motion> evasions(const Motion& committed, double start_time_s, doubl
   const std::vector<Phase> brake = brake_along(committed, start_time_s, deceleration);
   const Pose stop = Motion(start_time_s, brake).end_pose();
   const std::vector<MovingThing> near =
-      within_reach(scene, stop.position,
-                   (committed.position(start_time_s) - stop.position).norm(), start_time_s);
+      within_reach(scene, stop.position, (committed.position(start_time_s) - stop.position).norm(),
+                   start_time_s);
   struct Choice {
     double room_m;
     Motion motion;

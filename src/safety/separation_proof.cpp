@@ -62,12 +62,8 @@ Violation check_separation(const Motion& motion, double own_radius_m,
     if (!(slack >= kResolution_m && proved > t)) {
       const double least =
           worst_value(distance_m, std::less<>(), clearance_m + kResolution_m, t, end);
-      return {ViolatedTerm::kSeparation,
-              t,
-              motion.position(t),
-              least,
-              clearance_m,
-              obstacle.name()};
+      return {
+          ViolatedTerm::kSeparation, t, motion.position(t), least, clearance_m, obstacle.name()};
     }
     if (t >= end) return {};
     t = std::min({proved, bound->until_s, end});
