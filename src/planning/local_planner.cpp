@@ -2,27 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include "planning/candidate_race.h"
-#include "planning/escape_proof.h"
 #include "planning/parallel.h"
-#include "planning/way_out.h"
 #include "safety/margin_budget.h"
-#include "trajectory/stopping.h"
 
 namespace mocha {
 namespace {
 
-constexpr double kForever = std::numeric_limits<double>::infinity();
-constexpr double kSooner_s = 0.2;    // by less, a farther anchor or a later arrival is not better
-constexpr double kLatest = 1.6;      // times mu, after the least time: later, a drive is none
-constexpr double kHeavier = 8.0;     // what is violated, in the second effort
-constexpr int kEfforts = 2;          // of one optimisation
-constexpr double kSlack_m = 0.01;    // over what is proved, for the optimiser to work in
-constexpr double kLeastShare = 0.5;  // of mu that is left for the drive after a turn in place
+constexpr double kSooner_s = 0.2;  // by less, a farther anchor or a later arrival is not better
+constexpr double kSlack_m = 0.01;  // over what is proved, for the optimiser to work in
 
 /// Arrivals later than the plan's, and anchors farther along it, in shares of mu. A swerve takes a
 /// little longer than the straight way; who has to wait comes much later; and what stands on the
@@ -32,12 +22,6 @@ struct Attempt {
   double farther;
 };
 constexpr Attempt kAttempts[] = {{0.2, 0.0}, {0.6, 0.0}, {0.3, 0.6}, {1.2, 0.0}};
-
-/// Time lost against the plan by a robot that is slower than the plan is there.
-double catching_up_s(double speed, double plan_speed, double acceleration) {
-  const double slower = plan_speed - std::clamp(speed, 0.0, plan_speed);
-  return slower > 0.0 ? slower * slower / (2.0 * acceleration * plan_speed) : 0.0;
-}
 
 double clearance_radius_m(const RobotModel& robot) {
   double radius_m = 0.0;
@@ -56,18 +40,12 @@ SpaceTimeRules space_time_rules(const RobotModel& robot, const LocalRules& rules
   return space_time;
 }
 
-std::vector<Vector2> places_of(const TimedPath& way) {
-  std::vector<Vector2> places;
-  for (const TimedPoint& point : way) places.push_back(point.position);
-  return places;
-}
-
 /// What is driven, up to where it is nearest to the anchor; empty where that is not near.
 TimedPath driven_to(const RejoiningPoint& anchor, const LocalQuery& query) {
   constexpr double kStep_s = 0.25;
   constexpr double kNear_m = 1.0;
   TimedPath path;
-  const Vector2 place = anchor.state.col(0);
+  const Vector2 place = anchor.place();
   const auto until_s = progress_on(query.driven, place, query.start_time_s, kNear_m);
   if (!until_s) return path;
   for (double t = query.start_time_s; t < *until_s; t += kStep_s)
@@ -76,37 +54,12 @@ TimedPath driven_to(const RejoiningPoint& anchor, const LocalQuery& query) {
   return path;
 }
 
-/// Things that never rest count for good in the search for a motion, though nothing about them is
-/// proved so far ahead: else it would pay to wait until they are forgotten.
-std::vector<MovingThing> foreseen(std::vector<MovingThing> things) {
-  for (MovingThing& thing : things) {
-    if (std::isinf(thing.obstacle->rest_time())) thing.until_s = thing.obstacle->rest_time();
-  }
-  return things;
-}
-
-const Violation& earlier(const Violation& a, const Violation& b) {
-  return !b || (a && a.time_s <= b.time_s) ? a : b;
-}
-
-const std::vector<MovingThing>& likely(const LocalScene& scene) {
-  return scene.expected.empty() ? scene.moving : scene.expected;
-}
-
-/// Whether heavier penalties may mend it: of 200 scenes' optimisations, none that missed by more
-/// came out right.
-bool is_nearly_kept(const Violation& violation) {
-  constexpr double kLack_m = 0.2;
-  constexpr double kExcess = 1.1;
-  switch (violation.term) {
-    case ViolatedTerm::kSeparation:
-      return violation.limit - violation.value < kLack_m;
-    case ViolatedTerm::kSpeed:
-    case ViolatedTerm::kAcceleration:
-      return violation.value < kExcess * violation.limit;
-    default:
-      return true;
-  }
+/// Whether a later attempt is to be preferred to an earlier one.
+bool is_better(const LocalPlan& later, const LocalPlan& earlier) {
+  if (later.proof != earlier.proof) return later.proof < earlier.proof;
+  if (later.proof == LocalProof::kNone)
+    return earlier.candidates.empty() && !later.candidates.empty();
+  return later.delay_s < earlier.delay_s - kSooner_s;
 }
 
 /// Of what begins at that place and time.
@@ -122,19 +75,10 @@ bool begins_inside(const std::vector<MovingThing>& things, const TimedPoint& sta
 
 LocalPlanner::LocalPlanner(const RobotModel& robot, const LocalRules& rules, Watch watch)
     : watch_(std::move(watch)),
-      robot_(robot),
-      emergency_limits_(WayOut::hardened(robot).limits),
+      max_speed_(robot.limits.max_speed),
       rules_(rules),
       space_time_rules_(space_time_rules(robot, rules)),
-      margin_m_(MarginBudget::of(robot).static_margin_m()),
-      optimizer_(robot, rules, margin_m_),
-      openings_(robot.limits, rules.smooth_start_rad, optimizer_.rest_acceleration()) {}
-
-double LocalPlanner::earliest_s(const LocalQuery& query, const RejoiningPoint& anchor) const {
-  const double speed = query.committed.at(query.start_time_s).speed;
-  const double plan_speed = query.plan.velocity(query.progress_s).norm();
-  return anchor.drive_s + catching_up_s(speed, plan_speed, optimizer_.rest_acceleration());
-}
+      optimizer_(robot, rules) {}
 
 std::vector<LocalPlanner::Task> LocalPlanner::tasks(const LocalQuery& query,
                                                     const LocalScene& scene) const {
@@ -145,116 +89,25 @@ std::vector<LocalPlanner::Task> LocalPlanner::tasks(const LocalQuery& query,
         rejoining_point(query.plan, query.progress_s, (1.0 + tried.farther) * rules_.mu_s);
     if (!anchor) break;
     if (tried.farther > 0.0 && anchor->plan_time_s >= query.plan.end_time()) continue;
-    const double earliest_s = this->earliest_s(query, *anchor);
+    Return back = optimizer_.return_to(*anchor, query);
     SpaceTimeQuery ways;
     ways.start = {start.pose.position, query.start_time_s};
-    ways.goal = {anchor->state.col(0), query.start_time_s + earliest_s + tried.later * rules_.mu_s};
+    ways.goal = {anchor->place(), query.start_time_s + back.earliest_s + tried.later * rules_.mu_s};
     ways.moving = foreseen(scene.moving);
     for (MovingThing& thing : ways.moving) thing.keep_m += kSlack_m;
     ways.driven = driven_to(*anchor, query);
-    tasks.push_back({*anchor, earliest_s, std::move(ways)});
+    tasks.push_back({std::move(back), std::move(ways)});
   }
   return tasks;
 }
 
 Cuts<2> LocalPlanner::cuts_for(const std::vector<Task>& tasks, const LocalScene& scene) const {
   Eigen::AlignedBox2d reach;
-  for (const Task& task : tasks) reach.extend(reach_of(task.ways, robot_.limits.max_speed));
+  for (const Task& task : tasks) reach.extend(reach_of(task.ways, max_speed_));
   return cuts_within(*scene.terrain, reach, tasks.front().ways.start.position, space_time_rules_);
 }
 
-Violation LocalPlanner::certify(const Motion& motion, const std::vector<MovingThing>& moving,
-                                double from_s) const {
-  Violation first;
-  const double radius_m = robot_.footprint.circumscribed_radius_m();
-  for (const MovingThing& thing : moving) {
-    if (thing.until_s <= from_s) continue;
-    first =
-        earlier(first, check_separation_or_leaving(motion, radius_m, *thing.obstacle,
-                                                   thing.keep_m - radius_m, from_s, thing.until_s));
-  }
-  return first;
-}
-
-LocalProof LocalPlanner::proof_of(const Motion& motion, const LocalScene& scene, double from_s,
-                                  double until_s, Violation& violation) const {
-  const auto kept = [until_s](const Violation& each) { return !each || each.time_s >= until_s; };
-  const Violation limits = check_limits(motion, robot_.limits, from_s);
-  const Violation still = check_clearance_or_leaving(motion, robot_.footprint,
-                                                     scene.terrain->field(), margin_m_, from_s);
-  violation = earlier(earlier(limits, still), certify(motion, scene.moving, from_s));
-  if (kept(violation)) return LocalProof::kAsked;
-  if (!kept(still) || !kept(certify(motion, likely(scene), from_s))) return LocalProof::kNone;
-  if (kept(limits)) return LocalProof::kLikely;
-  return kept(check_limits(motion, emergency_limits_, from_s)) ? LocalProof::kEmergency
-                                                               : LocalProof::kNone;
-}
-
-void LocalPlanner::drive(const LocalQuery& query, const LocalScene& scene, const Task& task,
-                         const Opening& opening, LocalCandidate& candidate) const {
-  DriveQuery drive;
-  drive.path = opening.path;
-  drive.start = opening.state;
-  drive.start_time_s = query.start_time_s + opening.duration_s;
-  drive.moving = foreseen(scene.moving);
-  for (const TimedPoint& point : candidate.way)
-    drive.times_s.push_back(point.time_s - query.start_time_s);
-  const double mu_s = task.earliest_s - opening.duration_s;
-  drive.anchor = Anchor{task.anchor.state, std::max(kLeastShare * task.earliest_s, mu_s)};
-  Effort effort;
-  for (int i = 0; i < kEfforts; ++i) {
-    const auto found =
-        optimizer_.optimize_drive(drive, scene.terrain->field(), effort, [] { return false; });
-    if (found.curve.pieces() == 0) return;
-    std::vector<Phase> phases = opening.phases;
-    phases.emplace_back(DrivePhase{1, found.curve});
-    LocalCandidate tried = candidate;
-    tried.terms = found.terms;
-    tried.cost = found.cost;
-    tried.rejoins_s = drive.start_time_s + found.curve.duration();
-    tried.motion = rejoined(query.start_time_s, std::move(phases), query.plan, task.anchor);
-    tried.proof =
-        proof_of(tried.motion, scene, query.start_time_s, tried.rejoins_s, tried.violation);
-    const double late_s = tried.rejoins_s - query.start_time_s - task.earliest_s;
-    if (late_s > kLatest * rules_.mu_s) return;  // to brake and wait is better
-    const Violation violation = tried.violation;
-    if (tried.proof <= candidate.proof) candidate = std::move(tried);
-    if (candidate.proof == LocalProof::kAsked || !is_nearly_kept(violation)) return;
-    effort = raised(effort, violation, kHeavier);
-  }
-}
-
-std::vector<Opening> LocalPlanner::openings(const LocalQuery& query,
-                                            std::vector<Vector2> path) const {
-  const MotionState start = query.committed.at(query.start_time_s);
-  if (start.at_rest) return openings_.from_rest({}, start.pose, path);
-  std::vector<Opening> rolling = openings_.rolling(start, path);
-  if (!rolling.empty()) return rolling;
-  const std::vector<Phase> brake =
-      brake_along(query.committed, query.start_time_s, optimizer_.rest_acceleration());
-  const Pose stop = Motion(query.start_time_s, brake).end_pose();
-  path.front() = stop.position;
-  return openings_.from_rest(brake, stop, path);
-}
-
-LocalCandidate LocalPlanner::candidate(const LocalQuery& query, const LocalScene& scene,
-                                       const Task& task, const SpaceTimeWay& way) const {
-  LocalCandidate candidate;
-  candidate.way = way.points;
-  candidate.signature = way.signature;
-  candidate.driven = way.driven;
-  for (const Opening& opening : openings(query, places_of(way.points))) {
-    try {
-      drive(query, scene, task, opening, candidate);
-    } catch (const std::invalid_argument&) {
-      continue;  // what the optimiser found is no motion
-    }
-    if (candidate.proof == LocalProof::kAsked) break;
-  }
-  return candidate;
-}
-
-void LocalPlanner::select(const LocalQuery& query, const LocalScene& scene, const Task& task,
+void LocalPlanner::select(const LocalQuery& query, const LocalScene& scene, const Return& back,
                           LocalPlan& plan) const {
   for (const LocalCandidate& each : plan.candidates) plan.proof = std::min(plan.proof, each.proof);
   for (LocalCandidate& each : plan.candidates) {
@@ -278,24 +131,25 @@ void LocalPlanner::select(const LocalQuery& query, const LocalScene& scene, cons
   plan.motion = chosen.motion;
   plan.rejoins_s = chosen.rejoins_s;
   const double drive_s = chosen.rejoins_s - query.start_time_s;
-  plan.delay_s = drive_s - task.anchor.drive_s;
+  plan.delay_s = drive_s - back.anchor.drive_s;
   // Against an anchor that is farther, it takes longer in any case.
-  plan.late = drive_s - task.anchor.drive_s > rules_.t_epsilon_s - rules_.mu_s;
-  proof_of(plan.motion, scene, chosen.rejoins_s, kForever, plan.beyond);
+  plan.late = drive_s - back.anchor.drive_s > rules_.t_epsilon_s - rules_.mu_s;
+  plan.beyond = optimizer_.violation_of(plan.motion, scene, chosen.rejoins_s);
   plan.switches_class = !chosen.driven;
 }
 
 LocalPlan LocalPlanner::along(const std::vector<SpaceTimeWay>& ways, const LocalQuery& query,
-                              const LocalScene& scene, const Task& task) const {
+                              const LocalScene& scene, const Return& back) const {
   LocalPlan plan;
   plan.message = "no way through space-time back to the plan";
-  plan.anchor = task.anchor;
+  plan.anchor = back.anchor;
   if (ways.empty()) return plan;
   watch_(LocalStage::kOptimisation);
   plan.candidates.resize(ways.size());
-  in_parallel(ways.size(), rules_.threads,
-              [&](std::size_t i) { plan.candidates[i] = candidate(query, scene, task, ways[i]); });
-  select(query, scene, task, plan);
+  in_parallel(ways.size(), rules_.threads, [&](std::size_t i) {
+    plan.candidates[i] = optimizer_.optimize(query, scene, back, ways[i]);
+  });
+  select(query, scene, back, plan);
   watch_(LocalStage::kDone);
   return plan;
 }
@@ -305,7 +159,7 @@ LocalPlan LocalPlanner::attempt(const LocalQuery& query, const LocalScene& scene
   watch_(LocalStage::kFrontEnd);
   const auto found = find_space_time_ways(*scene.terrain, cuts, task.ways, space_time_rules_);
   watch_(LocalStage::kDone);
-  return along(found.ways, query, scene, task);
+  return along(found.ways, query, scene, task.back);
 }
 
 LocalPlan LocalPlanner::keep_on(const LocalQuery& query, const LocalScene& scene) const {
@@ -315,7 +169,7 @@ LocalPlan LocalPlanner::keep_on(const LocalQuery& query, const LocalScene& scene
   way.points = driven_to(*anchor, query);
   way.driven = true;
   if (way.points.empty()) return {};
-  return along({way}, query, scene, {*anchor, earliest_s(query, *anchor), {}});
+  return along({way}, query, scene, optimizer_.return_to(*anchor, query));
 }
 
 LocalPlan LocalPlanner::again(const LocalQuery& query, const LocalScene& scene,
@@ -323,7 +177,7 @@ LocalPlan LocalPlanner::again(const LocalQuery& query, const LocalScene& scene,
   std::vector<SpaceTimeWay> ways;
   for (const LocalCandidate& each : failed.candidates)
     ways.push_back({each.way, 0.0, each.signature, each.driven});
-  return along(ways, query, scene, {failed.anchor, earliest_s(query, failed.anchor), {}});
+  return along(ways, query, scene, optimizer_.return_to(failed.anchor, query));
 }
 
 LocalPlan LocalPlanner::search(const LocalQuery& query, const LocalScene& scene) const {
@@ -354,12 +208,11 @@ LocalPlan LocalPlanner::anew(const LocalQuery& query, const LocalScene& scene) c
   if (plans[0].proof == LocalProof::kAsked) return plans[0];
   in_parallel(tasks.size() - 1, rules_.threads,
               [&](std::size_t i) { plans[i + 1] = attempt(query, scene, tasks[i + 1], cuts); });
-  const auto is_better = [](const LocalPlan& a, const LocalPlan& b) {
-    if (a.proof != b.proof) return a.proof < b.proof;
-    if (a.proof == LocalProof::kNone) return b.candidates.empty() && !a.candidates.empty();
-    return a.delay_s < b.delay_s - kSooner_s;
-  };
-  return *std::min_element(plans.begin(), plans.end(), is_better);
+  const LocalPlan* best = &plans[0];
+  for (const LocalPlan& plan : plans) {
+    if (is_better(plan, *best)) best = &plan;
+  }
+  return *best;
 }
 
 LocalPlan LocalPlanner::plan(const LocalQuery& query, const LocalScene& scene) const {

@@ -1,76 +1,14 @@
 #pragma once
 
 #include <functional>
-#include <memory>
-#include <string>
 #include <vector>
 
-#include "planning/drive_optimizer.h"
+#include "planning/local_optimizer.h"
+#include "planning/local_plan.h"
 #include "planning/local_rules.h"
-#include "planning/opening.h"
-#include "planning/plan_result.h"
-#include "planning/rejoining.h"
 #include "topology/space_time_ways.h"
-#include "topology/terrain.h"
 
 namespace mocha {
-
-/// What is around: static obstacles (unknown space counts as free), and what moves, with the
-/// distance that is to be kept.
-struct LocalScene {
-  std::shared_ptr<const Terrain> terrain;
-  std::vector<MovingThing> moving;    ///< as surely as is asked for
-  std::vector<MovingThing> expected;  ///< on its most likely course; empty: the same
-};
-
-/// What was proved of a motion, from the best on. In any case it keeps clear of what stands.
-enum class LocalProof {
-  kAsked,      ///< keeps from what moves, as surely as is asked for
-  kLikely,     ///< keeps from its most likely course
-  kEmergency,  ///< the same, but more abruptly than the robot is wanted to drive
-  kNone
-};
-
-/// Out of which motion, and back into which plan. Map frame, absolute times.
-struct LocalQuery {
-  Motion committed;
-  double start_time_s = 0.0;  ///< the local drive leaves `committed` here, a switch time of it
-  Motion plan;
-  double progress_s = 0.0;  ///< time of the plan at which it is where the robot is
-  Motion driven;            ///< what is being followed, for its class; may be empty
-};
-
-/// One way through space-time that was optimised, certified or not.
-struct LocalCandidate {
-  TimedPath way;  ///< of the front end, from which the optimisation started
-  Signature signature;
-  PlanReason reason = PlanReason::kNotCertified;
-  LocalProof proof = LocalProof::kNone;
-  Violation violation;  ///< the first one before the anchor, of what is asked for
-  double cost = 0.0;    ///< J (14) with (39), (40)
-  CostTerms terms;
-  Motion motion;         ///< up to the plan's end
-  double rejoins_s = 0;  ///< absolute time at which it is back on the plan
-  bool driven = false;   ///< of the class that the plan itself has
-  bool selected = false;
-};
-
-struct LocalPlan {
-  PlanReason reason = PlanReason::kNoPath;
-  std::string message = "no plan to come back to";
-  Violation violation;  ///< of the first candidate, where none is certified
-  LocalProof proof = LocalProof::kNone;
-  /// From start_time_s past everything that moves to the anchor, and on along the plan, shifted in
-  /// time. Proved up to the anchor as `proof` says; empty unless solved.
-  Motion motion;
-  RejoiningPoint anchor;        ///< where it is back on the plan, or would be
-  double rejoins_s = 0.0;       ///< absolute time at which the motion is at the anchor
-  double delay_s = 0.0;         ///< by how much it is later there than the plan would have been
-  bool late = false;            ///< (42): longer than T_epsilon, or as late at a farther anchor
-  Violation beyond;             ///< what the plan violates after the anchor, shifted as it is
-  bool switches_class = false;  ///< other than the plan's
-  std::vector<LocalCandidate> candidates;
-};
 
 /// What a search is doing.
 enum class LocalStage { kFrontEnd, kOptimisation, kDone };
@@ -98,44 +36,27 @@ class LocalPlanner {
  private:
   /// To come back to the plan at one place and time.
   struct Task {
-    RejoiningPoint anchor;
-    double earliest_s;
+    Return back;
     SpaceTimeQuery ways;
   };
 
-  /// About the least time to the anchor.
-  double earliest_s(const LocalQuery& query, const RejoiningPoint& anchor) const;
   /// With anchors ever farther and arrivals ever later.
   std::vector<Task> tasks(const LocalQuery& query, const LocalScene& scene) const;
   Cuts<2> cuts_for(const std::vector<Task>& tasks, const LocalScene& scene) const;
   /// Past scene.moving; scene.expected is what else is proved of what comes out.
   LocalPlan search(const LocalQuery& query, const LocalScene& scene) const;
   LocalPlan along(const std::vector<SpaceTimeWay>& ways, const LocalQuery& query,
-                  const LocalScene& scene, const Task& task) const;
+                  const LocalScene& scene, const Return& back) const;
   LocalPlan attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,
                     const Cuts<2>& cuts) const;
-  LocalCandidate candidate(const LocalQuery& query, const LocalScene& scene, const Task& task,
-                           const SpaceTimeWay& way) const;
-  /// How to begin on a way: at once, or after braking and turning.
-  std::vector<Opening> openings(const LocalQuery& query, std::vector<Vector2> path) const;
-  void drive(const LocalQuery& query, const LocalScene& scene, const Task& task,
-             const Opening& opening, LocalCandidate& candidate) const;
-  Violation certify(const Motion& motion, const std::vector<MovingThing>& moving,
-                    double from_s) const;
-  /// Up to until_s, which is the beginning of what is only planned.
-  LocalProof proof_of(const Motion& motion, const LocalScene& scene, double from_s, double until_s,
-                      Violation& violation) const;
-  void select(const LocalQuery& query, const LocalScene& scene, const Task& task,
+  void select(const LocalQuery& query, const LocalScene& scene, const Return& back,
               LocalPlan& plan) const;
 
   const Watch watch_;
-  const RobotModel robot_;
-  const MotionLimits emergency_limits_;
+  const double max_speed_;
   const LocalRules rules_;
   const SpaceTimeRules space_time_rules_;
-  const double margin_m_;
-  const DriveOptimizer optimizer_;
-  const Openings openings_;
+  const LocalOptimizer optimizer_;
 };
 
 }  // namespace mocha

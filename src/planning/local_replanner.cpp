@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <sstream>
 #include <utility>
 
 #include "planning/conflict.h"
-#include "topology/map_terrain.h"
+#include "planning/joining.h"
 #include "trajectory/stopping.h"
 
 namespace mocha {
@@ -16,28 +15,13 @@ namespace {
 constexpr double kStanding_mps = 0.02;
 constexpr double kStanding_radps = 0.05;
 constexpr double kStandPhase_s = 0.1;
-constexpr double kJoinTolerance_m = 0.01;
-constexpr double kJoinTolerance_rad = 0.03;
-constexpr double kJoinTolerance_mps = 0.03;
 constexpr double kSamePlace_m = 0.5;      // of two plans' ends
-constexpr double kOffPlan_m = 1.5;        // farther from the plan, it is not come back to
-constexpr double kAgain_s = 0.19;         // between two local plans
-constexpr double kAfterFailure_s = 0.39;  // where there was no way just now
-constexpr double kHurryEvery_s = 0.5;     // a swerve is tried again, as people move on
-constexpr double kSooner_s = 0.2;         // to arrive by less is not worth a change
-constexpr double kMuchSooner_s = 1.0;     // nor, by less, one of class
 constexpr double kShareOfTrigger = 0.75;  // of the clearance to what moves, below which (37) is met
 constexpr double kWorthwhile_s =
     0.15;  // a promise that reaches less farther is not worth a message
 
 Motion standing(double now_s, const Pose& pose) {
   return Motion(now_s, {StandPhase{pose, kStandPhase_s}});
-}
-
-bool agree(const MotionState& a, const MotionState& b) {
-  return (a.pose.position - b.pose.position).norm() <= kJoinTolerance_m &&
-         std::abs(wrap_angle(a.pose.yaw_rad - b.pose.yaw_rad)) <= kJoinTolerance_rad &&
-         (a.velocity - b.velocity).norm() <= kJoinTolerance_mps;
 }
 
 }  // namespace
@@ -47,8 +31,7 @@ LocalReplanner::LocalReplanner(const RobotModel& robot, const LocalReplannerRule
     : own_radius_m_(robot.footprint.circumscribed_radius_m()),
       builder_(robot),
       way_out_(robot),
-      planner_(robot, local_rules, watch),
-      hard_planner_(WayOut::hardened(robot), local_rules, watch),
+      swerving_(robot, local_rules, watch),
       rules_(rules) {}
 
 void LocalReplanner::set_plan(Motion plan) { offered_ = std::move(plan); }
@@ -121,7 +104,7 @@ LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& stat
   }
   if (in_the_way) {
     shorten(now_s, violation, scene, output);
-  } else if (!pending && !plan_.empty() && !hurry(now_s, scene, output)) {
+  } else if (!pending && !plan_.empty() && !swerve_less(now_s, scene, output)) {
     extend(now_s, asked, rules_.extend_every_s, output);
   }
   return output;
@@ -140,7 +123,7 @@ void LocalReplanner::take_offer(double now_s, const PromiseScene& scene, Output&
   }
   if (!output.keeps_plan) {
     plan_ = std::move(*offered_);
-    route_ = Motion();
+    swerving_.forget();
     ++plan_id_;
     squeezes_ = false;
   }
@@ -232,17 +215,7 @@ bool LocalReplanner::under_way() const {
 }
 
 void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, Output& output) {
-  const bool just_tried = swerved_s_ == now_s && output.local && !output.local->candidates.empty();
-  if (just_tried && output.local->proof == LocalProof::kNone) {
-    const PromiseScene likely = scene.most_likely();
-    output.local = hard_planner_.again(*way_back(times(now_s).settled_s), around(now_s, likely),
-                                       *output.local);
-  }
-  if (just_tried && output.local->proof != LocalProof::kNone &&
-      adopt(now_s, *output.local, scene.most_likely(), output)) {
-    output.message = "swerves harder than it would like to";
-    return;
-  }
+  if (swerve_harder(now_s, scene, output)) return;
   ++least_bad_;
   const bool something_moves = output.violation.term == ViolatedTerm::kSeparation;
   const WayOut::Choice choice =
@@ -257,122 +230,73 @@ void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, O
   }
 }
 
-std::optional<LocalQuery> LocalReplanner::way_back(double join_s) const {
-  LocalQuery query{committed_, join_s, {}, 0.0, follows_plan_at(join_s) ? plan_ : Motion()};
-  const Vector2 place = committed_.position(join_s);
-  for (const Motion* plan : {&route_, &plan_}) {
-    if (plan->empty()) continue;
-    const auto progress_s = plan == &plan_ && follows_plan_at(join_s)
-                                ? join_s
-                                : progress_on(*plan, place, plan->start_time(), kOffPlan_m);
-    if (!progress_s) continue;
-    query.plan = *plan;
-    query.progress_s = *progress_s;
-    return query;
-  }
-  return std::nullopt;
-}
-
-LocalScene LocalReplanner::around(double now_s, const PromiseScene& scene) const {
-  LocalScene around{
-      std::make_shared<MapTerrain>(scene.obstacles), builder_.kept_from(scene, now_s, 1.0), {}};
-  if (!scene.expected.empty())
-    around.expected = builder_.kept_from(scene.most_likely(), now_s, 1.0);
-  return around;
+Swerving::Situation LocalReplanner::situation(double now_s) const {
+  const double join_s = committed_.switch_time(now_s + rules_.settle_s);
+  return {now_s, join_s, committed_, plan_, follows_plan_at(join_s)};
 }
 
 bool LocalReplanner::swerve(double now_s, const PromiseScene& scene, Output& output) {
-  if (plan_.empty() || now_s < not_before_s_) return false;
-  swerved_s_ = now_s;
-  not_before_s_ = now_s + kAfterFailure_s;
-  const auto query = way_back(committed_.switch_time(now_s + rules_.settle_s));
-  if (!query) return false;
-  output.local = planner_.plan(*query, around(now_s, scene));
-  const LocalPlan& local = *output.local;
-  if (local.proof > LocalProof::kLikely || !adopt(now_s, local, scene, output)) return false;
-  not_before_s_ = now_s + kAgain_s;
+  const auto found = swerving_.around(situation(now_s), scene);
+  if (!found) return false;
+  output.local = found;
+  if (found->proof > LocalProof::kLikely || !adopt(now_s, scene, output)) return false;
   output.message = "swerves";
-  if (local.late || local.beyond)
-    ask_for_plan(local.beyond, local.late ? "the swerve takes long" : describe(local.beyond),
+  if (found->late || found->beyond)
+    ask_for_plan(found->beyond, found->late ? "the swerve takes long" : describe(found->beyond),
                  output);
   return true;
 }
 
-bool LocalReplanner::adopt(double now_s, const LocalPlan& local, const PromiseScene& scene,
-                           Output& output) {
-  const double join_s = committed_.switch_time(now_s + rules_.settle_s);
+bool LocalReplanner::swerve_less(double now_s, const PromiseScene& scene, Output& output) {
+  auto found = swerving_.sooner(situation(now_s), scene);
+  if (!found) return false;
+  output.local = std::move(found);
+  if (!adopt(now_s, scene, output)) return false;
+  output.message = "swerves less";
+  return true;
+}
+
+bool LocalReplanner::swerve_harder(double now_s, const PromiseScene& scene, Output& output) {
+  if (!output.local || output.local->candidates.empty()) return false;
+  if (output.local->proof == LocalProof::kNone)
+    output.local = swerving_.harder(situation(now_s), scene, *output.local);
+  if (output.local->proof == LocalProof::kNone || !adopt(now_s, scene, output)) return false;
+  output.message = "swerves harder than it would like to";
+  return true;
+}
+
+bool LocalReplanner::adopt(double now_s, const PromiseScene& scene, Output& output) {
+  const LocalPlan& local = *output.local;
+  const double join_s = local.motion.start_time();
   const bool squeezes = local.proof != LocalProof::kAsked;
   const Motion onward = continued(committed_, now_s, join_s, local.motion);
   const auto promise = builder_.longest(onward, squeezes ? scene.most_likely() : scene, now_s,
                                         join_s, now_s + rules_.horizon_s);
   if (!promise || promise->follows_until_s < join_s + kWorthwhile_s) return false;
-  if (route_.empty()) route_ = std::move(plan_);
+  swerving_.take(now_s, plan_, local);
   plan_ = local.motion;
-  rejoins_s_ = local.rejoins_s;
   ++plan_id_;
   squeezes_ = squeezes;
   propose(now_s, remainder(promise->motion, join_s), false, {plan_id_, promise->follows_until_s},
           output);
+  output.swerves = true;
   return true;
-}
-
-bool LocalReplanner::hurry(double now_s, const PromiseScene& scene, Output& output) {
-  const bool on_the_way = !route_.empty() && now_s < rejoins_s_ && follows_plan_at(now_s);
-  if (!on_the_way || now_s < swerved_s_ + kHurryEvery_s) return false;
-  swerved_s_ = now_s;
-  const auto query = way_back(committed_.switch_time(now_s + rules_.settle_s));
-  if (!query) return false;
-  const LocalScene around = this->around(now_s, scene);
-  const auto is_sooner = [this](const LocalPlan& local, double by_s) {
-    return local.proof == LocalProof::kAsked && local.motion.end_time() < plan_.end_time() - by_s;
-  };
-  LocalPlan local = planner_.keep_on(*query, around);
-  if (!is_sooner(local, kSooner_s)) {
-    local = planner_.anew(*query, around);
-    if (!is_sooner(local, local.switches_class ? kMuchSooner_s : kSooner_s)) return false;
-  }
-  if (!adopt(now_s, local, scene, output)) return false;
-  output.local = std::move(local);
-  output.message = "swerves less";
-  return true;
-}
-
-std::optional<Motion> LocalReplanner::joined(double now_s, double& join_s) const {
-  join_s = committed_.switch_time(std::max(plan_.start_time(), now_s + rules_.settle_s));
-  const bool same_plan =
-      committed_source_.plan == plan_id_ && committed_source_.follows_until_s >= join_s;
-  if (!same_plan && !agree(committed_.at(join_s), plan_.at(join_s))) return std::nullopt;
-  std::vector<Phase> onward = plan_.phases_between(join_s, plan_.end_time());
-  if (onward.empty()) return std::nullopt;
-  return continued(committed_, now_s, join_s, Motion(join_s, std::move(onward)));
-}
-
-void LocalReplanner::postpone_late_plan(double now_s) {
-  const double join_s = committed_.switch_time(now_s + rules_.settle_s);
-  if (committed_source_.plan == plan_id_ || plan_.start_time() >= join_s) return;
-  const MotionState here = committed_.at(join_s);
-  const MotionState start = plan_.at(plan_.start_time());
-  const bool stands_there = here.at_rest && start.at_rest && agree(here, start);
-  if (stands_there) plan_ = Motion(join_s, plan_.phases());
 }
 
 void LocalReplanner::extend(double now_s, const PromiseScene& scene, double every_s,
                             Output& output) {
-  postpone_late_plan(now_s);
-  if (plan_.end_time() <= now_s + rules_.settle_s) return;
   const bool same_plan = committed_source_.plan == plan_id_;
+  const double soonest_s = committed_.switch_time(now_s + rules_.settle_s);
+  if (!same_plan) plan_ = postponed(committed_, plan_, soonest_s).value_or(plan_);
+  if (plan_.end_time() <= now_s + rules_.settle_s) return;
   const double reach_s = committed_source_.follows_until_s;
   if (same_plan &&
       (reach_s >= plan_.end_time() - 1e-6 || reach_s > now_s + rules_.horizon_s - every_s)) {
     return;
   }
-  double join_s;
-  std::optional<Motion> onward;
-  try {
-    onward = joined(now_s, join_s);
-  } catch (const std::invalid_argument&) {
-    // The ends agree by tolerance but not closely enough for one motion: the same as not agreeing.
-  }
+  const double join_s =
+      committed_.switch_time(std::max(plan_.start_time(), now_s + rules_.settle_s));
+  const auto onward = joined(committed_, plan_, now_s, join_s, follows_plan_at(join_s));
   if (!onward) {
     if (swerve(now_s, scene, output)) return;
     ask_for_plan({}, "the plan does not join the promised motion any more", output);

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "control/robot_state.h"
-#include "planning/local_planner.h"
 #include "planning/promise_builder.h"
+#include "planning/swerving.h"
 #include "planning/way_out.h"
 
 namespace mocha {
@@ -46,9 +46,9 @@ class LocalReplanner {
     PlanReason reason = PlanReason::kSolved;
     Violation violation;
     std::string message;
-    /// What local planning found, if there was need for it; its motion is then the plan.
-    std::optional<LocalPlan> local;
-    bool keeps_plan = false;  ///< an offered plan was no improvement
+    std::optional<LocalPlan> local;  ///< what local planning found, if there was need for it
+    bool swerves = false;            ///< that is the plan now, and proposed
+    bool keeps_plan = false;         ///< an offered plan was no improvement
   };
 
   LocalReplanner(
@@ -88,26 +88,22 @@ class LocalReplanner {
   void start(double now_s, const RobotState& measured, Output& output);
   bool off_track(double now_s, const RobotState& measured) const;
   void stop_here(double now_s, const RobotState& measured, Output& output);
-  LocalScene around(double now_s, const PromiseScene& scene) const;
+  Swerving::Situation situation(double now_s) const;
   bool swerve(double now_s, const PromiseScene& scene, Output& output);
-  /// Makes it the plan, and proposes as much of it as can be promised; false where that is next to
-  /// nothing.
-  bool adopt(double now_s, const LocalPlan& local, const PromiseScene& scene, Output& output);
-  /// Out of the motion in force, back into the route, or else into the plan.
-  std::optional<LocalQuery> way_back(double join_s) const;
-  /// A swerve is as slow as it had to be when it began; tries whether it could be quicker by now.
-  bool hurry(double now_s, const PromiseScene& scene, Output& output);
+  /// While swerving: where that gets it back on its plan sooner.
+  bool swerve_less(double now_s, const PromiseScene& scene, Output& output);
+  /// Where there was no swerve in this step, within the limits of an emergency.
+  bool swerve_harder(double now_s, const PromiseScene& scene, Output& output);
+  /// Makes what local planning found the plan, and proposes as much of it as can be promised; false
+  /// where that is next to nothing.
+  bool adopt(double now_s, const PromiseScene& scene, Output& output);
   void shorten(double now_s, const Violation& violation, const PromiseScene& scene, Output& output);
   WayOut::Times times(double now_s) const;
   void take(double now_s, const WayOut::Choice& choice, Output& output);
   void do_the_least_bad(double now_s, const PromiseScene& scene, Output& output);
   /// Promises more of the plan once `every_s` of the horizon is used up.
   void extend(double now_s, const PromiseScene& scene, double every_s, Output& output);
-  /// A plan from rest that came too late for its own times is as good later, while the robot stands
-  /// where it begins.
-  void postpone_late_plan(double now_s);
   static void ask_for_plan(const Violation& violation, const std::string& why, Output& output);
-  std::optional<Motion> joined(double now_s, double& join_s) const;
   void propose(double now_s, Motion motion, bool emergency, Source source, Output& output);
 
   bool follows_plan_at(double t) const {
@@ -117,13 +113,10 @@ class LocalReplanner {
   const double own_radius_m_;
   PromiseBuilder builder_;
   WayOut way_out_;
-  LocalPlanner planner_;
-  LocalPlanner hard_planner_;  // the same, for accelerations that only an emergency calls for
+  Swerving swerving_;
   LocalReplannerRules rules_;
   std::optional<Motion> offered_;
-  Motion plan_;             // what is followed
-  Motion route_;            // where that is a swerve: the plan that it comes back to
-  double rejoins_s_ = 0.0;  // absolute
+  Motion plan_;  // what is followed: the newest plan, or a swerve
   std::uint32_t plan_id_ = 0;
   bool squeezes_ = false;  // the plan keeps clear of the most likely course only
   Motion committed_;
@@ -133,8 +126,6 @@ class LocalReplanner {
   double pending_until_s_ = 0.0;
   Motion pending_;
   bool pending_brake_ = false;  // what is pending brakes for a violation
-  double swerved_s_ = 0.0;      // when local planning was last tried
-  double not_before_s_ = 0.0;   // it is tried again
   int least_bad_ = 0;
 };
 

@@ -29,14 +29,14 @@ LocalOutputs::LocalOutputs(ros::NodeHandle& node, const RobotIdentity& identity,
 void LocalOutputs::show(const LocalReplanner::Output& output, const Motion& plan,
                         const Predictions& predictions, ros::Time now) {
   if (output.local) {
-    const bool taken = follows(plan, *output.local);
-    counts_.switches += taken && output.local->switches_class && now.toSec() < local_.rejoins_s;
-    counts_.followed += taken;
+    counts_.switches +=
+        output.swerves && output.local->switches_class && now.toSec() < local_.rejoins_s;
+    counts_.followed += output.swerves;
     counts_.solved += output.local->reason == PlanReason::kSolved;
     ++counts_.made;
     local_ = *output.local;
     planned_at_ = now;
-    if (taken) publish(plan, now);
+    if (output.swerves) publish(plan, now);
   }
   if (output.keeps_plan) publish(plan, now);
   draw(plan, predictions, now);

@@ -76,7 +76,7 @@ Replan replan_of(const ClosedLoop& loop, double t) {
   if (!local) return {t, loop.replanner_took_s, false, Vector2::Zero(), 0.0, {}, false, {}};
   Replan replan{t, loop.replanner_took_s, false, local->anchor.place(), local->rejoins_s, {}, false,
                 {}};
-  replan.taken = local->reason == PlanReason::kSolved && loop.output.proposal;
+  replan.taken = loop.output.swerves;
   replan.other_class = replan.taken && local->switches_class;
   if (replan.taken) replan.motion = local->motion;
   for (const LocalCandidate& candidate : local->candidates) {

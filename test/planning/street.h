@@ -69,7 +69,7 @@ class Street {
     if (local) {
       ++swerves_tried;
       candidates += static_cast<int>(local->candidates.size());
-      const bool taken = local->reason == PlanReason::kSolved && loop.output.proposal;
+      const bool taken = loop.output.swerves;
       swerves += taken;
       switches += taken && t() < swerved_s_ + 2.0 && local->switches_class;
       if (taken) swerved_s_ = t();
