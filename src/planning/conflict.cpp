@@ -20,11 +20,18 @@ Violation conflict_of(const Motion& plan, const std::vector<MovingThing>& moving
   return first;
 }
 
+std::vector<MovingThing> foreseen(std::vector<MovingThing> things) {
+  for (MovingThing& thing : things) {
+    if (std::isinf(thing.obstacle->rest_time())) thing.until_s = thing.obstacle->rest_time();
+  }
+  return things;
+}
+
 double least_room_m(const Motion& motion, const std::vector<MovingThing>& moving, double from_s,
-                    double until_s) {
+                    double until_s, double of_no_use_m) {
   constexpr double kStep_s = 0.1;
   double least_m = std::numeric_limits<double>::infinity();
-  for (double t = from_s; t < until_s; t += kStep_s) {
+  for (double t = from_s; t < until_s && least_m >= of_no_use_m; t += kStep_s) {
     const Vector2 place = motion.position(t);
     for (const MovingThing& thing : moving) {
       if (t > thing.until_s) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "safety/violation.h"
@@ -19,9 +20,14 @@ namespace mocha {
 Violation conflict_of(const Motion& plan, const std::vector<MovingThing>& moving,
                       double own_radius_m, double from_s, double mu_pre_s);
 
+/// Things that never rest count for good in the search for a motion, though nothing about them is
+/// proved so far ahead: else it would pay to wait until they are forgotten.
+std::vector<MovingThing> foreseen(std::vector<MovingThing> things);
+
 /// How far, at its worst in [from_s, until_s], a motion is from what is kept from all that moves
 /// [m]; negative where it comes closer. Sampled: it compares motions of which none can be proved.
+/// Below `of_no_use_m` it is not looked for exactly.
 double least_room_m(const Motion& motion, const std::vector<MovingThing>& moving, double from_s,
-                    double until_s);
+                    double until_s, double of_no_use_m = -std::numeric_limits<double>::infinity());
 
 }  // namespace mocha

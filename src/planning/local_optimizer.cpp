@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "planning/conflict.h"
 #include "planning/escape_proof.h"
 #include "planning/way_out.h"
 #include "safety/margin_budget.h"

@@ -19,10 +19,6 @@ struct LocalScene {
   std::vector<MovingThing> expected;  ///< on its most likely course; empty: the same
 };
 
-/// Things that never rest count for good in the search for a motion, though nothing about them is
-/// proved so far ahead: else it would pay to wait until they are forgotten.
-std::vector<MovingThing> foreseen(std::vector<MovingThing> things);
-
 /// What was proved of a motion, from the best on. In any case it keeps clear of what stands.
 enum class LocalProof {
   kAsked,      ///< keeps from what moves, as surely as is asked for

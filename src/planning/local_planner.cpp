@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "planning/candidate_race.h"
+#include "planning/conflict.h"
 #include "planning/parallel.h"
 #include "safety/margin_budget.h"
 

@@ -219,7 +219,7 @@ void LocalReplanner::do_the_least_bad(double now_s, const PromiseScene& scene, O
   ++least_bad_;
   const bool something_moves = output.violation.term == ViolatedTerm::kSeparation;
   const WayOut::Choice choice =
-      way_out_.least_bad(committed_, times(now_s), scene, something_moves, now_s + rules_.mu_pre_s);
+      way_out_.least_bad(committed_, times(now_s), scene, something_moves);
   output.message += "; NO CERTIFIED MOTION EXISTS";
   const bool stands = committed_.end_time() <= now_s;
   if (choice.motion.empty() || (stands && choice.emergency)) {

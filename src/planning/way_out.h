@@ -36,18 +36,23 @@ class WayOut {
   std::optional<Choice> aside(const Motion& committed, const Times& times,
                               const PromiseScene& scene) const;
 
-  /// Where nothing can be proved: to step aside, to go on or to brake at once, whichever keeps the
-  /// most room to what moves until `until_s`; to brake where it is not something that moves that is
-  /// in the way.
+  /// Where nothing can be proved: to dodge, to step aside, to go on or to brake at once, whichever
+  /// keeps the most room to the likely course of what moves; to brake where it is not something
+  /// that moves that is in the way. Dodging binds at once, and so is done only where no team-mate
+  /// is near.
   Choice least_bad(const Motion& committed, const Times& times, const PromiseScene& scene,
-                   bool something_moves, double until_s) const;
+                   bool something_moves) const;
 
   /// The robot, accelerating as hard as it brakes in an emergency.
   static RobotModel hardened(RobotModel robot);
 
  private:
-  std::vector<Motion> evasions_from(const Motion& committed, const Times& times,
-                                    const RobotModel& robot, const PromiseScene& scene) const;
+  std::vector<Motion> evasions_from(const Motion& committed, double start_time_s,
+                                    double deceleration, const RobotModel& robot,
+                                    const PromiseScene& scene) const;
+  bool is_alone(const Motion& committed, const Times& times, const PromiseScene& scene) const;
+  std::vector<Choice> escapes(const Motion& committed, const Times& times,
+                              const PromiseScene& likely) const;
   std::optional<Choice> braking(const Motion& committed, const Times& times,
                                 const PromiseScene& scene) const;
   std::optional<Choice> aside_in(const Motion& committed, const Times& times,
@@ -56,6 +61,7 @@ class WayOut {
 
   const RobotModel robot_;
   const RobotModel hard_robot_;
+  MotionLimits escape_limits_;
   const PromiseBuilder builder_;
 };
 

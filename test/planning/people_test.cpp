@@ -79,6 +79,45 @@ TEST(People, OneWhoIsFasterComesFromBehind) {
   }
 }
 
+/// Whoever has walked one way and turns round at once, before a robot at full speed.
+struct TurnsRound {
+  double gap_m;    ///< from body to body when he turns
+  double aside_m;  ///< of the robot's way, then
+  double speed;
+  double course_rad;  ///< in which he has walked
+
+  Street street() const {
+    constexpr double kTurns_s = 1.5;
+    constexpr double kSeen_s = 0.3;  // before
+    Street street(square(), {9.0, 0.0});
+    street.begin_rolling();
+    const double along_m = std::sqrt(std::pow(gap_m + kFront_m + kPerson_m, 2) - aside_m * aside_m);
+    const Vector2 turns(0.9 * kTurns_s + along_m, aside_m);
+    const Vector2 velocity = speed * Vector2(std::cos(course_rad), std::sin(course_rad));
+    street.walkers = {{turns - kSeen_s * velocity,
+                       {{kTurns_s - kSeen_s, {0.0, 0.0}}, {kSeen_s, velocity}, {20.0, -velocity}},
+                       kPerson_m,
+                       kTurns_s - kSeen_s}};
+    return street;
+  }
+};
+
+TEST(People, OneWhoTurnsRoundIsAvoided) {
+  for (const double aside_m : {-0.3, -0.1, 0.1, 0.3}) {
+    for (const double speed : {0.5, 1.0}) {
+      for (const double course_rad : {-0.6, 0.0, 0.6, 1.2}) {
+        SCOPED_TRACE(testing::Message() << aside_m << " m, " << speed << " m/s, " << course_rad);
+        Street street = TurnsRound{1.6, aside_m, speed, course_rad}.street();
+        EXPECT_TRUE(street.run_to_goal(40.0)) << street.loop.output.message;
+        // Straight at it at 1 m/s, there is time to stop, but not to get out of the way.
+        const bool hopeless = std::abs(aside_m) < 0.2 && speed > 0.9 && course_rad == 0.0;
+        EXPECT_TRUE(hopeless || street.least_gap_m > 0.0) << street.least_gap_m;
+        EXPECT_LT(street.contact_speed, 0.05);
+      }
+    }
+  }
+}
+
 TEST(People, TwoCloseAGap) {
   for (const double speed : {0.3, 0.6}) {
     SCOPED_TRACE(speed);
