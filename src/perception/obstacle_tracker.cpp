@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -10,6 +11,8 @@ namespace {
 
 constexpr double kGate = 9.21;           // chi-squared, two degrees of freedom, 99 %
 constexpr double kFirstSpeed_mps = 1.0;  // standard deviation of an unknown velocity, one axis
+constexpr double kFastest_mps = 2.0;     // of who turns
+constexpr double kTurn_s = 0.25;         // he was seen so short a time ago
 constexpr double kHiddenNoise = 3.0;     // times the noise, if only a part is seen
 constexpr double kPartNoise = 0.7;       // times the difference of the radii, for a part
 constexpr double kGrowth = 0.5;          // of the radius, share of the difference per sighting
@@ -39,7 +42,8 @@ ObstacleTracker::ObstacleTracker(const TrackerOptions& options) : options_(optio
 
 std::vector<bool> ObstacleTracker::update(const std::vector<DiscSighting>& sightings,
                                           const std::vector<Beam>& beams, double time_s) {
-  const std::vector<int> partners = associate(sightings);
+  std::vector<int> partners = associate(sightings);
+  follow_turns(sightings, partners);
   std::vector<bool> moving(sightings.size(), true);
   std::vector<bool> taken(sightings.size(), false);
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
@@ -93,13 +97,43 @@ std::vector<int> ObstacleTracker::associate(const std::vector<DiscSighting>& sig
   return partners;
 }
 
+/// What is seen near where a known track has just been, though not where it was going, is the same
+/// thing that has turned or stopped: it is followed from there, at a velocity that is not known.
+void ObstacleTracker::follow_turns(const std::vector<DiscSighting>& sightings,
+                                   std::vector<int>& partners) {
+  std::vector<bool> taken(sightings.size(), false);
+  for (const int partner : partners) {
+    if (partner >= 0) taken[partner] = true;
+  }
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    Track& track = tracks_[i];
+    if (partners[i] >= 0 || track.id == 0) continue;
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < sightings.size(); ++j) {
+      const double since_s = sightings[j].time_s - track.seen_s;
+      const double off_m = (centre_of(sightings[j], track.radius_m) - track.seen_at).norm();
+      const double reach_m = kFastest_mps * since_s + 2.0 * noise_of(sightings[j], track.radius_m);
+      if (taken[j] || since_s <= 0.0 || since_s > kTurn_s || off_m > std::min(reach_m, nearest_m))
+        continue;
+      nearest_m = off_m;
+      partners[i] = static_cast<int>(j);
+    }
+    if (partners[i] < 0) continue;
+    taken[partners[i]] = true;
+    track.filter = {track.seen_s, track.seen_at, options_.measurement_noise_m, kFirstSpeed_mps};
+  }
+}
+
 void ObstacleTracker::see(Track& track, const DiscSighting& sighting) {
   track.filter.predict(sighting.time_s, options_.acceleration_psd);
   track.filter.update(centre_of(sighting, track.radius_m), noise_of(sighting, track.radius_m));
   const double growth_m = clamped_radius(sighting) - track.radius_m;
   if (growth_m > 0.0) track.radius_m += kGrowth * growth_m;
   if (growth_m < 0.0 && !sighting.is_hidden()) track.radius_m += kShrinkage * growth_m;
-  track.seen_s = std::max(track.seen_s, sighting.time_s);
+  if (sighting.time_s >= track.seen_s) {
+    track.seen_s = sighting.time_s;
+    track.seen_at = centre_of(sighting, track.radius_m);
+  }
   track.missing = 0;
   track.hidden = false;
   if (++track.sightings == options_.birth_sightings) track.id = ++last_id_;
@@ -130,6 +164,7 @@ void ObstacleTracker::begin(const DiscSighting& sighting) {
               radius_m,
               1,
               sighting.time_s,
+              centre,
               0,
               false,
               centre,

@@ -55,7 +55,8 @@ class ObstacleTracker {
     ConstantVelocityFilter filter;
     double radius_m;
     int sightings = 1;
-    double seen_s;        ///< last
+    double seen_s;        ///< last ...
+    Vector2 seen_at;      ///< ... and where
     int missing = 0;      ///< scans in a row that saw its place free
     bool hidden = false;  ///< its place was, in the last scan
     Vector2 anchor;       ///< it has been near here ...
@@ -65,6 +66,7 @@ class ObstacleTracker {
   };
 
   std::vector<int> associate(const std::vector<DiscSighting>& sightings) const;
+  void follow_turns(const std::vector<DiscSighting>& sightings, std::vector<int>& partners);
   void see(Track& track, const DiscSighting& sighting);
   void miss(Track& track, const std::vector<Beam>& beams, double time_s) const;
   void begin(const DiscSighting& sighting);

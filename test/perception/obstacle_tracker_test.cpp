@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace mocha {
 namespace {
 
@@ -28,6 +30,29 @@ TEST(ObstacleTracker, IsSureAfterTheThirdSighting) {
   EXPECT_LT((tracks[0].position - Vector2(2.0, 0.7)).norm(), 0.1) << "predicted";
   EXPECT_LT((tracks[0].velocity - Vector2(0.0, 1.0)).norm(), 0.2);
   EXPECT_GT(tracks[0].covariance(0, 0), tracker.at(0.2)[0].covariance(0, 0));
+}
+
+TEST(ObstacleTracker, WhoTurnsRoundIsTheSameAndKnownToComeBackSoon) {
+  constexpr double kTurns_s = 2.0;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  TrackerOptions options;
+  options.measurement_noise_m = 0.04;  // as in config/perception.yaml
+  options.acceleration_psd = 0.3;
+  for (const double speed : {0.5, 0.8, 1.0, 1.3}) {
+    for (int run = 0; run < 20; ++run) {
+      ObstacleTracker tracker(options);
+      for (double t = 0.0; t < kTurns_s + 0.35; t += 0.1) {
+        const double along_m = speed * (t < kTurns_s ? t : 2.0 * kTurns_s - t);
+        const Vector2 place(2.0 + along_m + noise(random), 1.0 + noise(random));
+        tracker.update({sighted(place, 0.25, t)}, {}, t);
+      }
+      const auto tracks = tracker.at(kTurns_s + 0.3);
+      ASSERT_EQ(tracks.size(), 1u) << speed;
+      EXPECT_EQ(tracks[0].id, 1u);
+      EXPECT_LT((tracks[0].velocity - Vector2(-speed, 0.0)).norm(), 0.6) << speed;
+    }
+  }
 }
 
 TEST(ObstacleTracker, OfDiscsThatCannotBeApartTheOlderStays) {
