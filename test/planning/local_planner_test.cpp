@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "planning/peer_discs.h"
+#include "planning/way_out.h"
 #include "planning/worlds.h"
 #include "safety/certificate.h"
 #include "safety/margin_budget.h"
@@ -30,31 +33,6 @@ void expect_same(const MotionState& a, const MotionState& b) {
   EXPECT_LT((a.velocity - b.velocity).norm(), 1e-3);
   EXPECT_LT((a.acceleration - b.acceleration).norm(), 5e-3);
   EXPECT_LT(std::abs(wrap_angle(a.pose.yaw_rad - b.pose.yaw_rad)), 1e-3);
-}
-
-/// Along x from rest to rest, with the long stretch between at an even 0.9 m/s.
-Motion long_drive(double start_s, double length_m) {
-  constexpr double kSpeed = 0.9;
-  constexpr double kRamp_s = 2.0;
-  const double whole_s = length_m / kSpeed + kRamp_s;
-  const int pieces = static_cast<int>(whole_s);
-  PlanarMinco::Knots knots = PlanarMinco::Knots::Zero(2, pieces - 1);
-  for (int k = 1; k < pieces; ++k) {
-    const double t = whole_s * k / pieces;
-    const double begun_s = std::min(t, kRamp_s);
-    const double ended_s = std::max(0.0, t - whole_s + kRamp_s);
-    knots(0, k - 1) = kSpeed * (t - begun_s + 0.5 * begun_s * begun_s / kRamp_s -
-                                0.5 * ended_s * ended_s / kRamp_s);
-  }
-  PlanarMinco::State start = PlanarMinco::State::Zero();
-  PlanarMinco::State end = PlanarMinco::State::Zero();
-  start(0, 2) = 0.3;
-  end(0, 0) = length_m;
-  end(0, 2) = -0.3;
-  PlanarMinco minco;
-  minco.resize(pieces);
-  minco.solve(start, end, knots, Eigen::VectorXd::Constant(pieces, whole_s / pieces));
-  return Motion(start_s, {DrivePhase{1, minco.curve()}});
 }
 
 class LocalPlannerTest : public ::testing::Test {
@@ -259,6 +237,72 @@ TEST_F(LocalPlannerTest, AClassIsKeptUnlessAnotherIsCheaperByTheMargin) {
   }
   EXPECT_GT(kept, 0);
   EXPECT_GT(left, 0);
+}
+
+TEST_F(LocalPlannerTest, KeepsOnWithWhatIsDrivenAndLooksForNothingElse) {
+  const LocalScene around = scene({person(planned(2.5) + Vector2(0.0, 0.1), 0.0, {0.0, 0.0})});
+  EXPECT_TRUE(planner_.keep_on(query(), around).candidates.empty()) << "nothing is driven";
+  for (const LocalCandidate& first : planner_.anew(query(), around).candidates) {
+    if (first.proof != LocalProof::kAsked) continue;
+    LocalQuery under_way = query();
+    under_way.driven = first.motion;
+    const LocalPlan kept = planner_.keep_on(under_way, around);
+    expect_sound(kept, under_way, around);
+    ASSERT_EQ(kept.candidates.size(), 1u);
+    EXPECT_FALSE(kept.switches_class);
+    const double passes_s = query().start_time_s + 2.5;
+    EXPECT_GT(kept.motion.position(passes_s).y() * first.motion.position(passes_s).y(), 0.0);
+  }
+}
+
+TEST_F(LocalPlannerTest, TriesAgainOnTheWaysThatCameToNothing) {
+  const LocalPlanner hard(WayOut::hardened(robot_), rules_);
+  int mended = 0;
+  for (double meets_s = 1.0; meets_s < 2.5; meets_s += 0.1) {
+    const LocalScene close = scene({person(planned(meets_s), 0.0, {-0.3, 0.1})});
+    const LocalPlan failed = planner_.anew(query(), close);
+    if (failed.proof != LocalProof::kNone || failed.candidates.empty()) continue;
+    const LocalPlan again = hard.again(query(), close, failed);
+    ASSERT_EQ(again.candidates.size(), failed.candidates.size());
+    for (std::size_t i = 0; i < again.candidates.size(); ++i)
+      EXPECT_EQ(again.candidates[i].signature, failed.candidates[i].signature);
+    mended += again.proof == LocalProof::kAsked;
+  }
+  EXPECT_GT(mended, 0);
+}
+
+/// What is said to be proved is held against samples, for people ever nearer who may be ever
+/// farther from where they are expected.
+TEST_F(LocalPlannerTest, TheProofSaysWhatIsKept) {
+  const MotionLimits hard = WayOut::hardened(robot_).limits;
+  std::map<LocalProof, int> seen;
+  for (double meets_s = 0.9; meets_s < 2.6; meets_s += 0.1) {
+    for (const double unsure_m : {0.05, 0.4, 0.8}) {
+      const MovingThing expected = person(planned(meets_s), meets_s, {-0.3, 0.5});
+      const auto grown =
+          std::make_shared<PredictedDisc>("person", kNow_s, expected.obstacle->at(kNow_s).centre,
+                                          Vector2(-0.3, 0.5), kPerson_m + unsure_m, 0.0);
+      const LocalScene around{open_, {thing(grown)}, {expected}};
+      const LocalPlan plan = planner_.plan(query(), around);
+      ++seen[plan.proof];
+      EXPECT_EQ(plan.reason == PlanReason::kSolved, plan.proof != LocalProof::kNone);
+      if (plan.proof == LocalProof::kNone) continue;
+      const double until_s = std::min(plan.rejoins_s, expected.until_s);
+      EXPECT_GE(sampled_gap_m(plan.motion, *expected.obstacle, until_s), keep_m_ - 1e-3);
+      const bool kept = sampled_gap_m(plan.motion, *grown, until_s) >= keep_m_ - 1e-3;
+      const auto within = [&plan](const Violation& violation) {
+        return !violation || violation.time_s >= plan.rejoins_s;
+      };
+      const double start_s = query().start_time_s;
+      const bool gentle = within(check_limits(plan.motion, robot_.limits, start_s));
+      EXPECT_TRUE(within(check_limits(plan.motion, hard, start_s)));
+      EXPECT_TRUE(plan.proof != LocalProof::kAsked || (kept && gentle));
+      EXPECT_TRUE(plan.proof != LocalProof::kLikely || gentle);
+    }
+  }
+  EXPECT_GT(seen[LocalProof::kAsked], 0);
+  EXPECT_GT(seen[LocalProof::kLikely], 0);
+  EXPECT_GT(seen[LocalProof::kNone], 0);
 }
 
 TEST_F(LocalPlannerTest, AvoidsTeamMatesOnTheirPromises) {

@@ -248,6 +248,42 @@ TEST_F(LocalReplannerTest, SequencesGoOnAfterARestart) {
   EXPECT_EQ(output.proposal->sequence, 42u);
 }
 
+TEST_F(LocalReplannerTest, AnOfferThatMeetsSomebodySoonerIsPassedOver) {
+  const auto person_at = [](const Vector2& place) {
+    return std::make_shared<PredictedDisc>("person", kNow_s, place, Vector2(0.0, 0.0), 0.25, 0.0);
+  };
+  // To the same place, but by way of somewhere else.
+  PlanarMinco::State start = PlanarMinco::State::Zero();
+  PlanarMinco::State end = PlanarMinco::State::Zero();
+  start.col(2) << 0.3, 0.0;
+  end.col(0) << 8.0, 0.0;
+  end.col(2) << -0.3, 0.0;
+  PlanarMinco minco;
+  minco.resize(2);
+  minco.solve(start, end, Vector2(4.0, 1.5), Eigen::Vector2d(6.0, 6.0));
+  const Motion detour(kNow_s + 0.5, {DrivePhase{1, minco.curve()}});
+  struct Case {
+    std::vector<Vector2> people;
+    bool keeps;
+  };
+  for (const Case& each : {Case{{}, false}, Case{{{4.0, 1.5}}, true}, Case{{{6.0, 0.0}}, false},
+                           Case{{{1.8, 1.0}, {6.5, 0.0}}, true}}) {
+    LocalReplanner replanner(robot_, rules_, default_local_rules());
+    replanner.set_committed(1, standing(kNow_s - 5.0, {0.0, 0.0}, 0.0));
+    replanner.set_plan(straight_drive(kNow_s + 0.5, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5));
+    const auto first = replanner.step(kNow_s, {kNow_s, {}, {}}, scene_);
+    ASSERT_TRUE(first.proposal);
+    replanner.set_committed(first.proposal->sequence, first.proposal->motion);
+    PromiseScene people = scene_;
+    for (const Vector2& place : each.people) people.moving.push_back(person_at(place));
+    people.predicted_until_s = kNow_s + 9.0;
+    replanner.set_plan(detour);
+    const double now_s = kNow_s + 0.6;
+    const auto output = replanner.step(now_s, state(replanner.committed(), now_s), people);
+    EXPECT_EQ(output.keeps_plan, each.keeps) << each.people.size();
+  }
+}
+
 TEST_F(LocalReplannerTest, WithoutAPlanItJustStands) {
   replanner_.set_committed(1, standing(kNow_s - 5.0, {0.0, 0.0}, 0.0));
   const auto output = step_on_track(kNow_s);

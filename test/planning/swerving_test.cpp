@@ -1,0 +1,132 @@
+#include "planning/swerving.h"
+
+#include <gtest/gtest.h>
+
+#include "planning/worlds.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kNow_s = 1.7e9;
+constexpr double kSettle_s = 0.3;
+
+class SwervingTest : public ::testing::Test {
+ protected:
+  PromiseScene scene(double now_s, double y) const {
+    PromiseScene scene{field_, unseen_};
+    scene.moving = {std::make_shared<PredictedDisc>("person", now_s, Vector2(5.2, y),
+                                                    Vector2(0.0, 0.0), 0.25, 0.0)};
+    scene.predicted_until_s = now_s + 5.0;
+    return scene;
+  }
+  PromiseScene nobody(double now_s) const {
+    PromiseScene scene{field_, unseen_};
+    scene.predicted_until_s = now_s + 5.0;
+    return scene;
+  }
+  Swerving::Situation on(const Motion& motion, double now_s) const {
+    return {now_s, now_s + kSettle_s, motion, motion, true};
+  }
+  /// Swerves around somebody who stands ahead.
+  Motion swerved() {
+    const auto plan = swerving_.around(on(ahead_, begin_s_), scene(begin_s_, 0.1));
+    EXPECT_TRUE(plan);
+    EXPECT_EQ(plan->proof, LocalProof::kAsked) << plan->message;
+    swerving_.take(begin_s_, ahead_, *plan);
+    taken_ = *plan;
+    return continued(ahead_, begin_s_, plan->motion.start_time(), plan->motion);
+  }
+
+  const RobotModel robot_ = rover();
+  Swerving swerving_{robot_, default_local_rules(), [](LocalStage) {}};
+  const OccupancyGrid open_ = free_grid({-2.0, -5.0}, {18.0, 5.0});
+  const std::shared_ptr<const DistanceField> field_ = occupied_field(open_);
+  const std::shared_ptr<const DistanceField> unseen_ = unseen_field(open_);
+  const Motion ahead_ = long_drive(kNow_s, 14.0);
+  const double begin_s_ = kNow_s + 3.0;
+  LocalPlan taken_;
+};
+
+TEST_F(SwervingTest, DoesNotTryAgainAtOnce) {
+  const Motion driven = swerved();
+  EXPECT_FALSE(swerving_.around(on(driven, begin_s_ + 0.1), scene(begin_s_, -0.1)));
+  EXPECT_TRUE(swerving_.around(on(driven, begin_s_ + 0.2), scene(begin_s_, -0.1)));
+  // That one was not taken.
+  EXPECT_FALSE(swerving_.around(on(driven, begin_s_ + 0.5), scene(begin_s_, -0.1)));
+  EXPECT_TRUE(swerving_.around(on(driven, begin_s_ + 0.6), scene(begin_s_, -0.1)));
+}
+
+TEST_F(SwervingTest, ComesBackToThePlanItLeftNotToTheSwerve) {
+  const Motion driven = swerved();
+  const double now_s = begin_s_ + 0.6;
+  // Back at the plan, the swerve would be half a second later than it has to be.
+  const auto again = swerving_.around(on(driven, now_s), scene(now_s, 0.1));
+  ASSERT_TRUE(again);
+  ASSERT_EQ(again->proof, LocalProof::kAsked) << again->message;
+  EXPECT_LT(std::abs(again->anchor.place().y()), 1e-6);
+  // The anchor is a time of the plan that was left: that is where it stands then.
+  EXPECT_LT((ahead_.position(again->anchor.plan_time_s) - again->anchor.place()).norm(), 1e-6);
+  swerving_.forget();
+  const auto within = swerving_.around(on(driven, now_s + 1.0), scene(now_s, 0.1));
+  ASSERT_TRUE(within);
+  EXPECT_LT((driven.position(within->anchor.plan_time_s) - within->anchor.place()).norm(), 1e-6);
+}
+
+TEST_F(SwervingTest, IsBackSoonerWhenNobodyIsThereAnyMore) {
+  // Who crosses slowly from the right is let pass.
+  PromiseScene crossing = scene(begin_s_, 0.0);
+  crossing.moving = {std::make_shared<PredictedDisc>("person", begin_s_, Vector2(4.2, -1.0),
+                                                     Vector2(-0.1, 0.3), 0.6, 0.0)};
+  const auto plan = swerving_.around(on(ahead_, begin_s_), crossing);
+  ASSERT_TRUE(plan);
+  ASSERT_EQ(plan->proof, LocalProof::kAsked) << plan->message;
+  ASSERT_GT(plan->delay_s, 0.4);
+  swerving_.take(begin_s_, ahead_, *plan);
+  const Motion driven = continued(ahead_, begin_s_, plan->motion.start_time(), plan->motion);
+  EXPECT_FALSE(swerving_.sooner(on(driven, begin_s_ + 0.4), nobody(begin_s_ + 0.4))) << "too soon";
+  const double now_s = begin_s_ + 0.6;
+  Swerving::Situation brakes = on(driven, now_s);
+  brakes.follows_plan = false;
+  EXPECT_FALSE(swerving_.sooner(brakes, nobody(now_s)));
+  const auto sooner = swerving_.sooner(on(driven, now_s), nobody(now_s));
+  ASSERT_TRUE(sooner);
+  EXPECT_LT(sooner->motion.end_time(), driven.end_time() - 0.2);
+  EXPECT_LT((sooner->motion.end_pose().position - ahead_.end_pose().position).norm(), 1e-4);
+  const double back_s = plan->rejoins_s + 0.1;
+  EXPECT_FALSE(swerving_.sooner(on(driven, back_s), nobody(back_s))) << "is back already";
+}
+
+TEST_F(SwervingTest, IsNotDisturbedWhileItCannotBeSooner) {
+  const Motion driven = swerved();
+  for (double later_s = 0.6; begin_s_ + later_s < taken_.rejoins_s; later_s += 0.6) {
+    const double now_s = begin_s_ + later_s;
+    EXPECT_FALSE(swerving_.sooner(on(driven, now_s), scene(now_s, 0.1))) << later_s;
+  }
+}
+
+TEST_F(SwervingTest, WhatIsHarderIsCalledAnEmergency) {
+  int harder = 0;
+  for (double apart_s = 0.8; apart_s < 2.5; apart_s += 0.1) {
+    PromiseScene close = scene(begin_s_, 0.0);
+    close.moving = {std::make_shared<PredictedDisc>("person", begin_s_,
+                                                    ahead_.position(begin_s_ + kSettle_s + apart_s),
+                                                    Vector2(-0.3, 0.1), 0.25, 0.0)};
+    Swerving swerving{robot_, default_local_rules(), [](LocalStage) {}};
+    const auto failed = swerving.around(on(ahead_, begin_s_), close);
+    ASSERT_TRUE(failed);
+    if (failed->proof != LocalProof::kNone || failed->candidates.empty()) continue;
+    const LocalPlan found = swerving.harder(on(ahead_, begin_s_), close, *failed);
+    EXPECT_GE(found.proof, LocalProof::kEmergency);
+    harder += found.proof == LocalProof::kEmergency;
+  }
+  EXPECT_GT(harder, 0);
+}
+
+TEST_F(SwervingTest, FarFromThePlanThereIsNoWayBack) {
+  const Motion stands = standing(begin_s_ - 5.0, {3.0, 3.0}, 0.0);
+  EXPECT_FALSE(swerving_.around({begin_s_, begin_s_ + kSettle_s, stands, ahead_, false},
+                                scene(begin_s_, 0.1)));
+}
+
+}  // namespace
+}  // namespace mocha
