@@ -18,21 +18,20 @@ constexpr double kEnough_m = 0.05;
 constexpr double kNoTurn_rad = 0.005;
 constexpr double kShareOfLimits = 0.95;
 
-/// Straight along the heading (direction +1) or against it, from rest to rest: the quintic (5) with
-/// neither speed nor acceleration at its ends.
+/// Straight along the heading (direction +1) or against it, from rest to rest: the cubic, which
+/// sets off with all its acceleration.
 DrivePhase straight(const Pose& from, double direction, double length_m,
                     const MotionLimits& limits) {
   const Vector2 step =
       direction * length_m * Vector2(std::cos(from.yaw_rad), std::sin(from.yaw_rad));
   PlanarPath::Piece piece = PlanarPath::Piece::Zero();
   piece.col(0) = from.position;
-  piece.col(3) = 10.0 * step;
-  piece.col(4) = -15.0 * step;
-  piece.col(5) = 6.0 * step;
-  // Its highest speed is 15/8 of the mean, its highest acceleration 10/sqrt(3) length / time^2.
-  const double duration_s = std::max(
-      1.875 * length_m / (kShareOfLimits * limits.max_speed),
-      std::sqrt(10.0 / std::sqrt(3.0) * length_m / (kShareOfLimits * limits.max_acceleration)));
+  piece.col(2) = 3.0 * step;
+  piece.col(3) = -2.0 * step;
+  // Its highest speed is 3/2 of the mean, its highest acceleration 6 length / time^2.
+  const double duration_s =
+      std::max(1.5 * length_m / (kShareOfLimits * limits.max_speed),
+               std::sqrt(6.0 * length_m / (kShareOfLimits * limits.max_acceleration)));
   return {direction > 0.0 ? 1 : -1, PlanarPath({piece}, {duration_s})};
 }
 

@@ -23,14 +23,13 @@ bool agree(const MotionState& a, const MotionState& b) {
 }  // namespace
 
 std::optional<Motion> joined(const Motion& committed, const Motion& plan, double now_s,
-                             double join_s, bool follows_plan) {
-  if (!follows_plan && !agree(committed.at(join_s), plan.at(join_s))) return std::nullopt;
+                             double join_s) {
   std::vector<Phase> onward = plan.phases_between(join_s, plan.end_time());
   if (onward.empty()) return std::nullopt;
   try {
     return continued(committed, now_s, join_s, Motion(join_s, std::move(onward)));
   } catch (const std::invalid_argument&) {
-    return std::nullopt;  // they agree by tolerance, but not closely enough for one motion
+    return std::nullopt;  // they do not meet
   }
 }
 

@@ -183,12 +183,12 @@ void LocalReplanner::stop_here(double now_s, const RobotState& measured, Output&
 
 void LocalReplanner::shorten(double now_s, const Violation& violation, const PromiseScene& scene,
                              Output& output) {
-  output.reason = violation.term == ViolatedTerm::kSeparation ? PlanReason::kPeerConflict
-                                                              : PlanReason::kBraking;
+  const bool something_moves = violation.term == ViolatedTerm::kSeparation;
+  output.reason = something_moves ? PlanReason::kPeerConflict : PlanReason::kBraking;
   output.violation = violation;
   output.message = describe(violation);
   output.request_plan = true;
-  if (const auto choice = way_out_.proved(committed_, times(now_s), scene)) {
+  if (const auto choice = way_out_.proved(committed_, times(now_s), scene, something_moves)) {
     take(now_s, *choice, output);
   } else {
     do_the_least_bad(now_s, scene, output);
@@ -296,7 +296,7 @@ void LocalReplanner::extend(double now_s, const PromiseScene& scene, double ever
   }
   const double join_s =
       committed_.switch_time(std::max(plan_.start_time(), now_s + rules_.settle_s));
-  const auto onward = joined(committed_, plan_, now_s, join_s, follows_plan_at(join_s));
+  const auto onward = joined(committed_, plan_, now_s, join_s);
   if (!onward) {
     if (swerve(now_s, scene, output)) return;
     ask_for_plan({}, "the plan does not join the promised motion any more", output);

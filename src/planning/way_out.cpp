@@ -62,7 +62,16 @@ bool WayOut::is_alone(const Motion& committed, const Times& times,
 }
 
 std::optional<WayOut::Choice> WayOut::braking(const Motion& committed, const Times& times,
-                                              const PromiseScene& scene) const {
+                                              const PromiseScene& scene, bool soon) const {
+  // Late braking leaves nothing to somebody who then comes faster than he was expected to.
+  for (const double brake_s : {times.settled_s, times.emergency_s}) {
+    Motion stop =
+        with_brake(committed, committed.cut_time(times.now_s), brake_s, builder_.deceleration());
+    if (!soon || builder_.certify(stop, scene, times.now_s)) continue;
+    const bool emergency = brake_s < times.settled_s;
+    return Choice{"brakes", emergency ? std::move(stop) : remainder(stop, brake_s), emergency,
+                  brake_s};
+  }
   const auto safe =
       builder_.longest(committed, scene, times.now_s, times.emergency_s, committed.end_time());
   if (!safe) return std::nullopt;
@@ -90,9 +99,10 @@ std::optional<WayOut::Choice> WayOut::aside(const Motion& committed, const Times
 }
 
 std::optional<WayOut::Choice> WayOut::proved(const Motion& committed, const Times& times,
-                                             const PromiseScene& scene) const {
-  if (auto choice = braking(committed, times, scene)) return choice;
-  if (auto choice = braking(committed, times, scene.most_likely())) return choice;
+                                             const PromiseScene& scene,
+                                             bool something_moves) const {
+  if (auto choice = braking(committed, times, scene, something_moves)) return choice;
+  if (auto choice = braking(committed, times, scene.most_likely(), something_moves)) return choice;
   if (auto choice = aside(committed, times, scene)) return choice;
   Motion stop = hard_stop(committed, times);
   if (builder_.certify_in_force(stop, scene, times.now_s)) return std::nullopt;

@@ -27,10 +27,11 @@ class WayOut {
 
   explicit WayOut(const RobotModel& robot);
 
-  /// To brake in time, to step aside, or to brake hard; each is proved with the confidence that is
-  /// asked for, or else on the most likely course of what moves. Nothing where none can be proved.
+  /// To brake, to step aside, or to brake hard; each is proved with the confidence that is asked
+  /// for, or else on the most likely course of what moves. Nothing where none can be proved. It
+  /// brakes at once for something that moves, and else in time.
   std::optional<Choice> proved(const Motion& committed, const Times& times,
-                               const PromiseScene& scene) const;
+                               const PromiseScene& scene, bool something_moves) const;
 
   /// To brake where need be and to step aside, proved.
   std::optional<Choice> aside(const Motion& committed, const Times& times,
@@ -54,7 +55,7 @@ class WayOut {
   std::vector<Choice> escapes(const Motion& committed, const Times& times,
                               const PromiseScene& likely) const;
   std::optional<Choice> braking(const Motion& committed, const Times& times,
-                                const PromiseScene& scene) const;
+                                const PromiseScene& scene, bool soon) const;
   std::optional<Choice> aside_in(const Motion& committed, const Times& times,
                                  const PromiseScene& scene) const;
   Motion hard_stop(const Motion& committed, const Times& times) const;

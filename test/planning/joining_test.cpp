@@ -13,7 +13,7 @@ Motion ahead(double start_s) { return straight_drive(start_s, {0.0, 0.0}, 0.0, 8
 
 TEST(Joining, GoesOverIntoAPlanThatMeetsTheMotion) {
   const Motion committed = ahead(kNow_s);
-  const auto onward = joined(committed, ahead(kNow_s), kNow_s + 1.0, kNow_s + 3.0, false);
+  const auto onward = joined(committed, ahead(kNow_s), kNow_s + 1.0, kNow_s + 3.0);
   ASSERT_TRUE(onward);
   EXPECT_EQ(onward->start_time(), kNow_s + 1.0);
   for (double t = kNow_s + 1.0; t < onward->end_time(); t += 0.1)
@@ -22,17 +22,15 @@ TEST(Joining, GoesOverIntoAPlanThatMeetsTheMotion) {
 
 TEST(Joining, NotWherePlaceOrSpeedDiffer) {
   const Motion committed = ahead(kNow_s);
-  EXPECT_FALSE(joined(committed, ahead(kNow_s + 0.2), kNow_s + 1.0, kNow_s + 3.0, false));
+  EXPECT_FALSE(joined(committed, ahead(kNow_s + 0.2), kNow_s + 1.0, kNow_s + 3.0));
   const Motion beside = straight_drive(kNow_s, {0.0, 0.05}, 0.0, 8.0, 0.9, 0.5);
-  EXPECT_FALSE(joined(committed, beside, kNow_s + 1.0, kNow_s + 3.0, false));
-  EXPECT_FALSE(joined(committed, beside, kNow_s + 1.0, kNow_s + 3.0, true))
-      << "said to be the same, but is not: no motion, and no exception either";
+  EXPECT_FALSE(joined(committed, beside, kNow_s + 1.0, kNow_s + 3.0));
 }
 
 TEST(Joining, NotIntoAPlanThatIsOver) {
   const Motion committed = ahead(kNow_s);
   const double late_s = committed.end_time() + 1.0;
-  EXPECT_FALSE(joined(committed, committed, late_s, late_s + 0.3, false));
+  EXPECT_FALSE(joined(committed, committed, late_s, late_s + 0.3));
 }
 
 TEST(Joining, APlanFromRestCanBePostponedWhereTheRobotStands) {

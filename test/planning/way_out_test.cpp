@@ -49,7 +49,7 @@ class WayOutTest : public ::testing::Test {
 TEST_F(WayOutTest, DodgesWhoComesTooFastToBrakeFor) {
   for (const double side : {-1.0, 1.0}) {
     const PromiseScene scene = with({1.9, 0.35 * side}, {-1.0, 0.0});
-    ASSERT_FALSE(way_out_.proved(ahead_, times_, scene));
+    ASSERT_FALSE(way_out_.proved(ahead_, times_, scene, true));
     const auto choice = way_out_.least_bad(ahead_, times_, scene, true);
     EXPECT_EQ(choice.what.find("dodges"), 0u) << choice.what;
     EXPECT_TRUE(choice.emergency);
