@@ -69,6 +69,17 @@ def add_replan(what):
     return replan
 
 
+def add_swerve(what):
+    swerve = what.add_parser("swerve", help="a recorded drive around what moves, as in the paper's Figs. 10 and 11",
+                             description="Writes swerve.png: the global plan, the local trajectories with their anchors, what was seen to move, "
+                             "and below the clearance over time.")
+    swerve.add_argument("bag", help="drive.bag of a demo")
+    swerve.add_argument("--world", default=os.path.join(ROOT, "config/worlds/swerve.yaml"), metavar="FILE",
+                        help="world file that was driven (default: the scene of Fig. 10)")
+    swerve.set_defaults(draw=draw_swerve)
+    return swerve
+
+
 # The imports stand in the functions, as the help needs no matplotlib.
 def draw_drive(options):
     from mocha_scripts import drive_plots
@@ -100,10 +111,16 @@ def draw_replan(options):
     replan_plots.draw_replan(options.scene, options.out)
 
 
+def draw_swerve(options):
+    from mocha_scripts import swerve_plots
+    swerve_plots.draw_swerve(options.bag, options.world, options.out)
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
     what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
-    for plots in (add_drive(what), add_table1(what), add_table2(what), add_classes(what), add_tracks(what), add_replan(what)):
+    for plots in (add_drive(what), add_table1(what), add_table2(what), add_classes(what), add_tracks(what), add_replan(what),
+                  add_swerve(what)):
         plots.add_argument("--out", default=".", metavar="DIR", help="PNG files go there (default: here)")
     options = parser.parse_args(arguments)
     os.makedirs(options.out, exist_ok=True)
