@@ -32,32 +32,21 @@ LocalReplanner::LocalReplanner(const RobotModel& robot, const LocalReplannerRule
       builder_(robot),
       way_out_(robot),
       swerving_(robot, local_rules, watch),
-      rules_(rules) {}
+      rules_(rules),
+      proposals_(rules.answer_timeout_s) {}
 
 void LocalReplanner::set_plan(Motion plan) { offered_ = std::move(plan); }
 
 void LocalReplanner::set_committed(std::uint32_t sequence, Motion motion) {
   committed_ = std::move(motion);
-  const auto source = proposed_.find(sequence);
-  committed_source_ = source == proposed_.end() ? Source{} : source->second;
-  proposed_.erase(proposed_.begin(), proposed_.upper_bound(sequence));
-  if (sequence >= sequence_) pending_until_s_ = 0.0;
-  sequence_ = std::max(sequence_, sequence);
+  committed_source_ = proposals_.settled(sequence);
 }
 
-void LocalReplanner::on_refusal(std::uint32_t sequence) {
-  proposed_.erase(sequence);
-  if (sequence == sequence_) pending_until_s_ = 0.0;
-}
+void LocalReplanner::on_refusal(std::uint32_t sequence) { proposals_.refused(sequence); }
 
-void LocalReplanner::propose(double now_s, Motion motion, bool emergency, Source source,
-                             Output& output) {
-  ++sequence_;
-  proposed_[sequence_] = source;
-  pending_until_s_ = now_s + rules_.answer_timeout_s;
-  pending_ = motion;
-  pending_brake_ = false;
-  output.proposal = ProposedMotion{sequence_, std::move(motion), emergency};
+void LocalReplanner::propose(double now_s, Motion motion, bool emergency,
+                             const PromiseSource& source, bool brakes, Output& output) {
+  output.proposal = proposals_.make(now_s, std::move(motion), emergency, source, brakes);
 }
 
 LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& state,
@@ -65,14 +54,14 @@ LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& stat
   Output output;
   // What was measured is a little old, and a fast robot is somewhere else by now.
   const RobotState measured{now_s, predict(state, now_s), state.twist};
-  const bool pending = now_s < pending_until_s_;
+  const bool pending = proposals_.pending(now_s);
   take_offer(now_s, scene, output);
   if (committed_.empty()) {
     if (!pending) start(now_s, measured, output);
     return output;
   }
   if (off_track(now_s, measured)) {
-    if (!(pending && pending_brake_)) stop_here(now_s, measured, output);
+    if (!(pending && proposals_.newest_brakes())) stop_here(now_s, measured, output);
     return output;
   }
   const Violation violation = builder_.certify_in_force(committed_, scene, now_s);
@@ -138,15 +127,16 @@ Violation LocalReplanner::conflict(const Motion& plan, double now_s, const Promi
 }
 
 bool LocalReplanner::waits_for_answer(double now_s, const PromiseScene& scene) const {
-  return now_s < pending_until_s_ &&
-         (pending_brake_ || !builder_.certify_in_force(pending_, scene, now_s));
+  return proposals_.pending(now_s) &&
+         (proposals_.newest_brakes() ||
+          !builder_.certify_in_force(proposals_.newest(), scene, now_s));
 }
 
 void LocalReplanner::start(double now_s, const RobotState& measured, Output& output) {
   const bool standing_still = std::abs(measured.twist.speed) < kStanding_mps &&
                               std::abs(measured.twist.yaw_rate) < kStanding_radps;
   if (standing_still) {
-    propose(now_s, standing(now_s + rules_.settle_s, measured.pose), false, {}, output);
+    propose(now_s, standing(now_s + rules_.settle_s, measured.pose), false, {}, false, output);
     output.message = "promises to stand";
   } else {
     stop_here(now_s, measured, output);
@@ -177,8 +167,7 @@ void LocalReplanner::stop_here(double now_s, const RobotState& measured, Output&
   }
   output.message = text.str();
   output.request_plan = true;
-  propose(now_s, stop, true, {}, output);
-  pending_brake_ = true;
+  propose(now_s, stop, true, {}, true, output);
 }
 
 void LocalReplanner::shorten(double now_s, const Violation& violation, const PromiseScene& scene,
@@ -204,9 +193,8 @@ void LocalReplanner::take(double now_s, const WayOut::Choice& choice, Output& ou
   output.message += "; " + choice.what;
   const double follows_until_s =
       std::min(committed_source_.follows_until_s, choice.follows_until_s);
-  propose(now_s, choice.motion, choice.emergency, {committed_source_.plan, follows_until_s},
+  propose(now_s, choice.motion, choice.emergency, {committed_source_.plan, follows_until_s}, true,
           output);
-  pending_brake_ = true;
 }
 
 bool LocalReplanner::under_way() const {
@@ -278,7 +266,7 @@ bool LocalReplanner::adopt(double now_s, const PromiseScene& scene, Output& outp
   ++plan_id_;
   squeezes_ = squeezes;
   propose(now_s, remainder(promise->motion, join_s), false, {plan_id_, promise->follows_until_s},
-          output);
+          false, output);
   output.swerves = true;
   return true;
 }
@@ -321,7 +309,7 @@ void LocalReplanner::extend(double now_s, const PromiseScene& scene, double ever
   }
   if (nowhere) return;
   propose(now_s, remainder(promise->motion, join_s), false, {plan_id_, promise->follows_until_s},
-          output);
+          false, output);
 }
 
 void LocalReplanner::ask_for_plan(const Violation& violation, const std::string& why,

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 
 #include "control/robot_state.h"
 #include "planning/promise_builder.h"
+#include "planning/proposals.h"
 #include "planning/swerving.h"
 #include "planning/way_out.h"
 
@@ -22,14 +22,6 @@ struct LocalReplannerRules {
   double max_error_m;       ///< actual against promised position
   double max_error_rad;     ///< the same for the heading
   double mu_pre_s;          ///< (37): so far ahead the plan is held against what moves
-};
-
-/// A motion to take over from the one in force at its start time once it is settled with the peers,
-/// or at once.
-struct ProposedMotion {
-  std::uint32_t sequence;
-  Motion motion;
-  bool emergency;
 };
 
 /// Turns plans into promises: proposes certified motions that follow the newest plan, keeps the
@@ -73,12 +65,6 @@ class LocalReplanner {
   int least_bad() const { return least_bad_; }
 
  private:
-  /// What a promise was made from.
-  struct Source {
-    std::uint32_t plan = 0;  ///< 0: none
-    double follows_until_s = 0.0;
-  };
-
   void take_offer(double now_s, const PromiseScene& scene, Output& output);
   /// The plan leads farther than what is in force.
   bool under_way() const;
@@ -104,7 +90,8 @@ class LocalReplanner {
   /// Promises more of the plan once `every_s` of the horizon is used up.
   void extend(double now_s, const PromiseScene& scene, double every_s, Output& output);
   static void ask_for_plan(const Violation& violation, const std::string& why, Output& output);
-  void propose(double now_s, Motion motion, bool emergency, Source source, Output& output);
+  void propose(double now_s, Motion motion, bool emergency, const PromiseSource& source,
+               bool brakes, Output& output);
 
   bool follows_plan_at(double t) const {
     return committed_source_.plan == plan_id_ && committed_source_.follows_until_s >= t;
@@ -120,12 +107,8 @@ class LocalReplanner {
   std::uint32_t plan_id_ = 0;
   bool squeezes_ = false;  // the plan keeps clear of the most likely course only
   Motion committed_;
-  Source committed_source_;
-  std::uint32_t sequence_ = 0;
-  std::map<std::uint32_t, Source> proposed_;  // by sequence, until answered
-  double pending_until_s_ = 0.0;
-  Motion pending_;
-  bool pending_brake_ = false;  // what is pending brakes for a violation
+  PromiseSource committed_source_;
+  Proposals proposals_;
   int least_bad_ = 0;
 };
 
