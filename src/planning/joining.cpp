@@ -24,12 +24,12 @@ bool agree(const MotionState& a, const MotionState& b) {
 
 std::optional<Motion> joined(const Motion& committed, const Motion& plan, double now_s,
                              double join_s) {
-  std::vector<Phase> onward = plan.phases_between(join_s, plan.end_time());
-  if (onward.empty()) return std::nullopt;
   try {
+    std::vector<Phase> onward = plan.phases_between(join_s, plan.end_time());
+    if (onward.empty()) return std::nullopt;
     return continued(committed, now_s, join_s, Motion(join_s, std::move(onward)));
   } catch (const std::invalid_argument&) {
-    return std::nullopt;  // they do not meet
+    return std::nullopt;  // they do not meet, or the plan is in the midst of a turn in place
   }
 }
 

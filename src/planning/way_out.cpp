@@ -16,7 +16,7 @@ namespace {
 constexpr double kWorthwhile_m = 0.02;  // of room, for which stepping aside is worth while
 constexpr double kEnough_m = 0.05;      // of room; of what has it, the one soonest done is the best
 // So far ahead an escape looks: who steps straight back is met again soon, who steps aside is not.
-constexpr double kForeseen_s = 8.0;
+constexpr double kForeseen_s = 15.0;
 constexpr double kBrakingOvershoot = 1.15;  // of a braking motion over its deceleration
 constexpr double kAlone_m = 5.0;  // what two robots drive towards each other in a few seconds
 
@@ -63,14 +63,16 @@ bool WayOut::is_alone(const Motion& committed, const Times& times,
 
 std::optional<WayOut::Choice> WayOut::braking(const Motion& committed, const Times& times,
                                               const PromiseScene& scene, bool soon) const {
-  // Late braking leaves nothing to somebody who then comes faster than he was expected to.
-  for (const double brake_s : {times.settled_s, times.emergency_s}) {
+  if (soon) {
+    // Late braking leaves nothing to somebody who then comes faster than he was expected to.
+    const bool emergency = is_alone(committed, times, scene);
+    const double brake_s = emergency ? times.emergency_s : times.settled_s;
     Motion stop =
         with_brake(committed, committed.cut_time(times.now_s), brake_s, builder_.deceleration());
-    if (!soon || builder_.certify(stop, scene, times.now_s)) continue;
-    const bool emergency = brake_s < times.settled_s;
-    return Choice{"brakes", emergency ? std::move(stop) : remainder(stop, brake_s), emergency,
-                  brake_s};
+    if (!builder_.certify(stop, scene, times.now_s)) {
+      if (!emergency) stop = remainder(stop, brake_s);
+      return Choice{"brakes", std::move(stop), emergency, brake_s};
+    }
   }
   const auto safe =
       builder_.longest(committed, scene, times.now_s, times.emergency_s, committed.end_time());

@@ -27,6 +27,14 @@ TEST(Joining, NotWherePlaceOrSpeedDiffer) {
   EXPECT_FALSE(joined(committed, beside, kNow_s + 1.0, kNow_s + 3.0));
 }
 
+TEST(Joining, NotIntoATurnInPlace) {
+  const Pose here{{0.0, 0.0}, 0.0};
+  const Motion turn(kNow_s, {TurnPhase{here, 1.5, 3.0}});
+  const Motion stands = standing(kNow_s - 5.0, here.position, here.yaw_rad);
+  EXPECT_FALSE(joined(stands, turn, kNow_s + 0.7, kNow_s + 1.0));
+  EXPECT_TRUE(joined(stands, turn, kNow_s - 0.3, kNow_s));
+}
+
 TEST(Joining, NotIntoAPlanThatIsOver) {
   const Motion committed = ahead(kNow_s);
   const double late_s = committed.end_time() + 1.0;
