@@ -14,7 +14,7 @@ namespace mocha {
 enum class PromiseState : std::uint8_t {
   kProposed = 1,   ///< offered; not binding yet
   kCommitted = 2,  ///< binding: the robot drives this and nothing else
-  kEmergency = 3,  ///< binding at once, without settling: a braking motion
+  kEmergency = 3,  ///< binding at once, without settling: braking, or dodging
   kWithdrawn = 4,  ///< the proposal of this number is void
 };
 

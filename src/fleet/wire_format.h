@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "fleet/promise.h"
+
+namespace mocha {
+
+// Promises and heartbeats as bytes on the network: LCM messages (lcm/datagram_t.lcm) of one
+// datagram each. Numbers are quantised: times to 1 us, places to 0.01 mm, headings, speeds and
+// accelerations to 1e-5 rad, m/s and m/s^2, radii to 1 mm (up). So that all robots hold the same
+// motion, the one that promises drives quantised(), too.
+
+/// Of everything below; others are refused.
+constexpr int kWireVersion = 1;
+
+/// What a datagram holds at most, LCM's own header with a channel of up to 15 characters included:
+/// larger ones would be cut into fragments, each of which may get lost.
+constexpr std::size_t kMostDatagramBytes = 1400;
+
+using FleetMessage = std::variant<Promise, Beat>;
+
+/// Throws std::invalid_argument, saying what is wrong, for what is none of validate()'s promises,
+/// for numbers out of range (places beyond 21 km), and for what does not fit into one datagram.
+std::vector<std::uint8_t> encode(const Promise& promise);
+std::vector<std::uint8_t> encode(const Beat& beat);
+
+/// The message in these bytes. Throws std::invalid_argument, saying what is wrong, for whatever
+/// encode() did not make, or may have come to harm on the way: it takes no more time and memory
+/// for them than for a message of their size.
+FleetMessage decode(const std::uint8_t* data, std::size_t size);
+
+/// What everybody else makes of a promise. Throws as encode() does, and where the quantised motion
+/// is none any more. encode() of it gives the same bytes again.
+Promise quantised(const Promise& promise);
+
+/// Whether a motion fits into one datagram as a promise of a robot of that name.
+bool fits(const std::string& agent, const Motion& motion);
+
+}  // namespace mocha
