@@ -100,7 +100,7 @@ void put_phase(ByteWriter& out, const PhaseDescriptor& phase) {
     if (phase.kind == PhaseDescriptor::Kind::kTurn)
       put_number<std::int32_t>(out, phase.yaw_change_rad, kFine, "a turn");
   } else {
-    out.put(static_cast<std::int8_t>(phase.direction));
+    out.put(static_cast<std::uint8_t>(phase.direction > 0));
     out.put(count_of(phase.durations_s.size(), "pieces"));
     for (const auto* ends : {&phase.start_derivatives, &phase.end_derivatives}) {
       for (int i = 0; i < 4; ++i) put_number<std::int32_t>(out, (*ends)(i), kFine, "a derivative");
@@ -123,7 +123,9 @@ PhaseDescriptor get_phase(ByteReader& in) {
     if (phase.kind == PhaseDescriptor::Kind::kTurn)
       phase.yaw_change_rad = get_number<std::int32_t>(in, kFine);
   } else {
-    phase.direction = in.get<std::int8_t>();
+    const auto forward = in.get<std::uint8_t>();
+    require(forward <= 1, "a drive's direction is neither 1 nor 0");
+    phase.direction = forward == 1 ? 1 : -1;
     pieces = in.get<std::uint8_t>();
     points = pieces + 1;
     for (auto* ends : {&phase.start_derivatives, &phase.end_derivatives}) {
@@ -235,7 +237,7 @@ std::vector<std::uint8_t> encode(const Beat& beat) {
 
 FleetMessage decode(const std::uint8_t* data, std::size_t size) {
   require(size >= kFrame && size <= kMostDatagramBytes, "no datagram has so many bytes");
-  require(kFrame + 256U * data[9] + data[10] == size, "its size is not what it says");
+  require(kFrame + std::size_t{256} * data[9] + data[10] == size, "its size is not what it says");
   mocha_lcm::datagram_t message;
   require(message.decode(data, 0, static_cast<int>(size)) == static_cast<int>(size),
           "is no datagram of this package");

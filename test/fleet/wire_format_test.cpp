@@ -33,8 +33,9 @@ Motion varied(std::mt19937& random, double start_s) {
     course_rad += 0.6 * unit(random);
     points.push_back(points.back() + 0.6 * Vector2(std::cos(course_rad), std::sin(course_rad)));
   }
-  const Motion first = test::drive(start_s, points, 0.9);
-  const auto& drive = std::get<DrivePhase>(first.phases().front());
+  DrivePhase drive = std::get<DrivePhase>(test::drive(start_s, points, 0.9).phases().front());
+  drive.direction = unit(random) > 0.0 ? 1 : -1;
+  const Motion first(start_s, {drive});
   Pose begin{first.at(start_s).pose};
   Pose end{first.end_pose()};
   const double before = unit(random);
