@@ -261,9 +261,16 @@ Promise quantised(const Promise& promise) {
   return std::get<Promise>(decode(bytes.data(), bytes.size()));
 }
 
-bool fits(const std::string& agent, const Motion& motion) {
+Motion quantised(const Motion& motion) {
+  ByteWriter out;
+  put_motion(out, motion);
+  ByteReader in(out.bytes().data(), out.bytes().size());
+  return *get_motion(in);
+}
+
+bool fits(const Motion& motion) {
   Promise promise;
-  promise.agent = agent;
+  promise.agent = std::string(kMostName, 'x');
   ByteWriter body;
   put_head(body, promise);
   put_motion(body, motion);

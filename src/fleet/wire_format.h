@@ -37,7 +37,10 @@ FleetMessage decode(const std::uint8_t* data, std::size_t size);
 /// is none any more. encode() of it gives the same bytes again.
 Promise quantised(const Promise& promise);
 
-/// Whether a motion fits into one datagram as a promise of a robot of that name.
-bool fits(const std::string& agent, const Motion& motion);
+/// The same for the motion alone.
+Motion quantised(const Motion& motion);
+
+/// Whether a motion fits into one datagram, whatever the robot's name.
+bool fits(const Motion& motion);
 
 }  // namespace mocha

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "fleet/wire_format.h"
 #include "planning/conflict.h"
 #include "planning/joining.h"
 #include "trajectory/stopping.h"
@@ -46,7 +47,12 @@ void LocalReplanner::on_refusal(std::uint32_t sequence) { proposals_.refused(seq
 
 void LocalReplanner::propose(double now_s, Motion motion, bool emergency,
                              const PromiseSource& source, bool brakes, Output& output) {
-  output.proposal = proposals_.make(now_s, std::move(motion), emergency, source, brakes);
+  try {
+    output.proposal = proposals_.make(now_s, quantised(motion), emergency, source, brakes);
+  } catch (const std::invalid_argument& error) {
+    output.reason = PlanReason::kInvalidInput;
+    output.message = std::string("cannot be said to the others: ") + error.what();
+  }
 }
 
 LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& state,

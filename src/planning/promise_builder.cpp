@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "fleet/wire_format.h"
 #include "planning/escape_proof.h"
 #include "planning/peer_discs.h"
 #include "trajectory/stopping.h"
@@ -110,14 +111,14 @@ std::optional<CertifiedMotion> PromiseBuilder::longest(const Motion& motion,
   double brake_s = latest_s;
   if (motion.end_time() <= latest_s) {
     const Motion whole = remainder(motion, begin_s);
-    if (!obstacle) return CertifiedMotion{whole, motion.end_time(), {}};
+    if (!obstacle && fits(whole)) return CertifiedMotion{whole, motion.end_time(), {}};
     brake_s = motion.end_time();
   }
   if (obstacle) brake_s = std::min(brake_s, obstacle.time_s);
   for (;; brake_s -= kStep_s) {
     brake_s = std::max(brake_s, earliest_s);
     const Motion cut = with_brake(motion, begin_s, brake_s, deceleration());
-    if (!certify(cut, scene, from_s)) return CertifiedMotion{cut, brake_s, obstacle};
+    if (!certify(cut, scene, from_s) && fits(cut)) return CertifiedMotion{cut, brake_s, obstacle};
     if (brake_s <= earliest_s) return std::nullopt;
   }
 }

@@ -59,9 +59,9 @@ class PromiseBuilder {
   /// course, as they change their minds.
   Violation certify_in_force(const Motion& motion, const PromiseScene& scene, double from_s) const;
 
-  /// The longest part of `motion` from `from_s` on that may be promised when braking begins no
-  /// earlier than `earliest_s` and no later than `latest_s`. Nothing if even braking at
-  /// `earliest_s` is not certified.
+  /// The longest part of `motion` from `from_s` on that may be promised, and fits into one
+  /// datagram, when braking begins no earlier than `earliest_s` and no later than `latest_s`.
+  /// Nothing if even braking at `earliest_s` is not certified.
   std::optional<CertifiedMotion> longest(const Motion& motion, const PromiseScene& scene,
                                          double from_s, double earliest_s, double latest_s) const;
 

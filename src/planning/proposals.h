@@ -8,7 +8,7 @@
 namespace mocha {
 
 /// A motion to take over from the one in force at its start time once it is settled with the peers,
-/// or at once.
+/// or at once. It is rounded as all others will hear it.
 struct ProposedMotion {
   std::uint32_t sequence;
   Motion motion;

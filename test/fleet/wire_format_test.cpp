@@ -98,6 +98,9 @@ TEST(WireFormat, WhatWasDecodedIsTheSameForEverybodyAndForEver) {
     const Promise again = std::get<Promise>(decoded(bytes));
     for (double t = kNow_s; t < driven.motion->end_time(); t += 0.1)
       EXPECT_EQ(again.motion->position(t), driven.motion->position(t));
+    const Motion alone = quantised(*sent.motion);
+    EXPECT_EQ(alone.start_time(), driven.motion->start_time());
+    EXPECT_EQ(alone.position(kNow_s + 5.0), driven.motion->position(kNow_s + 5.0));
   }
 }
 
@@ -120,10 +123,10 @@ TEST(WireFormat, TenSecondsOfDriveFitIntoOneDatagram) {
   std::vector<Vector2> points = {Vector2::Zero()};
   const auto longer = [&] { points.push_back(points.back() + Vector2(0.3, 0.1 * unit(random))); };
   for (int i = 0; i < 50; ++i) longer();
-  EXPECT_TRUE(fits("ugv1", test::drive(kNow_s, points, 1.0)));  // pieces of 0.5 s
+  EXPECT_TRUE(fits(test::drive(kNow_s, points, 1.0)));  // pieces of 0.5 s
   EXPECT_LE(encode(promise_of(test::drive(kNow_s, points, 1.0))).size(), kMostDatagramBytes);
   while (points.size() < 130) longer();
-  EXPECT_FALSE(fits("ugv1", test::drive(kNow_s, points, 1.0)));
+  EXPECT_FALSE(fits(test::drive(kNow_s, points, 1.0)));
   EXPECT_THROW(encode(promise_of(test::drive(kNow_s, points, 1.0))), std::invalid_argument);
 }
 

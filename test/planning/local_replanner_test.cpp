@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fleet/wire_format.h"
 #include "planning/closed_loop.h"
 
 namespace mocha {
@@ -124,7 +125,7 @@ TEST_F(LocalReplannerTest, OffItsTrackItBrakesFromWhereItIs) {
   ASSERT_TRUE(output.proposal);
   EXPECT_TRUE(output.proposal->emergency);
   const MotionState begin = output.proposal->motion.at(now_s);
-  EXPECT_LT((begin.pose.position - off.pose.position).norm(), 1e-6);
+  EXPECT_LT((begin.pose.position - off.pose.position).norm(), 1e-5);
   EXPECT_NEAR(begin.speed, 0.9, 0.02);
   EXPECT_NE(output.message.find(" m off "), std::string::npos) << output.message;
   RobotState turned = state(ahead_, now_s + 0.1);
@@ -150,6 +151,17 @@ TEST_F(LocalReplannerTest, ProposesAPlanThatJoins) {
   EXPECT_GT(output.proposal->motion.end_pose().position.x(), 1.5);  // the horizon
   EXPECT_LT(output.proposal->motion.end_pose().position.x(), 7.0);
   EXPECT_FALSE(output.request_plan);
+}
+
+TEST_F(LocalReplannerTest, ProposesWhatTheOthersWillHold) {
+  replanner_.set_committed(1, standing(kNow_s - 5.0, {0.0, 0.0}, 0.0));
+  replanner_.set_plan(straight_drive(kNow_s + 0.5, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5));
+  const auto output = step_on_track(kNow_s);
+  ASSERT_TRUE(output.proposal);
+  const Motion& motion = output.proposal->motion;
+  const Motion heard = quantised(motion);
+  for (double t = motion.start_time(); t < motion.end_time(); t += 0.1)
+    EXPECT_EQ(heard.position(t), motion.position(t));
 }
 
 TEST_F(LocalReplannerTest, APlanThatIsNearIsComeBackTo) {

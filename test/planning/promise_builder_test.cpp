@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fleet/wire_format.h"
 #include "planning/worlds.h"
 #include "trajectory/stopping.h"
 
@@ -47,6 +48,31 @@ TEST_F(PromiseBuilderTest, PromisesAllOfAShortMotion) {
   EXPECT_FALSE(promise->cut_by);
   EXPECT_LT((end(*promise) - Vector2(8.0, 0.0)).norm(), 1e-9);
   expect_promise(*promise, scene(open_), kStart_s);
+}
+
+TEST_F(PromiseBuilderTest, PromisesNoMoreThanADatagramHolds) {
+  const auto& whole = std::get<DrivePhase>(ahead_.phases().front()).path;
+  constexpr int kPieces = 200;
+  PlanarMinco minco;
+  minco.resize(kPieces);
+  PlanarMinco::Knots knots(2, kPieces - 1);
+  const double piece_s = whole.duration() / kPieces;
+  for (int k = 1; k < kPieces; ++k) knots.col(k - 1) = whole.derivative(k * piece_s, 0);
+  PlanarMinco::State start;
+  PlanarMinco::State end;
+  for (int order = 0; order < 3; ++order) {
+    start.col(order) = whole.derivative(0.0, order);
+    end.col(order) = whole.derivative(whole.duration(), order);
+  }
+  minco.solve(start, end, knots, Eigen::VectorXd::Constant(kPieces, piece_s));
+  const Motion fine(kStart_s, {DrivePhase{1, minco.curve()}});
+  ASSERT_FALSE(fits(fine));
+  const auto promise =
+      builder_.longest(fine, scene(open_), kStart_s, kStart_s + 0.3, kStart_s + 60.0);
+  ASSERT_TRUE(promise);
+  EXPECT_TRUE(fits(promise->motion));
+  EXPECT_GT(promise->follows_until_s, kStart_s + 2.0);
+  EXPECT_LT(promise->follows_until_s, fine.end_time());
 }
 
 TEST_F(PromiseBuilderTest, CutsAtTheHorizonAndBrakes) {
