@@ -54,19 +54,23 @@ double get_time(ByteReader& in) {
   return static_cast<double>(count) / kTimes;
 }
 
-void put_name(ByteWriter& out, const std::string& name) {
-  require(!name.empty() && name.size() <= kMostName, "a name has no or more than 63 characters");
-  out.put_text(name);
-}
-
-std::string get_name(ByteReader& in) {
-  std::string name = in.get_text();
+void check_name(const std::string& name) {
   require(!name.empty() && name.size() <= kMostName, "a name has no or more than 63 characters");
   const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '/';
   });
   require(plain, "a name has characters that names of robots do not have");
+}
+
+void put_name(ByteWriter& out, const std::string& name) {
+  check_name(name);
+  out.put_text(name);
+}
+
+std::string get_name(ByteReader& in) {
+  std::string name = in.get_text();
+  check_name(name);
   return name;
 }
 
@@ -83,17 +87,31 @@ PromiseState get_state(ByteReader& in) {
   return static_cast<PromiseState>(state);
 }
 
-void put_place(ByteWriter& out, const Vector2& place) {
-  put_number<std::int32_t>(out, place.x(), kPlaces, "x");
-  put_number<std::int32_t>(out, place.y(), kPlaces, "y");
+/// Counted from the beginning of the motion, which may be far from the origin of the map.
+struct Counts {
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+};
+
+Counts counts_of(const Vector2& place) {
+  const Vector2 counts = kPlaces * place;
+  require(counts.cwiseAbs().maxCoeff() < kMostCount / 2.0, "a place is out of range");
+  return {std::llround(counts.x()), std::llround(counts.y())};
 }
 
-Vector2 get_place(ByteReader& in) {
-  const double x = get_number<std::int32_t>(in, kPlaces);
-  return {x, get_number<std::int32_t>(in, kPlaces)};
+void put_place(ByteWriter& out, const Vector2& place, const Counts& origin) {
+  const Counts counts = counts_of(place);
+  put_number<std::int32_t>(out, static_cast<double>(counts.x - origin.x), 1.0, "x");
+  put_number<std::int32_t>(out, static_cast<double>(counts.y - origin.y), 1.0, "y");
 }
 
-void put_phase(ByteWriter& out, const PhaseDescriptor& phase) {
+Vector2 get_place(ByteReader& in, const Counts& origin) {
+  const std::int64_t x = origin.x + in.get<std::int32_t>();
+  const std::int64_t y = origin.y + in.get<std::int32_t>();
+  return Vector2(static_cast<double>(x), static_cast<double>(y)) / kPlaces;
+}
+
+void put_phase(ByteWriter& out, const PhaseDescriptor& phase, const Counts& origin) {
   out.put(static_cast<std::uint8_t>(phase.kind));
   if (phase.kind != PhaseDescriptor::Kind::kDrive) {
     put_number<std::int32_t>(out, phase.yaw_start_rad, kFine, "a heading");
@@ -108,10 +126,10 @@ void put_phase(ByteWriter& out, const PhaseDescriptor& phase) {
   }
   for (const double duration_s : phase.durations_s)
     put_number<std::uint32_t>(out, duration_s, kTimes, "a duration");
-  for (const Vector2& point : phase.points) put_place(out, point);
+  for (const Vector2& point : phase.points) put_place(out, point, origin);
 }
 
-PhaseDescriptor get_phase(ByteReader& in) {
+PhaseDescriptor get_phase(ByteReader& in, const Counts& origin) {
   PhaseDescriptor phase;
   const auto kind = in.get<std::uint8_t>();
   require(kind <= static_cast<int>(PhaseDescriptor::Kind::kStand), "a phase is of no known kind");
@@ -134,22 +152,29 @@ PhaseDescriptor get_phase(ByteReader& in) {
   }
   for (std::size_t i = 0; i < pieces; ++i)
     phase.durations_s.push_back(get_number<std::uint32_t>(in, kTimes));
-  for (std::size_t i = 0; i < points; ++i) phase.points.push_back(get_place(in));
+  for (std::size_t i = 0; i < points; ++i) phase.points.push_back(get_place(in, origin));
   return phase;
 }
 
 void put_motion(ByteWriter& out, const Motion& motion) {
+  require(!motion.empty(), "there is no motion");
   const MotionDescriptor descriptor = describe(motion);
   put_number<std::int64_t>(out, descriptor.start_time_s, kTimes, "the start");
   out.put(count_of(descriptor.phases.size(), "phases"));
-  for (const PhaseDescriptor& phase : descriptor.phases) put_phase(out, phase);
+  const Counts origin = counts_of(descriptor.phases.front().points.front());
+  out.put(origin.x);
+  out.put(origin.y);
+  for (const PhaseDescriptor& phase : descriptor.phases) put_phase(out, phase, origin);
 }
 
 std::shared_ptr<const Motion> get_motion(ByteReader& in) {
   MotionDescriptor descriptor;
   descriptor.start_time_s = get_time(in);
   const std::size_t phases = in.get<std::uint8_t>();
-  for (std::size_t i = 0; i < phases; ++i) descriptor.phases.push_back(get_phase(in));
+  const Counts origin{in.get<std::int64_t>(), in.get<std::int64_t>()};
+  for (const std::int64_t count : {origin.x, origin.y})
+    require(std::abs(static_cast<double>(count)) < kMostCount / 2.0, "a place is out of range");
+  for (std::size_t i = 0; i < phases; ++i) descriptor.phases.push_back(get_phase(in, origin));
   return std::make_shared<const Motion>(rebuild(descriptor));
 }
 
@@ -272,8 +297,12 @@ bool fits(const Motion& motion) {
   Promise promise;
   promise.agent = std::string(kMostName, 'x');
   ByteWriter body;
-  put_head(body, promise);
-  put_motion(body, motion);
+  try {
+    put_head(body, promise);
+    put_motion(body, motion);
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
   return body.bytes().size() + kFrame + kLcmHeader <= kMostDatagramBytes;
 }
 

@@ -24,7 +24,8 @@ constexpr std::size_t kMostDatagramBytes = 1400;
 using FleetMessage = std::variant<Promise, Beat>;
 
 /// Throws std::invalid_argument, saying what is wrong, for what is none of validate()'s promises,
-/// for numbers out of range (places beyond 21 km), and for what does not fit into one datagram.
+/// for numbers out of range (a motion of more than 21 km), and for what does not fit into one
+/// datagram.
 std::vector<std::uint8_t> encode(const Promise& promise);
 std::vector<std::uint8_t> encode(const Beat& beat);
 
@@ -40,7 +41,7 @@ Promise quantised(const Promise& promise);
 /// The same for the motion alone.
 Motion quantised(const Motion& motion);
 
-/// Whether a motion fits into one datagram, whatever the robot's name.
+/// Whether a motion can be said in one datagram, whatever the robot's name.
 bool fits(const Motion& motion);
 
 }  // namespace mocha

@@ -230,13 +230,13 @@ Swerving::Situation LocalReplanner::situation(double now_s) const {
 }
 
 bool LocalReplanner::swerve(double now_s, const PromiseScene& scene, Output& output) {
-  const auto found = swerving_.around(situation(now_s), scene);
-  if (!found) return false;
-  output.local = found;
-  if (found->proof > LocalProof::kLikely || !adopt(now_s, scene, output)) return false;
+  output.local = swerving_.around(situation(now_s), scene);
+  if (!output.local) return false;
+  const LocalPlan& found = *output.local;
+  if (found.proof > LocalProof::kLikely || !adopt(now_s, scene, output)) return false;
   output.message = "swerves";
-  if (found->late || found->beyond)
-    ask_for_plan(found->beyond, found->late ? "the swerve takes long" : describe(found->beyond),
+  if (found.late || found.beyond)
+    ask_for_plan(found.beyond, found.late ? "the swerve takes long" : describe(found.beyond),
                  output);
   return true;
 }
@@ -273,8 +273,8 @@ bool LocalReplanner::adopt(double now_s, const PromiseScene& scene, Output& outp
   squeezes_ = squeezes;
   propose(now_s, remainder(promise->motion, join_s), false, {plan_id_, promise->follows_until_s},
           false, output);
-  output.swerves = true;
-  return true;
+  output.swerves = output.proposal.has_value();
+  return output.swerves;
 }
 
 void LocalReplanner::extend(double now_s, const PromiseScene& scene, double every_s,

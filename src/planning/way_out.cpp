@@ -111,7 +111,7 @@ std::optional<WayOut::Choice> WayOut::proved(const Motion& committed, const Time
   return Choice{"brakes hard", std::move(stop), true, 0.0};
 }
 
-/// All that is left but braking and going on, the most promising first.
+/// All that is left but braking and going on.
 std::vector<WayOut::Choice> WayOut::escapes(const Motion& committed, const Times& times,
                                             const PromiseScene& likely) const {
   std::vector<Choice> choices;

@@ -104,6 +104,19 @@ TEST(WireFormat, WhatWasDecodedIsTheSameForEverybodyAndForEver) {
   }
 }
 
+/// As where the map has the coordinates of a country.
+TEST(WireFormat, TheMapMayBeginFarAway) {
+  const Vector2 here(567890.12, 5432109.87);
+  const Motion sent =
+      test::drive(kNow_s, {here, here + Vector2(1.0, 0.3), here + Vector2(2.0, 0.0)}, 1.0);
+  ASSERT_TRUE(fits(sent));
+  const Motion heard = quantised(sent);
+  for (double t = kNow_s; t < sent.end_time(); t += 0.1)
+    EXPECT_LT((heard.position(t) - sent.position(t)).norm(), kSameMotion_m);
+  const Promise driven = quantised(promise_of(sent));
+  EXPECT_EQ(encode(driven), encode(promise_of(sent)));
+}
+
 TEST(WireFormat, GivesBackBeatsAndWithdrawals) {
   const Beat heard = std::get<Beat>(decoded(encode(beat())));
   EXPECT_EQ(heard.agent, "ugv1");
@@ -131,9 +144,15 @@ TEST(WireFormat, TenSecondsOfDriveFitIntoOneDatagram) {
 }
 
 TEST(WireFormat, RefusesWhatCannotBeSaid) {
-  EXPECT_THROW(encode(promise_of(test::stand(kNow_s, {3e4, 0.0}))), std::invalid_argument);
+  const Motion far = test::drive(kNow_s, {{0.0, 0.0}, {3e4, 0.0}}, 20.0);
+  EXPECT_FALSE(fits(far));
+  EXPECT_THROW(encode(promise_of(far)), std::invalid_argument);
+  EXPECT_FALSE(fits(test::stand(kNow_s, {1e12, 0.0})));
+  EXPECT_FALSE(fits(Motion()));
   EXPECT_THROW(encode(promise_of(test::stand(1e11, {0.0, 0.0}))), std::invalid_argument);
   Promise nameless = promise_of(test::stand(kNow_s, {0.0, 0.0}));
+  nameless.agent = "two words";
+  EXPECT_THROW(encode(nameless), std::invalid_argument);
   nameless.agent = std::string(64, 'a');
   EXPECT_THROW(encode(nameless), std::invalid_argument);
   Beat timeless = beat();
