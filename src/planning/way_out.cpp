@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kWorthwhile_m = 0.02;  // of room, for which stepping aside is worth while
 constexpr double kEnough_m = 0.05;      // of room; of what has it, the one soonest done is the best
-// So far ahead an escape looks: who steps straight back is met again soon, who steps aside is not.
+// So far ahead an escape looks at who is in the way: to step straight back is to be met again soon,
+// to step aside is not.
 constexpr double kForeseen_s = 15.0;
 constexpr double kBrakingOvershoot = 1.15;  // of a braking motion over its deceleration
 constexpr double kAlone_m = 5.0;  // what two robots drive towards each other in a few seconds
@@ -46,10 +47,24 @@ std::vector<Motion> WayOut::evasions_from(const Motion& committed, double start_
                                           const PromiseScene& scene) const {
   const double clear_m =
       robot.footprint.circumscribed_radius_m() + MarginBudget::of(robot).static_margin_m();
-  return evasions(
-      committed, start_time_s, deceleration, robot,
-      {*scene.obstacles, clear_m, foreseen(builder_.kept_from(scene, start_time_s, 1.0)),
-       start_time_s + kForeseen_s});
+  return evasions(committed, start_time_s, deceleration, robot,
+                  {*scene.obstacles, clear_m, looked_at(committed, start_time_s, scene),
+                   start_time_s + kForeseen_s});
+}
+
+std::vector<MovingThing> WayOut::looked_at(const Motion& committed, double from_s,
+                                           const PromiseScene& scene) const {
+  const Motion stop =
+      with_brake(committed, committed.cut_time(from_s), from_s, builder_.hard_deceleration());
+  std::vector<MovingThing> things = builder_.kept_from(scene, from_s, 1.0);
+  const std::vector<MovingThing> for_good = foreseen(things);
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    const auto meets = [&](const Motion& motion) {
+      return least_room_m(motion, {things[i]}, from_s, scene.predicted_until_s, 0.0) < 0.0;
+    };
+    if (meets(committed) || meets(stop)) things[i] = for_good[i];
+  }
+  return things;
 }
 
 /// No team-mate is so near that it could be about to promise, unheard yet, what an emergency takes.
@@ -134,7 +149,7 @@ std::vector<WayOut::Choice> WayOut::escapes(const Motion& committed, const Times
 WayOut::Choice WayOut::least_bad(const Motion& committed, const Times& times,
                                  const PromiseScene& scene, bool something_moves) const {
   const PromiseScene likely = scene.most_likely();
-  const auto things = foreseen(builder_.kept_from(likely, times.now_s, 1.0));
+  const auto things = looked_at(committed, times.now_s, likely);
   const double until_s = times.now_s + kForeseen_s;
   Choice brake{"brakes at once all the same", hard_stop(committed, times), true, 0.0};
   if (!something_moves) return brake;

@@ -51,6 +51,10 @@ class WayOut {
   std::vector<Motion> evasions_from(const Motion& committed, double start_time_s,
                                     double deceleration, const RobotModel& robot,
                                     const PromiseScene& scene) const;
+  /// What an escape keeps clear of: who is in the way, for long; all others as long as they are
+  /// predicted, for where they walk then is a guess.
+  std::vector<MovingThing> looked_at(const Motion& committed, double from_s,
+                                     const PromiseScene& scene) const;
   bool is_alone(const Motion& committed, const Times& times, const PromiseScene& scene) const;
   std::vector<Choice> escapes(const Motion& committed, const Times& times,
                               const PromiseScene& likely) const;

@@ -58,6 +58,18 @@ TEST_F(WayOutTest, DodgesWhoComesTooFastToBrakeFor) {
   }
 }
 
+/// Where a whole row of people may be in ten seconds is no reason to be run over now.
+TEST_F(WayOutTest, DodgesWhateverOthersMayDoMuchLater) {
+  PromiseScene scene = with({1.9, 0.35}, {-1.0, 0.0});
+  for (double x = -4.0; x < 8.0; x += 0.6) {
+    scene.moving.push_back(std::make_shared<PredictedDisc>(
+        "walker", kNow_s, here() + Vector2(x, 10.0), Vector2(0.0, -1.0), kPerson_m, 0.0));
+  }
+  const auto choice = way_out_.least_bad(ahead_, times_, scene, true);
+  EXPECT_EQ(choice.what.find("dodges"), 0u) << choice.what;
+  EXPECT_GT(least_gap_m(done(choice), scene), 0.0);
+}
+
 TEST_F(WayOutTest, DoesNotDodgeBesideATeamMate) {
   PromiseScene scene = with({1.9, 0.35}, {-1.0, 0.0});
   const auto stands =
