@@ -126,7 +126,9 @@ class Hosts:
     def _build(self):
         for name in self._names.values():
             _ip(f"netns add {name}")
-        for name in self._names.values():
+        for host, name in self._names.items():
+            with self.inside(host):
+                _no_ipv6()
             _ip("link set lo up", name)
         fleet, simulator = self._names[FLEET], self._names[SIMULATOR]
         # No snooping: there is no querier here that would keep its tables of who listens.
@@ -151,6 +153,13 @@ def _enter(path):
     with open(path) as namespace:
         if libc.setns(namespace.fileno(), _CLONE_NEWNET) != 0:
             raise HostsError(f"cannot enter {path}: {os.strerror(ctypes.get_errno())}")
+
+
+def _no_ipv6():
+    """It would chat on every link; so only what the robots send is there to be lost."""
+    for interfaces in ("all", "default"):
+        with contextlib.suppress(OSError), open(f"/proc/sys/net/ipv6/conf/{interfaces}/disable_ipv6", "w") as switch:
+            switch.write("1")
 
 
 def _leave(number, _):
