@@ -6,7 +6,8 @@ overtake each other where delays vary. Time is the machine's, or with --told-tim
 as long in a simulation whatever its speed.
 
 Orders come as JSON, one a line, to standard input: {"link": NAME, "delay_s": [least, most], "loss": share, "cut": yes} changes what it
-names, {"time_s": t} tells the time. Each is answered, when it is done, by a line with the frames so far: {NAME: {"passed": n, "lost": n}}.
+names, {"time_s": t} tells the time. Each is answered, when it is done, by a line with the robots' frames so far:
+{NAME: {"sent": n, "delivered": n, "lost": n}}.
 Ends with its input. Needs CAP_NET_RAW."""
 import argparse
 import heapq
@@ -35,8 +36,7 @@ class Link:
         self.delay_s = (0.0, 0.0)
         self.loss = 0.0
         self.cut = False
-        self.passed = 0
-        self.lost = 0
+        self.counts = {"sent": 0, "delivered": 0, "lost": 0}
         self._random = random.Random(f"{seed} {name}")
 
     def change(self, delay_s=None, loss=None, cut=None):
@@ -59,15 +59,21 @@ class Link:
             return None
         return self._random.uniform(*self.delay_s)
 
-    def send(self, to, frame):
-        if self.cut:
-            self.lost += 1
-            return
+    def send(self, frame):
+        """What comes from the robot."""
+        self._pass(frame, self.network, "sent")
+
+    def deliver(self, frame):
+        """What is for the robot, when its delay is over."""
+        self._pass(frame, self.robot, "delivered")
+
+    def _pass(self, frame, to, what):
         try:
-            to.send(frame)
-            self.passed += 1
+            if not self.cut:
+                to.send(frame)
+            self.counts["lost" if self.cut else what] += 1
         except OSError:  # larger than the interface takes, or the other end is going down
-            self.lost += 1
+            self.counts["lost"] += 1
 
 
 class Relay:
@@ -87,14 +93,14 @@ class Relay:
         """Reads what has arrived."""
         for link in self._links.values():
             for frame in _arrived(link.robot):
-                link.send(link.network, frame)
+                link.send(frame)
             for frame in _arrived(link.network):
                 self._accept(link, frame)
 
     def _accept(self, link, frame):
         delay_s = link.delay()
         if delay_s is None:
-            link.lost += 1
+            link.counts["lost"] += 1
             return
         self._arrivals += 1
         heapq.heappush(self._due, (self._clock() + delay_s, self._arrivals, link, frame))
@@ -104,11 +110,11 @@ class Relay:
         now = self._clock()
         while self._due and self._due[0][0] <= now:
             _, _, link, frame = heapq.heappop(self._due)
-            link.send(link.robot, frame)
+            link.deliver(frame)
         return self._due[0][0] - now if self._due else None
 
     def counts(self):
-        return {link.name: {"passed": link.passed, "lost": link.lost} for link in self._links.values()}
+        return {link.name: link.counts for link in self._links.values()}
 
     def sockets(self):
         return [end for link in self._links.values() for end in (link.robot, link.network)]

@@ -9,9 +9,8 @@ import sys
 import time
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../scripts"))
-from mocha_scripts import netns  # noqa: E402
-from mocha_scripts.relay import RelayProcess  # noqa: E402
+from hosts_needed import netns, run_tests
+from mocha_scripts.relay import RelayProcess
 
 GROUP, PORT = "239.255.76.67", 7667
 BATCH = 50  # fewer than a socket's buffer holds
@@ -178,8 +177,4 @@ class HostsTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    reason = netns.why_not()
-    if reason:
-        print("skipped:", reason)
-        sys.exit(netns.SKIPPED)
-    unittest.main(verbosity=2)
+    run_tests()

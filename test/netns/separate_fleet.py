@@ -15,11 +15,11 @@ from geometry_msgs.msg import PoseStamped
 from mocha_ugv.msg import FleetTrajectories, GroundTruth, PlannerStatus, StepAck
 from rosgraph_msgs.msg import Clock
 
+from hosts_needed import netns
+from mocha_scripts.relay import RelayProcess
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCRIPTS = os.path.join(ROOT, "scripts", "mocha_scripts")
-sys.path.insert(0, os.path.join(ROOT, "scripts"))
-from mocha_scripts import netns  # noqa: E402
-from mocha_scripts.relay import RelayProcess  # noqa: E402
 
 LCM_URL = "udpm://239.255.76.67:7667?ttl=1"
 DELTA_DC_S = 0.25  # longer than any message takes in these tests
@@ -95,6 +95,7 @@ class SeparateFleet:
         self.min_separation_m = math.inf
         self._world, self._names, self._out, self._keys = world, names, os.path.abspath(out), keys or {}
         self._hosts = netns.Hosts(names)
+        self._adapters = {}
         self._changed = threading.Condition()
         self._stamp = None
         self._until = 0.0
@@ -139,26 +140,34 @@ class SeparateFleet:
     # --- hosts ---
 
     def boot(self, name):
-        """Starts a robot's stack."""
+        """Starts a robot's stack, and its end of the adapter."""
         key = self._keys.get(name, "")
         self._popen(name, ["roslaunch", os.path.join(ROOT, "test/netns/robot.launch"), "robot:=" + name,
                            f"delta_dc:={DELTA_DC_S}", "lcm_url:=" + LCM_URL, "fleet_key:=" + key])
-        self._adapter("robot", name, name)
+        self.attach(name)
 
     def kill(self, name):
         """All that runs on a robot, at once."""
         self._hosts.kill(name)
 
+    def attach(self, name):
+        """Joins a robot with the simulator."""
+        self._adapters[name] = self._adapter("robot", name, name)
+
+    def detach(self, name):
+        """Time, sensors and wheels of a robot are gone; its stack runs on."""
+        self._adapters[name].kill()
+
     def _adapter(self, end, name, host):
-        self._popen(host, [sys.executable, os.path.join(SCRIPTS, "adapter.py"), end, name,
-                           self._hosts.management_addresses(name)[0]], "adapter-" + name)
+        return self._popen(host, [sys.executable, os.path.join(SCRIPTS, "adapter.py"), end, name,
+                                  self._hosts.management_addresses(name)[0]], "adapter-" + name)
 
     def _popen(self, host, command, log=None):
         home = os.path.join(self._out, host)
         os.makedirs(home, exist_ok=True)
         with open(os.path.join(home, (log or "roslaunch") + ".log"), "a") as file:
-            self._hosts.popen(host, command, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                              env={**os.environ, **self._environment(host)})
+            return self._hosts.popen(host, command, stdout=file, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                     env={**os.environ, **self._environment(host)})
 
     def _environment(self, host):
         home = os.path.join(self._out, host)
