@@ -4,7 +4,7 @@ The robots' `eth0` (10.76.0.1, .2 ...) meet at a bridge, which stands with the r
 a robot and the bridge nothing passes but what the relay carries. A link of its own joins the simulator (10.77.N.1) with the N-th robot
 (10.77.N.2): for what simulates its sensors and wheels, and for whoever watches.
 
-Run as a program, it says whether this machine lets it, and otherwise why not (exit status 77)."""
+Run as a program, it says why this machine does not let it (exit status 77), or nothing."""
 import contextlib
 import ctypes
 import itertools
@@ -12,6 +12,7 @@ import os
 import re
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -38,9 +39,10 @@ def why_not():
     if missing:
         return f"{' and '.join(missing)} not found (packages iproute2, ethtool)"
     try:
-        with Hosts(["probe"]):
-            return ""
-    except HostsError as error:
+        with Hosts(["probe"]) as hosts, hosts.inside(FLEET):
+            socket.socket(socket.AF_PACKET, socket.SOCK_RAW).close()  # what the relay needs
+        return ""
+    except (HostsError, OSError) as error:
         return f"network namespaces cannot be made here: {error}"
 
 
@@ -221,5 +223,6 @@ def _remove_leftovers():
 
 if __name__ == "__main__":
     reason = why_not()
-    print(f"separate hosts: {reason or 'this machine can play several hosts'}")
+    if reason:
+        print("this machine cannot play several hosts:", reason)
     sys.exit(SKIPPED if reason else 0)

@@ -10,6 +10,6 @@ from mocha_scripts import netns  # noqa: E402
 def run_tests():
     reason = netns.why_not()
     if reason:
-        print("skipped:", reason)
+        print("skipped, as this machine cannot play several hosts:", reason)
         sys.exit(netns.SKIPPED)
     unittest.main(verbosity=2, warnings="ignore")  # rospy's

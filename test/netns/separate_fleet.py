@@ -190,7 +190,7 @@ class SeparateFleet:
 
     def _on_diagnostics(self, message):
         for status in message.status:
-            if "trajectory_broadcaster" in status.name:
+            if "trajectory_broadcaster" in status.name and status.hardware_id in self._names:
                 self.robot(status.hardware_id).on_diagnostics(status)
 
     def _on_clock(self, message):
