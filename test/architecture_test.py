@@ -28,7 +28,8 @@ LIBRARIES = {
             r"|xmlrpcpp|\w+_msgs|std_srvs|mocha_ugv)/|XmlRpc", r"(ros|nodes)/"),
     "OctoMap": (r"octomap", r"perception/"),
     "CGAL": (r"CGAL/", r"topology/apollonius_roadmap\.cpp"),
-    "LCM": (r"(mocha_)?lcm/", r"fleet/wire_format\.|nodes/trajectory_broadcaster_node\."),
+    "LCM": (r"(mocha_)?lcm/", r"fleet/wire_format\.|nodes/lcm_channel\."),
+    "libsodium": (r"sodium", r"fleet/fleet_key\.cpp"),
 }
 NOT_IN_CORE = {
     "reads a clock": r"_clock::now|\bgettimeofday\b|\bclock_gettime\b|\btime\(\s*(nullptr|NULL|0)\s*\)|ros::(Wall)?Time",

@@ -44,6 +44,8 @@ const char* name_of(Refusal refusal) {
       return "peer_proposal";
     case Refusal::kUnanswered:
       return "unanswered";
+    case Refusal::kClock:
+      return "clock";
     case Refusal::kReplaced:
       return "replaced";
     case Refusal::kEmergency:
@@ -54,13 +56,17 @@ const char* name_of(Refusal refusal) {
 
 Commitment::Commitment(CommitmentSettings settings)
     : settings_(std::move(settings)),
-      peers_(settings_.agent, settings_.epoch, settings_.reach_timeout_s) {
+      peers_(settings_.agent, settings_.epoch, settings_.reach_timeout_s, settings_.clocks) {
   if (settings_.agent.empty()) throw std::invalid_argument("the robot has no name");
   require(settings_.delta_dc_s >= 0.0, "delta_dc", settings_.delta_dc_s, "0 s or more");
   require(settings_.peer_clearance_m >= 0.0, "peer_clearance", settings_.peer_clearance_m,
           "0 m or more");
   require(settings_.heartbeat_period_s > 0.0, "heartbeat period", settings_.heartbeat_period_s,
           "above 0 s");
+  require(settings_.clocks.tolerance_s >= 0.0, "clock tolerance", settings_.clocks.tolerance_s,
+          "0 s or more");
+  require(settings_.clocks.max_error_s >= 0.0, "max_clock_error", settings_.clocks.max_error_s,
+          "0 s or more");
   require(settings_.resend_period_s > 0.0, "resend period", settings_.resend_period_s, "above 0 s");
 }
 
@@ -178,8 +184,12 @@ void Commitment::advance(double now, CommitmentActions& actions) {
 void Commitment::settle(double now, const std::string& waits_for, CommitmentActions& actions) {
   Conflict missing;
   missing.peer = waits_for.empty() ? unaware_peer(pending_->promise.id, now) : waits_for;
+  Refusal refusal = missing.peer.empty() ? Refusal::kTooLate : Refusal::kUnanswered;
+  if (const std::string unclocked = unclocked_peer(now); !unclocked.empty()) {
+    missing.peer = unclocked;
+    refusal = Refusal::kClock;
+  }
   if (now > pending_->promise.motion->start_time()) {
-    const Refusal refusal = missing.peer.empty() ? Refusal::kTooLate : Refusal::kUnanswered;
     drop_pending(CommitmentEvent::Kind::kRejected, refusal, missing, actions);
     return;
   }
@@ -210,7 +220,8 @@ void Commitment::drop_pending(CommitmentEvent::Kind kind, Refusal refusal, const
 void Commitment::answer(double now) {
   for (const auto& [name, peer] : peers_.peers()) {
     const Promise* proposal = peer.unanswered();
-    if (proposal == nullptr || objects_to(peer, *proposal, now)) continue;
+    if (proposal == nullptr || !peers_.clock_known(peer, now) || objects_to(peer, *proposal, now))
+      continue;
     peers_.endorse(name, *proposal);
     beat_due_ = true;
   }
@@ -219,7 +230,7 @@ void Commitment::answer(double now) {
 void Commitment::keep_in_touch(double now, CommitmentActions& actions) {
   const bool periodic = now >= next_beat_s_;
   if (!periodic && !beat_due_) return;
-  Beat beat{settings_.agent, settings_.epoch, now, peers_.seen(now)};
+  Beat beat{settings_.agent, settings_.epoch, now, peers_.seen(now), peers_.echoes(now)};
   if (!binding_.empty()) {
     const Promise& newest = binding_.newest();
     beat.seen.push_back({newest.agent, newest.id, newest.state});
@@ -305,6 +316,13 @@ std::string Commitment::unaware_peer(PromiseId id, double now) const {
   for (const auto& [name, peer] : peers_.peers()) {
     const bool aware = peer.of_us && !(peer.of_us->id < id);
     if (!aware && peers_.in_reach(peer, now)) return name;
+  }
+  return {};
+}
+
+std::string Commitment::unclocked_peer(double now) const {
+  for (const auto& [name, peer] : peers_.peers()) {
+    if (peers_.in_reach(peer, now) && !peers_.clock_known(peer, now)) return name;
   }
   return {};
 }

@@ -20,6 +20,7 @@ struct CommitmentSettings {
   double peer_clearance_m = 0.2;
   double heartbeat_period_s = 0.1;
   double resend_period_s = 1.0;
+  ClockRules clocks;
 };
 
 /// A motion that the robot would like to make its promise.
@@ -39,6 +40,7 @@ enum class Refusal {
   kPeerProposal,   ///< meets a peer's proposal that came first, or one of the same time that ranks
                    ///< higher
   kUnanswered,     ///< like kTooLate, because of a peer in reach that did not agree in time
+  kClock,          ///< like kTooLate, because nobody can tell what a peer's clock shows
   kReplaced,       ///< by a newer proposal of its own robot
   kEmergency,      ///< its own robot brakes
 };
@@ -94,12 +96,14 @@ struct CommitmentActions {
 ///
 /// What a robot may assume: while two robots keep their binding promises, their centres stay radii
 /// plus clearance apart, less the tracking errors of both. So nobody who keeps its promise is hit
-/// by a robot that kept its promise. Assumed are: one clock and one map frame (their errors belong
-/// into the margins), unique names, true radii, and robots that are in reach of each other while
-/// they settle, or messages faster than delta_dc. An emergency motion breaks a promise. It is sent
-/// to all at once, and a robot whose own promise meets it is told (kBreached) and has to brake in
-/// turn; until it stands, those two have only their planners' margins. Robots that already are
-/// closer than demanded (after braking, or set down so) may move as long as they come no closer.
+/// by a robot that kept its promise. Assumed are: one map frame (its errors belong into the
+/// margins), clocks that agree as ClockRules say or were measured (PeerTable; nothing is endorsed
+/// or settled with a peer in reach whose clock is not known), unique names, true radii, and robots
+/// that are in reach of each other while they settle, or messages faster than delta_dc. An
+/// emergency motion breaks a promise. It is sent to all at once, and a robot whose own promise
+/// meets it is told (kBreached) and has to brake in turn; until it stands, those two have only
+/// their planners' margins. Robots that already are closer than demanded (after braking, or set
+/// down so) may move as long as they come no closer.
 class Commitment {
  public:
   enum class State {
@@ -162,6 +166,7 @@ class Commitment {
                                   double now) const;
   /// A peer in reach that has not told us that it has seen the promise; none: empty.
   std::string unaware_peer(PromiseId id, double now) const;
+  std::string unclocked_peer(double now) const;
 
   CommitmentSettings settings_;
   PeerTable peers_;

@@ -1,11 +1,14 @@
 #include "fleet/peer_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 namespace mocha {
 namespace {
+
+constexpr double kSameClock_s = 1e-3;  // smaller corrections are not worth telling anew
 
 template <typename Drop>
 void drop_if(std::vector<Promise>& promises, Drop drop) {
@@ -31,20 +34,38 @@ Claim Peer::claim_of_open(const Promise& proposal) const {
   return claim;
 }
 
-PeerTable::PeerTable(std::string own_name, std::uint32_t own_epoch, double reach_timeout_s)
-    : own_name_(std::move(own_name)), own_epoch_(own_epoch), reach_timeout_s_(reach_timeout_s) {
+PeerTable::PeerTable(std::string own_name, std::uint32_t own_epoch, double reach_timeout_s,
+                     ClockRules clocks)
+    : own_name_(std::move(own_name)),
+      own_epoch_(own_epoch),
+      reach_timeout_s_(reach_timeout_s),
+      clocks_(clocks) {
   if (!(reach_timeout_s_ > 0.0)) {
     throw std::invalid_argument("reach_timeout = " + std::to_string(reach_timeout_s_) +
                                 " s, allowed is above 0");
   }
 }
 
-Peer* PeerTable::find(const std::string& name, std::uint32_t epoch, double now) {
+PeerTable::Verdict PeerTable::count(Verdict verdict) {
+  duplicates_ += verdict == Verdict::kDuplicate;
+  old_ += verdict == Verdict::kOld;
+  crowded_ += verdict == Verdict::kCrowded;
+  return verdict;
+}
+
+Peer* PeerTable::find(const std::string& name, std::uint32_t epoch, double now, Verdict& refusal) {
+  refusal = Verdict::kCrowded;
+  if (peers_.size() >= kMostPeers && peers_.count(name) == 0) return nullptr;
   Peer& peer = peers_[name];
-  if (epoch < peer.epoch) return nullptr;
+  refusal = Verdict::kOld;
+  if (epoch < peer.epoch) {
+    peer.last_old_s = now;
+    return nullptr;
+  }
   if (epoch > peer.epoch) {
     peer.epoch = epoch;
     peer.of_us.reset();  // it has forgotten
+    peer.stamp_s = -std::numeric_limits<double>::infinity();
     drop_if(peer.open, [&](const Promise& open) { return peer.endorsed < open.id; });
   }
   peer.last_heard_s = std::max(peer.last_heard_s, now);
@@ -52,11 +73,10 @@ Peer* PeerTable::find(const std::string& name, std::uint32_t epoch, double now) 
 }
 
 PeerTable::Verdict PeerTable::receive(const Promise& promise, double now) {
-  Peer* peer = find(promise.agent, promise.id.epoch, now);
-  const Verdict verdict = peer == nullptr ? Verdict::kOld : take(*peer, promise);
-  if (verdict == Verdict::kDuplicate) ++duplicates_;
-  if (verdict == Verdict::kOld) ++old_;
-  return verdict;
+  Verdict refusal;
+  Peer* peer = find(promise.agent, promise.id.epoch, now, refusal);
+  if (peer == nullptr) return count(refusal);
+  return count(take(*peer, reclocked(promise, -peer->clock_ahead_s, peer->clock_error_s)));
 }
 
 PeerTable::Verdict PeerTable::take(Peer& peer, const Promise& promise) {
@@ -91,18 +111,41 @@ void PeerTable::bind(Peer& peer, const Promise& promise) {
 }
 
 PeerTable::Verdict PeerTable::receive(const Beat& beat, double now) {
-  Peer* peer = find(beat.agent, beat.epoch, now);
-  if (peer == nullptr) {
-    ++old_;
-    return Verdict::kOld;
-  }
+  Verdict refusal;
+  Peer* peer = find(beat.agent, beat.epoch, now, refusal);
+  if (peer == nullptr) return count(refusal);
   peer->last_beat_s = std::max(peer->last_beat_s, now);
+  read_clock(*peer, beat, now);
   for (const Seen& line : beat.seen) {
-    if (line.agent != own_name_ || line.id.epoch != own_epoch_) continue;
+    if (line.agent != own_name_) continue;
+    known_epoch_ = std::max(known_epoch_, line.id.epoch);
+    if (line.id.epoch != own_epoch_) continue;
     if (!peer->of_us || !(line.id < peer->of_us->id)) peer->of_us = line;
   }
   resolve(*peer, beat);
   return Verdict::kNews;
+}
+
+void PeerTable::read_clock(Peer& peer, const Beat& beat, double now) {
+  if (beat.stamp_s > peer.stamp_s) {
+    peer.stamp_s = beat.stamp_s;
+    peer.stamp_heard_s = now;
+  }
+  for (const Echo& echo : beat.echoes) {
+    if (echo.agent == own_name_) peer.clock.add(echo.stamp_s, echo.held_s, beat.stamp_s, now);
+  }
+  const auto reading = peer.clock.reading(now);
+  if (!reading) return;
+  const bool agrees = std::abs(reading->offset_s) <= reading->uncertainty_s + clocks_.tolerance_s;
+  const double ahead_s = agrees ? 0.0 : reading->offset_s;
+  const double error_s = agrees ? 0.0 : reading->uncertainty_s;
+  const double later_s = peer.clock_ahead_s - ahead_s;
+  const double less_sure_s = error_s - peer.clock_error_s;
+  if (std::abs(later_s) < kSameClock_s && std::abs(less_sure_s) < kSameClock_s) return;
+  peer.clock_ahead_s = ahead_s;
+  peer.clock_error_s = error_s;
+  peer.binding.reclock(later_s, less_sure_s);
+  for (Promise& open : peer.open) open = reclocked(open, later_s, less_sure_s);
 }
 
 void PeerTable::resolve(Peer& peer, const Beat& beat) {
@@ -146,6 +189,10 @@ bool PeerTable::in_reach(const Peer& peer, double now) const {
   return now - peer.last_beat_s <= reach_timeout_s_;
 }
 
+bool PeerTable::clock_known(const Peer& peer, double now) const {
+  return peer.clock.reading(now) && peer.clock_error_s <= clocks_.max_error_s;
+}
+
 void PeerTable::prune(double now) {
   for (auto& [name, peer] : peers_) {
     peer.binding.prune(now);
@@ -160,9 +207,22 @@ std::vector<Seen> PeerTable::seen(double now) const {
   std::vector<Seen> seen;
   for (const auto& [name, peer] : peers_) {
     const bool any = peer.endorsed.sequence > 0 && peer.endorsed.epoch == peer.epoch;
-    if (any && in_reach(peer, now)) seen.push_back({name, peer.endorsed, peer.endorsed_state});
+    if (any && in_reach(peer, now)) {
+      seen.push_back({name, peer.endorsed, peer.endorsed_state});
+    } else if (now - peer.last_old_s <= reach_timeout_s_) {
+      seen.push_back({name, {peer.epoch, 0}, PromiseState::kProposed});
+    }
   }
   return seen;
+}
+
+std::vector<Echo> PeerTable::echoes(double now) const {
+  std::vector<Echo> echoes;
+  for (const auto& [name, peer] : peers_) {
+    if (in_reach(peer, now) && std::isfinite(peer.stamp_s))
+      echoes.push_back({name, peer.stamp_s, now - peer.stamp_heard_s});
+  }
+  return echoes;
 }
 
 }  // namespace mocha

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fleet/clock_estimate.h"
 #include "fleet/promise.h"
 #include "fleet/promise_chain.h"
 
@@ -25,6 +26,15 @@ struct Peer {
   std::optional<Seen> of_us;                                       ///< what the peer has seen of us
   double last_heard_s = -std::numeric_limits<double>::infinity();  ///< any message
   double last_beat_s = -std::numeric_limits<double>::infinity();   ///< a heartbeat
+  double last_old_s = -std::numeric_limits<double>::infinity();    ///< anything of a former epoch
+
+  /// Its newest heartbeat: the stamp, by its clock, and when it came, by ours.
+  double stamp_s = -std::numeric_limits<double>::infinity();
+  double stamp_heard_s = -std::numeric_limits<double>::infinity();
+  ClockEstimate clock;
+  /// What its promises are told by: its clock is ahead of ours by so much, give or take the error.
+  double clock_ahead_s = 0.0;
+  double clock_error_s = 0.0;
 
   /// Its proposal waits for our answer (an endorsement, or silence while we object).
   const Promise* unanswered() const;
@@ -32,20 +42,35 @@ struct Peer {
   Claim claim_of_open(const Promise& proposal) const;
 };
 
-/// The newest promises of each peer. Messages may come late, twice, in any order, or not at all; a
-/// message older than what is known changes nothing.
+/// How far the clocks of a fleet may be apart.
+struct ClockRules {
+  double tolerance_s = 0.0;   ///< of two robots against each other; margins allow for it already
+  double max_error_s = 0.25;  ///< beyond it, what a peer promises has no time that means anything
+};
+
+/// The newest promises of each peer, told by our clock. Messages may come late, twice, in any
+/// order, or not at all; a message older than what is known changes nothing.
 ///
 /// A peer that has been silent for the reach timeout is out of reach: nobody waits for it any more.
 /// What it promised still holds to its end, and after that it is an obstacle at its last place. A
 /// proposal of it that we endorsed may have become binding, and counts as promised; others are
 /// dropped. A higher epoch (the peer was started anew) makes all former messages old. The former
 /// promise stays until the new epoch makes one binding: the robot has not vanished.
+///
+/// A peer's clock is taken to agree with ours to within the tolerance until echoed heartbeats prove
+/// the contrary. Then its promises are shifted by what was measured, and its footprint is wider by
+/// what the measurement leaves open times its speed.
 class PeerTable {
  public:
-  enum class Verdict { kNews, kDuplicate, kOld };
+  /// So many peers are known at most: a network full of invented names takes no more memory.
+  static constexpr std::size_t kMostPeers = 250;
 
-  /// `own_name`: whose entries in heartbeats are about us, in epoch `own_epoch`.
-  PeerTable(std::string own_name, std::uint32_t own_epoch, double reach_timeout_s);
+  enum class Verdict { kNews, kDuplicate, kOld, kCrowded };
+
+  /// `own_name`: whose entries in heartbeats are about us, in epoch `own_epoch`. Throws
+  /// std::invalid_argument for a timeout that is not above 0.
+  PeerTable(std::string own_name, std::uint32_t own_epoch, double reach_timeout_s,
+            ClockRules clocks = {});
 
   Verdict receive(const Promise& promise, double now);
   Verdict receive(const Beat& beat, double now);
@@ -59,25 +84,40 @@ class PeerTable {
   bool in_reach(const Peer& peer, double now) const;
   const std::map<std::string, Peer>& peers() const { return peers_; }
 
-  /// The lines of our heartbeat about the peers in reach.
+  /// Its clock has been measured, and that well enough.
+  bool clock_known(const Peer& peer, double now) const;
+
+  /// The lines of our heartbeat about the peers in reach. One that calls itself by a former epoch
+  /// is told the epoch that we know of it.
   std::vector<Seen> seen(double now) const;
+  std::vector<Echo> echoes(double now) const;
+
+  /// The highest epoch of ourselves that anybody knows of; above our own, nobody listens to us.
+  std::uint32_t known_epoch() const { return known_epoch_; }
 
   int duplicates() const { return duplicates_; }
   int old_messages() const { return old_; }
+  int crowded_out() const { return crowded_; }
 
  private:
   Verdict take(Peer& peer, const Promise& promise);
   void bind(Peer& peer, const Promise& promise);
   void resolve(Peer& peer, const Beat& beat);
-  /// The peer of this name in this epoch; none if the message is of a former epoch.
-  Peer* find(const std::string& name, std::uint32_t epoch, double now);
+  /// The peer of this name in this epoch; none if the message is of a former epoch, or there are
+  /// too many peers; then `refusal` says which.
+  Peer* find(const std::string& name, std::uint32_t epoch, double now, Verdict& refusal);
+  Verdict count(Verdict verdict);
+  void read_clock(Peer& peer, const Beat& beat, double now);
 
   std::string own_name_;
   std::uint32_t own_epoch_;
   double reach_timeout_s_;
+  ClockRules clocks_;
+  std::uint32_t known_epoch_ = 0;
   std::map<std::string, Peer> peers_;
   int duplicates_ = 0;
   int old_ = 0;
+  int crowded_ = 0;
 };
 
 }  // namespace mocha

@@ -33,4 +33,12 @@ void validate(const Promise& promise) {
   require(bound.acceleration <= kMaxAcceleration, "may accelerate by more than 500 m/s^2");
 }
 
+Promise reclocked(Promise promise, double later_s, double less_sure_s) {
+  if (promise.motion == nullptr) return promise;
+  const Motion& motion = *promise.motion;
+  promise.footprint_radius_m += less_sure_s * bounds(motion).speed;
+  promise.motion = std::make_shared<const Motion>(motion.start_time() + later_s, motion.phases());
+  return promise;
+}
+
 }  // namespace mocha

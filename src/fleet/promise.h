@@ -57,6 +57,10 @@ inline bool outranks(const Promise& a, const Promise& b) {
 /// than an hour, or one that may exceed 50 m/s or 500 m/s^2.
 void validate(const Promise& promise);
 
+/// The promise as somebody tells it whose clock shows `later_s` more and is less sure of it by
+/// `less_sure_s`: a robot on its way is anywhere that it gets to in that time.
+Promise reclocked(Promise promise, double later_s, double less_sure_s);
+
 /// One line of a heartbeat: the newest promise of `agent` that the sender has seen and does not
 /// object to.
 struct Seen {
@@ -65,13 +69,22 @@ struct Seen {
   PromiseState state = PromiseState::kProposed;
 };
 
+/// Another line: the sender heard the heartbeat of `agent` that is stamped so, and held_s later
+/// sent its own.
+struct Echo {
+  std::string agent;
+  double stamp_s = 0.0;  ///< of the clock of `agent`
+  double held_s = 0.0;
+};
+
 /// "I live, and this is what I have seen of you." About the sender itself it lists its newest
 /// binding promise and, if it came later, its newest proposal (or the withdrawal of it).
 struct Beat {
   std::string agent;
   std::uint32_t epoch = 0;
-  double stamp_s = 0.0;
+  double stamp_s = 0.0;  ///< of the sender's clock
   std::vector<Seen> seen;
+  std::vector<Echo> echoes;
 };
 
 }  // namespace mocha

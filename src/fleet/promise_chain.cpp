@@ -37,6 +37,10 @@ void PromiseChain::bind(Promise promise) {
   promises_.push_back(std::move(promise));
 }
 
+void PromiseChain::reclock(double later_s, double less_sure_s) {
+  for (Promise& promise : promises_) promise = reclocked(promise, later_s, less_sure_s);
+}
+
 void PromiseChain::prune(double now) {
   const auto later =
       std::find_if(promises_.begin(), promises_.end(),

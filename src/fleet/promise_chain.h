@@ -41,6 +41,9 @@ class PromiseChain {
   /// The promise replaces everything from its start on. Its motion must not be empty.
   void bind(Promise promise);
 
+  /// See reclocked().
+  void reclock(double later_s, double less_sure_s);
+
   /// Forgets what has been replaced by time `now`.
   void prune(double now);
 

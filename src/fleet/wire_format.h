@@ -2,9 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 #include <variant>
 #include <vector>
 
+#include "fleet/fleet_key.h"
 #include "fleet/promise.h"
 
 namespace mocha {
@@ -23,19 +26,41 @@ constexpr std::size_t kMostDatagramBytes = 1400;
 
 using FleetMessage = std::variant<Promise, Beat>;
 
-/// Throws std::invalid_argument, saying what is wrong, for what is none of validate()'s promises,
-/// for numbers out of range (a motion of more than 21 km), and for what does not fit into one
-/// datagram.
-std::vector<std::uint8_t> encode(const Promise& promise);
-std::vector<std::uint8_t> encode(const Beat& beat);
+struct Datagram {
+  std::uint32_t number = 0;  ///< the sender counts its datagrams since its start
+  FleetMessage message;
+};
 
-/// The message in these bytes. Throws std::invalid_argument, saying what is wrong, for whatever
-/// encode() did not make, or may have come to harm on the way: it takes no more time and memory
-/// for them than for a message of their size.
-FleetMessage decode(const std::uint8_t* data, std::size_t size);
+/// Sealed where there is a key. Throws std::invalid_argument, saying what is wrong, for what is
+/// none of validate()'s promises, for numbers out of range (a motion of more than 21 km), and for
+/// what does not fit into one datagram.
+std::vector<std::uint8_t> encode(const Datagram& datagram, const FleetKey* key = nullptr);
+
+enum class SealFault {
+  kUnsealed,     ///< no seal, but there is a key
+  kForeignSeal,  ///< a seal, but of another key, or broken on the way
+  kNoKey,        ///< a seal, but no key to tell by
+};
+
+/// Bytes that are no datagram of a robot that holds the same key.
+class SealError : public std::invalid_argument {
+ public:
+  SealError(SealFault fault, const std::string& what) : std::invalid_argument(what), fault(fault) {}
+  const SealFault fault;
+};
+
+/// What is in these bytes. Throws SealError where they do not suit the key (or its absence), and
+/// std::invalid_argument, saying what is wrong, for whatever encode() did not make, or may have
+/// come to harm on the way: it takes no more time and memory for them than for a message of their
+/// size.
+Datagram decode(const std::uint8_t* data, std::size_t size, const FleetKey* key = nullptr);
+
+/// The same heartbeat in as many as it takes for each to fit into a datagram; what it says of the
+/// sender is in all of them.
+std::vector<Beat> in_datagrams(const Beat& beat);
 
 /// What everybody else makes of a promise. Throws as encode() does, and where the quantised motion
-/// is none any more. encode() of it gives the same bytes again.
+/// is none any more. Quantised again it stays as it is.
 Promise quantised(const Promise& promise);
 
 /// The same for the motion alone.

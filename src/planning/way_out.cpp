@@ -18,6 +18,9 @@ constexpr double kEnough_m = 0.05;      // of room; of what has it, the one soon
 // So far ahead an escape looks at who is in the way: to step straight back is to be met again soon,
 // to step aside is not.
 constexpr double kForeseen_s = 15.0;
+// Bodies that would overlap by less than this may as well miss each other: no prediction is as good
+// as that.
+constexpr double kGraze_m = 0.15;
 constexpr double kBrakingOvershoot = 1.15;  // of a braking motion over its deceleration
 constexpr double kAlone_m = 5.0;  // what two robots drive towards each other in a few seconds
 
@@ -155,8 +158,9 @@ WayOut::Choice WayOut::least_bad(const Motion& committed, const Times& times,
   if (!something_moves) return brake;
   const double brake_m = least_room_m(brake.motion, things, times.now_s, until_s);
   const double on_m = least_room_m(committed, things, times.now_s, until_s);
-  // Where the bodies would meet all the same, they had better meet slowly.
-  const double contact_m = -(MarginBudget::of(robot_).own_margin_m() + robot_.moving_clearance_m);
+  // Where the bodies would meet whatever it does, they had better meet slowly.
+  const double contact_m =
+      -(MarginBudget::of(robot_).own_margin_m() + robot_.moving_clearance_m + kGraze_m);
   const double to_beat_m = std::max({brake_m, on_m, contact_m}) + kWorthwhile_m;
   struct Escape {
     double room_m;  ///< enough is enough
@@ -181,7 +185,7 @@ WayOut::Choice WayOut::least_bad(const Motion& committed, const Times& times,
       continue;
     return std::move(escape.choice);
   }
-  if (on_m > std::max(brake_m, contact_m))
+  if (on_m > std::max(brake_m + kWorthwhile_m, contact_m))
     return {"goes on, which keeps more room than braking", {}, false, 0.0};
   return brake;
 }

@@ -33,7 +33,7 @@ Promise of_peer(const std::string& name, PromiseId id, PromiseState state, Motio
 }
 
 Beat beat_of(const std::string& name, std::vector<Seen> seen = {}) {
-  return {name, 1, kNow_s, std::move(seen)};
+  return {name, 1, kNow_s, std::move(seen), {{"m", kNow_s, 0.0}}};
 }
 
 /// The robot "m", brought into a state at time kNow_s. Its motions go along x.
@@ -197,7 +197,7 @@ TEST(Commitment, WaitsForThePeerInReach) {
 
 TEST(Commitment, EndorsesWhatMeetsNothingAndOnlyThat) {
   const auto endorses = [](Commitment robot, const std::string& peer, Motion motion) {
-    robot.receive(beat_of(peer), kNow_s);
+    robot.receive(beat_of(peer), kNow_s);  // only now is the peer's clock known
     const auto actions =
         robot.receive(of_peer(peer, {1, 4}, PromiseState::kProposed, std::move(motion)), kNow_s);
     const Beat beat = actions.beat ? *actions.beat : *robot.tick(kNow_s + 0.2).beat;
@@ -215,6 +215,24 @@ TEST(Commitment, EndorsesWhatMeetsNothingAndOnlyThat) {
   EXPECT_FALSE(endorses(robot_in(State::kBound), "z", over_its_place));
   EXPECT_FALSE(endorses(robot_in(State::kBound), "a", over_its_place));  // whatever the rank
   EXPECT_TRUE(endorses(robot_in(State::kBound), "z", meeting));
+}
+
+TEST(Commitment, HoldsWhileItCannotTellWhatAPeersClockShows) {
+  Commitment robot = robot_in(State::kIdle);
+  Beat beat = beat_of("z", {{"m", {1, 1}, PromiseState::kProposed}});
+  beat.echoes.clear();
+  robot.receive(beat, kNow_s);
+  const auto sent = robot.propose(proposal(along_x(kNow_s + 0.5)), kNow_s);
+  ASSERT_EQ(sent.promises.size(), 1u);
+  robot.receive(beat, kNow_s + 0.1);  // it endorses the motion
+  EXPECT_EQ(robot.state(), State::kProposing);
+  Commitment waits = robot;
+  const auto refused = waits.tick(kNow_s + 0.6);
+  ASSERT_EQ(refused.events.size(), 1u);
+  EXPECT_EQ(refused.events[0].refusal, Refusal::kClock);
+  EXPECT_EQ(refused.events[0].conflict.peer, "z");
+  robot.receive(beat_of("z"), kNow_s + 0.2);
+  EXPECT_EQ(robot.state(), State::kBound);
 }
 
 TEST(Commitment, EndorsesAtLastWhenTheObstacleIsGone) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fleet/motions.h"
+#include "trajectory/separation.h"
 
 namespace mocha {
 namespace {
@@ -22,7 +23,7 @@ Promise promise(PromiseId id, PromiseState state, double start_s = 10.0) {
 }
 
 Beat beat(std::uint32_t epoch, std::vector<Seen> seen = {}) {
-  return {"a", epoch, 0.0, std::move(seen)};
+  return {"a", epoch, 0.0, std::move(seen), {}};
 }
 
 class PeerTableTest : public ::testing::Test {
@@ -123,7 +124,11 @@ TEST_F(PeerTableTest, AHigherEpochMakesEverythingFormerOld) {
   EXPECT_EQ(peer().binding.newest().id, (PromiseId{1, 8}));  // it has not vanished
   EXPECT_EQ(table_.receive(promise({1, 10}, PromiseState::kCommitted), 0.6), Verdict::kOld);
   EXPECT_EQ(table_.receive(beat(1), 0.6), Verdict::kOld);
-  EXPECT_TRUE(table_.seen(0.6).empty());
+  // It is told what it is known as.
+  ASSERT_EQ(table_.seen(0.6).size(), 1u);
+  EXPECT_EQ(table_.seen(0.6)[0].agent, "a");
+  EXPECT_EQ(table_.seen(0.6)[0].id, (PromiseId{2, 0}));
+  EXPECT_TRUE(table_.seen(1.7).empty());
   EXPECT_EQ(table_.receive(promise({2, 1}, PromiseState::kProposed, 11.0), 0.7), Verdict::kNews);
   EXPECT_NE(peer().unanswered(), nullptr);
   EXPECT_EQ(table_.receive(promise({2, 1}, PromiseState::kCommitted, 11.0), 0.8), Verdict::kNews);
@@ -139,6 +144,76 @@ TEST_F(PeerTableTest, ReadsOnlyWhatConcernsThisEpochOfUs) {
   table_.receive(beat(1, {{"me", {3, 4}, PromiseState::kCommitted}}), 0.1);  // overtaken
   ASSERT_TRUE(peer().of_us);
   EXPECT_EQ(peer().of_us->id.sequence, 5u);
+}
+
+TEST_F(PeerTableTest, HearsOfALaterEpochOfItself) {
+  table_.receive(beat(1, {{"me", {3, 5}, PromiseState::kProposed}}), 0.0);
+  EXPECT_EQ(table_.known_epoch(), 3u);
+  table_.receive(beat(1, {{"me", {12, 0}, PromiseState::kProposed}}), 0.1);
+  EXPECT_EQ(table_.known_epoch(), 12u);
+}
+
+/// Its clock is ahead by 3 s, messages take 0.05 s either way.
+Beat echoed(double sent_s) { return {"a", 1, sent_s + 0.05 + 3.0, {}, {{"me", sent_s, 0.0}}}; }
+
+TEST_F(PeerTableTest, TellsPromisesByItsOwnClock) {
+  table_.receive(promise({1, 1}, PromiseState::kCommitted, 13.0), 8.0);
+  table_.receive(promise({1, 2}, PromiseState::kProposed, 14.0), 8.0);
+  EXPECT_FALSE(table_.clock_known(peer(), 8.0));
+  table_.receive(echoed(8.0), 8.1);
+  EXPECT_TRUE(table_.clock_known(peer(), 8.1));
+  EXPECT_NEAR(peer().binding.newest().motion->start_time(), 10.0, 1e-9);  // heard before
+  EXPECT_NEAR(peer().open.at(0).motion->start_time(), 11.0, 1e-9);
+  table_.receive(promise({1, 3}, PromiseState::kCommitted, 15.0), 8.2);
+  EXPECT_NEAR(peer().binding.newest().motion->start_time(), 12.0, 1e-9);
+  // 0.05 s and the clocks' resolution of 0.02 s, at the highest speed of its motion.
+  const double speed = bounds(*peer().binding.newest().motion).speed;
+  EXPECT_NEAR(peer().binding.newest().footprint_radius_m, 0.3 + 0.07 * speed, 1e-6);
+  // The clock is set right.
+  table_.receive(Beat{"a", 1, 9.05, {}, {{"me", 9.0, 0.0}}}, 9.1);
+  EXPECT_NEAR(peer().binding.newest().motion->start_time(), 15.0, 1e-9);
+  EXPECT_NEAR(peer().binding.newest().footprint_radius_m, 0.3, 1e-9);
+}
+
+TEST(PeerTable, ClocksThatAgreeWithinTheToleranceAreTakenAsTheyAre) {
+  for (const double ahead_s : {0.0, 0.1, -0.1}) {
+    PeerTable table("me", 3, 1.0, {0.05, 0.25});
+    table.receive(Beat{"a", 1, 8.05 + ahead_s, {}, {{"me", 8.0, 0.0}}}, 8.1);
+    EXPECT_EQ(table.peers().at("a").clock_ahead_s, 0.0);
+    EXPECT_EQ(table.peers().at("a").clock_error_s, 0.0);
+    EXPECT_TRUE(table.clock_known(table.peers().at("a"), 8.1));
+  }
+}
+
+TEST(PeerTable, AClockThatCannotBeToldIsNotKnown) {
+  PeerTable table("me", 3, 1.0, {0.0, 0.25});
+  table.receive(Beat{"a", 1, 12.0, {}, {{"me", 8.0, 0.0}}}, 8.6);  // 3.7 s ahead, or 0.3 s less
+  EXPECT_FALSE(table.clock_known(table.peers().at("a"), 8.6));
+  table.receive(Beat{"a", 1, 12.6, {}, {{"me", 8.8, 0.0}}}, 9.0);
+  EXPECT_TRUE(table.clock_known(table.peers().at("a"), 9.0));
+}
+
+TEST(PeerTable, EchoesTheNewestHeartbeatOfEachPeer) {
+  PeerTable table("me", 3, 1.0);
+  table.receive(Beat{"a", 1, 20.0, {}, {}}, 8.0);
+  table.receive(Beat{"b", 1, 30.0, {}, {}}, 8.1);
+  table.receive(Beat{"a", 1, 20.1, {}, {}}, 8.1);
+  table.receive(Beat{"a", 1, 19.9, {}, {}}, 8.2);  // overtaken
+  const auto echoes = table.echoes(8.3);
+  ASSERT_EQ(echoes.size(), 2u);
+  EXPECT_EQ(echoes[0].agent, "a");
+  EXPECT_EQ(echoes[0].stamp_s, 20.1);
+  EXPECT_NEAR(echoes[0].held_s, 0.2, 1e-9);
+  EXPECT_TRUE(table.echoes(9.5).empty());
+}
+
+TEST(PeerTable, InventedNamesTakeNoMoreMemoryThanAFleet) {
+  PeerTable table("me", 3, 1.0);
+  for (int i = 0; i < 1000; ++i)
+    table.receive(Beat{"invented" + std::to_string(i), 1, 20.0, {}, {}}, 8.0);
+  EXPECT_EQ(table.peers().size(), PeerTable::kMostPeers);
+  EXPECT_EQ(table.crowded_out(), 750);
+  EXPECT_EQ(table.receive(Beat{"invented1", 1, 20.1, {}, {}}, 8.1), Verdict::kNews);
 }
 
 TEST(PeerTable, RefusesABadTimeout) {

@@ -15,8 +15,11 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr double kNow_s = 1.7e9;
 constexpr double kSameMotion_m = 1e-4;
+constexpr std::size_t kSealAt = 10;  // of a datagram
+constexpr std::size_t kSizeAt = 26;
 
-FleetMessage decoded(const Bytes& bytes) { return decode(bytes.data(), bytes.size()); }
+Bytes encoded(const FleetMessage& message) { return encode({17, message}); }
+FleetMessage decoded(const Bytes& bytes) { return decode(bytes.data(), bytes.size()).message; }
 
 Promise promise_of(Motion motion) {
   Promise promise{"ugv1", {7, 4000000000U}, PromiseState::kProposed, -3, 0.3, nullptr};
@@ -60,7 +63,7 @@ Motion any(int number, std::mt19937& random, double start_s) {
 }
 
 Beat beat() {
-  Beat beat{"ugv1", 3, kNow_s + 0.123456, {}};
+  Beat beat{"ugv1", 3, kNow_s + 0.123456, {}, {{"ugv2", kNow_s - 70.25, 0.015}}};
   beat.seen = {{"ugv1", {3, 9}, PromiseState::kCommitted},
                {"ugv2", {1, 5}, PromiseState::kWithdrawn}};
   return beat;
@@ -70,7 +73,7 @@ TEST(WireFormat, GivesBackPromisesButForTheQuantisation) {
   std::mt19937 random(1);
   for (int run = 0; run < 200; ++run) {
     const Promise sent = promise_of(any(run, random, kNow_s + 0.0137 * run));
-    const Promise heard = std::get<Promise>(decoded(encode(sent)));
+    const Promise heard = std::get<Promise>(decoded(encoded(sent)));
     EXPECT_EQ(heard.agent, sent.agent);
     EXPECT_TRUE(heard.id == sent.id);
     EXPECT_EQ(heard.state, sent.state);
@@ -93,8 +96,8 @@ TEST(WireFormat, WhatWasDecodedIsTheSameForEverybodyAndForEver) {
   for (int run = 0; run < 200; ++run) {
     const Promise sent = promise_of(any(run, random, kNow_s + 0.0137 * run));
     const Promise driven = quantised(sent);
-    const Bytes bytes = encode(driven);
-    EXPECT_EQ(bytes, encode(sent));
+    const Bytes bytes = encoded(driven);
+    EXPECT_EQ(bytes, encoded(sent));
     const Promise again = std::get<Promise>(decoded(bytes));
     for (double t = kNow_s; t < driven.motion->end_time(); t += 0.1)
       EXPECT_EQ(again.motion->position(t), driven.motion->position(t));
@@ -114,11 +117,11 @@ TEST(WireFormat, TheMapMayBeginFarAway) {
   for (double t = kNow_s; t < sent.end_time(); t += 0.1)
     EXPECT_LT((heard.position(t) - sent.position(t)).norm(), kSameMotion_m);
   const Promise driven = quantised(promise_of(sent));
-  EXPECT_EQ(encode(driven), encode(promise_of(sent)));
+  EXPECT_EQ(encoded(driven), encoded(promise_of(sent)));
 }
 
 TEST(WireFormat, GivesBackBeatsAndWithdrawals) {
-  const Beat heard = std::get<Beat>(decoded(encode(beat())));
+  const Beat heard = std::get<Beat>(decoded(encoded(beat())));
   EXPECT_EQ(heard.agent, "ugv1");
   EXPECT_EQ(heard.epoch, 3U);
   EXPECT_NEAR(heard.stamp_s, kNow_s + 0.123456, 1e-6);
@@ -126,8 +129,12 @@ TEST(WireFormat, GivesBackBeatsAndWithdrawals) {
   EXPECT_EQ(heard.seen[1].agent, "ugv2");
   EXPECT_TRUE(heard.seen[1].id == (PromiseId{1, 5}));
   EXPECT_EQ(heard.seen[1].state, PromiseState::kWithdrawn);
+  ASSERT_EQ(heard.echoes.size(), 1U);
+  EXPECT_EQ(heard.echoes[0].agent, "ugv2");
+  EXPECT_NEAR(heard.echoes[0].stamp_s, kNow_s - 70.25, 1e-6);
+  EXPECT_NEAR(heard.echoes[0].held_s, 0.015, 1e-6);
   Promise void_one{"ugv1", {3, 9}, PromiseState::kWithdrawn, 0, 0.3, nullptr};
-  EXPECT_EQ(std::get<Promise>(decoded(encode(void_one))).motion, nullptr);
+  EXPECT_EQ(std::get<Promise>(decoded(encoded(void_one))).motion, nullptr);
 }
 
 TEST(WireFormat, TenSecondsOfDriveFitIntoOneDatagram) {
@@ -137,51 +144,109 @@ TEST(WireFormat, TenSecondsOfDriveFitIntoOneDatagram) {
   const auto longer = [&] { points.push_back(points.back() + Vector2(0.3, 0.1 * unit(random))); };
   for (int i = 0; i < 50; ++i) longer();
   EXPECT_TRUE(fits(test::drive(kNow_s, points, 1.0)));  // pieces of 0.5 s
-  EXPECT_LE(encode(promise_of(test::drive(kNow_s, points, 1.0))).size(), kMostDatagramBytes);
+  EXPECT_LE(encoded(promise_of(test::drive(kNow_s, points, 1.0))).size(), kMostDatagramBytes);
   while (points.size() < 130) longer();
   EXPECT_FALSE(fits(test::drive(kNow_s, points, 1.0)));
-  EXPECT_THROW(encode(promise_of(test::drive(kNow_s, points, 1.0))), std::invalid_argument);
+  EXPECT_THROW(encoded(promise_of(test::drive(kNow_s, points, 1.0))), std::invalid_argument);
 }
 
 TEST(WireFormat, RefusesWhatCannotBeSaid) {
   const Motion far = test::drive(kNow_s, {{0.0, 0.0}, {3e4, 0.0}}, 20.0);
   EXPECT_FALSE(fits(far));
-  EXPECT_THROW(encode(promise_of(far)), std::invalid_argument);
+  EXPECT_THROW(encoded(promise_of(far)), std::invalid_argument);
   EXPECT_FALSE(fits(test::stand(kNow_s, {1e12, 0.0})));
   EXPECT_FALSE(fits(Motion()));
-  EXPECT_THROW(encode(promise_of(test::stand(1e11, {0.0, 0.0}))), std::invalid_argument);
+  EXPECT_THROW(encoded(promise_of(test::stand(1e11, {0.0, 0.0}))), std::invalid_argument);
   Promise nameless = promise_of(test::stand(kNow_s, {0.0, 0.0}));
   nameless.agent = "two words";
-  EXPECT_THROW(encode(nameless), std::invalid_argument);
+  EXPECT_THROW(encoded(nameless), std::invalid_argument);
   nameless.agent = std::string(64, 'a');
-  EXPECT_THROW(encode(nameless), std::invalid_argument);
+  EXPECT_THROW(encoded(nameless), std::invalid_argument);
   Beat timeless = beat();
   timeless.stamp_s = std::nan("");
-  EXPECT_THROW(encode(timeless), std::invalid_argument);
+  EXPECT_THROW(encoded(timeless), std::invalid_argument);
   Beat crowded = beat();
   crowded.seen.resize(300, crowded.seen[0]);
-  EXPECT_THROW(encode(crowded), std::invalid_argument);
+  EXPECT_THROW(encoded(crowded), std::invalid_argument);
 }
 
 TEST(WireFormat, RefusesOtherVersionsPartsAndMore) {
-  for (Bytes bytes : {encode(beat()), encode(promise_of(test::stand(kNow_s, {1.0, 2.0})))}) {
+  for (Bytes bytes : {encoded(beat()), encoded(promise_of(test::stand(kNow_s, {1.0, 2.0})))}) {
     for (std::size_t size = 0; size < bytes.size(); ++size)
       EXPECT_THROW(decode(bytes.data(), size), std::invalid_argument) << size;
     Bytes longer = bytes;
     longer.push_back(0);
     EXPECT_THROW(decoded(longer), std::invalid_argument);
-    longer[10] += 1;  // and says so
+    longer[kSizeAt + 1] += 1;  // and says so
     EXPECT_THROW(decoded(longer), std::invalid_argument);
     bytes[8] += 1;
     EXPECT_THROW(decoded(bytes), std::invalid_argument);
   }
 }
 
-/// Whatever comes is a message that encode() could have made, or is refused.
+const FleetKey kKey(FleetKey::Secret{1, 2, 3});
+const FleetKey kOtherKey(FleetKey::Secret{1, 2, 4});
+
+SealFault fault_of(const Bytes& bytes, const FleetKey* key) {
+  try {
+    decode(bytes.data(), bytes.size(), key);
+  } catch (const SealError& error) {
+    return error.fault;
+  }
+  throw std::logic_error("nothing was wrong with the seal");
+}
+
+TEST(WireFormat, KnowsItsFleetByTheSeal) {
+  const Bytes sealed = encode({17, beat()}, &kKey);
+  const Datagram heard = decode(sealed.data(), sealed.size(), &kKey);
+  EXPECT_EQ(heard.number, 17U);
+  EXPECT_EQ(std::get<Beat>(heard.message).agent, "ugv1");
+  EXPECT_EQ(fault_of(sealed, &kOtherKey), SealFault::kForeignSeal);
+  EXPECT_EQ(fault_of(sealed, nullptr), SealFault::kNoKey);
+  EXPECT_EQ(fault_of(encoded(beat()), &kKey), SealFault::kUnsealed);
+}
+
+TEST(WireFormat, NoBitOfASealedDatagramCanBeChanged) {
+  const Bytes sealed = encode({17, promise_of(test::stand(kNow_s, {1.0, 2.0}))}, &kKey);
+  for (std::size_t bit = 0; bit < 8 * sealed.size(); ++bit) {
+    Bytes mutant = sealed;
+    mutant[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
+    EXPECT_THROW(decode(mutant.data(), mutant.size(), &kKey), std::invalid_argument) << bit;
+  }
+  Bytes stripped = sealed;
+  stripped[kSealAt - 1] = 0;
+  std::fill_n(stripped.begin() + kSealAt, FleetKey::kSealBytes, std::uint8_t{0});
+  EXPECT_EQ(fault_of(stripped, &kKey), SealFault::kUnsealed);
+}
+
+TEST(WireFormat, BeatsThatAreTooLongAreDivided) {
+  Beat crowded = beat();
+  for (int i = 0; i < 200; ++i) {
+    const std::string name = "a_robot_with_a_long_name_" + std::to_string(i);
+    crowded.seen.push_back({name, {1, static_cast<std::uint32_t>(i)}, PromiseState::kCommitted});
+    crowded.echoes.push_back({name, kNow_s + i, 0.01 * i});
+  }
+  EXPECT_THROW(encoded(crowded), std::invalid_argument);
+  std::size_t lines = 0;
+  std::size_t echoes = 0;
+  for (const Beat& part : in_datagrams(crowded)) {
+    const Beat heard = std::get<Beat>(decoded(encoded(part)));
+    EXPECT_EQ(heard.seen.at(0).agent, "ugv1");  // about itself
+    EXPECT_EQ(heard.stamp_s, part.stamp_s);
+    lines += heard.seen.size() - 1;
+    echoes += heard.echoes.size();
+  }
+  EXPECT_EQ(lines, crowded.seen.size() - 1);
+  EXPECT_EQ(echoes, crowded.echoes.size());
+  ASSERT_EQ(in_datagrams(beat()).size(), 1U);
+  EXPECT_EQ(encoded(in_datagrams(beat())[0]), encoded(beat()));
+}
+
+/// Whatever comes is a message that encoded() could have made, or is refused.
 TEST(WireFormat, MutantsAreRefusedOrSound) {
   std::mt19937 random(5);
-  std::vector<Bytes> seeds = {encode(beat())};
-  for (int i = 0; i < 20; ++i) seeds.push_back(encode(promise_of(any(i, random, kNow_s))));
+  std::vector<Bytes> seeds = {encoded(beat())};
+  for (int i = 0; i < 20; ++i) seeds.push_back(encoded(promise_of(any(i, random, kNow_s))));
   std::uniform_int_distribution<int> byte(0, 255);
   int refused = 0;
   int sound = 0;
@@ -190,7 +255,7 @@ TEST(WireFormat, MutantsAreRefusedOrSound) {
     const int changes = 1 + run % 4;
     for (int i = 0; i < changes; ++i) {
       // Mostly in the body: what is before it is looked at first.
-      const std::size_t from = run % 10 == 0 ? 0 : 11;
+      const std::size_t from = run % 10 == 0 ? 0 : kSizeAt + 2;
       const std::size_t at = from + random() % (mutant.size() - from);
       mutant[at] = static_cast<std::uint8_t>(random() % 3 == 0 ? mutant[at] ^ (1 << random() % 8)
                                                                : byte(random));
@@ -198,7 +263,7 @@ TEST(WireFormat, MutantsAreRefusedOrSound) {
     try {
       const FleetMessage message = decoded(mutant);
       ++sound;
-      std::visit([](const auto& each) { EXPECT_NO_THROW(encode(each)); }, message);
+      EXPECT_NO_THROW(encoded(message));
     } catch (const std::invalid_argument& error) {
       ++refused;
       ASSERT_STRNE(error.what(), "");
@@ -224,7 +289,7 @@ TEST(WireFormat, AgreesWithWhatWasStored) {
     for (std::size_t i = 0; i < hex.size(); i += 2)
       bytes.push_back(static_cast<std::uint8_t>(std::stoi(hex.substr(i, 2), nullptr, 16)));
     const Promise promise = std::get<Promise>(decoded(bytes));
-    EXPECT_EQ(encode(promise), bytes);
+    EXPECT_EQ(encoded(promise), bytes);
     std::string x, y;
     for (double after_s = 0.35; words >> x >> y; after_s += 0.7) {
       const Vector2 place = promise.motion->position(promise.motion->start_time() + after_s);
@@ -246,7 +311,7 @@ TEST(WireFormat, DISABLED_WriteVectors) {
   for (int i = 0; i < 6; ++i) {
     const Promise promise = quantised(promise_of(any(i, random, kNow_s + 0.1234567 * i)));
     char text[64];
-    for (const std::uint8_t byte : encode(promise)) {
+    for (const std::uint8_t byte : encoded(promise)) {
       snprintf(text, sizeof text, "%02x", byte);
       file << text;
     }

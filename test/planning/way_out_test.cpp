@@ -58,6 +58,16 @@ TEST_F(WayOutTest, DodgesWhoComesTooFastToBrakeFor) {
   }
 }
 
+/// Who comes so fast that the bodies may touch, whatever is done, is at least not waited for.
+TEST_F(WayOutTest, RatherGrazesThanIsRunOver) {
+  for (const double ahead_m : {1.4, 1.5, 1.6}) {
+    const PromiseScene scene = with({ahead_m, 0.3}, {-1.0, 0.0});
+    const auto choice = way_out_.least_bad(ahead_, times_, scene, true);
+    EXPECT_EQ(choice.what.find("brakes"), std::string::npos) << ahead_m;
+    EXPECT_GT(least_gap_m(done(choice), scene), -0.15) << ahead_m;
+  }
+}
+
 /// Where a whole row of people may be in ten seconds is no reason to be run over now.
 TEST_F(WayOutTest, DodgesWhateverOthersMayDoMuchLater) {
   PromiseScene scene = with({1.9, 0.35}, {-1.0, 0.0});
