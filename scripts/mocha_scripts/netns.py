@@ -47,7 +47,7 @@ def why_not():
 
 
 class Hosts:
-    """The namespaces, from `with` to its end, however it ends; processes in them end with them.
+    """The namespaces, from `with` to its end, however it ends; processes in them end with them. For the main thread, as signals are.
 
     Names carry the id of this process, so that two runs do not meet; what a killed run has left behind is removed at the next start."""
 
@@ -165,7 +165,7 @@ def _no_ipv6():
 
 
 def _leave(number, _):
-    sys.exit(128 + number)
+    raise KeyboardInterrupt(signal.Signals(number).name)  # which test runners let pass
 
 
 def _run(command, text=None):

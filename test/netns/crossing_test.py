@@ -4,7 +4,7 @@ import os
 import unittest
 
 from hosts_needed import run_tests
-from separate_fleet import ROOT, SeparateFleet
+from separate_fleet import ROOT, SeparateFleet, new_key
 
 WORLD = os.path.join(ROOT, "test/worlds/crossing_paths.yaml")
 GOALS = {"ugv1": (3.5, 0.0), "ugv2": (0.0, 3.5)}
@@ -14,7 +14,8 @@ SEPARATION_M = 0.8  # two radii of 0.3 m, and peer_clearance of config/robot.yam
 
 class CrossingTest(unittest.TestCase):
     def test_robots_that_cross_keep_apart(self):
-        with SeparateFleet(WORLD, list(GOALS), "netns_logs/crossing") as fleet:
+        key = new_key("netns_logs/fleet.key")
+        with SeparateFleet(WORLD, list(GOALS), "netns_logs/crossing", dict.fromkeys(GOALS, key)) as fleet:
             for robot in fleet.robots:
                 fleet.relay.change(robot.name, delay_s=[0.05, 0.1], loss=LOSS)
             fleet.run(2.0)

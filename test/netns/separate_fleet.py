@@ -2,6 +2,7 @@
 delays. Simulated time goes on only as far as the test lets it, and the network keeps that time."""
 import math
 import os
+import secrets
 import shutil
 import subprocess
 import sys
@@ -28,6 +29,14 @@ CHUNK_S = 0.1  # of simulated time between two looks at a condition
 STUCK_WALL_S = 60.0
 STANDING_MPS, STANDING_RADPS = 0.03, 0.05
 ARRIVED_M = 0.2
+
+
+def new_key(path):
+    """Writes a fleet key there; its absolute path."""
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", opener=lambda name, flags: os.open(name, flags, 0o600)) as file:
+        file.write(secrets.token_hex(32) + "\n")
+    return os.path.abspath(path)
 
 
 class Robot:
@@ -78,6 +87,10 @@ class Robot:
 
     def stands_at(self, x, y):
         return self.stands() and self.distance_to(x, y) < ARRIVED_M
+
+    def said(self):
+        """All that its broadcaster has to say about itself."""
+        return "\n".join([self.complaint, *(f"{key}: {value}" for key, value in self.diagnosis.items())])
 
     def report(self):
         place = "nowhere yet" if self.truth is None else "at (%.2f, %.2f), %.2f m/s, %d contacts" % (
