@@ -88,10 +88,6 @@ class Robot:
     def stands_at(self, x, y):
         return self.stands() and self.distance_to(x, y) < ARRIVED_M
 
-    def said(self):
-        """All that its broadcaster has to say about itself."""
-        return "\n".join([self.complaint, *(f"{key}: {value}" for key, value in self.diagnosis.items())])
-
     def report(self):
         place = "nowhere yet" if self.truth is None else "at (%.2f, %.2f), %.2f m/s, %d contacts" % (
             *self.place(), self.truth.speed, self.truth.contacts)
