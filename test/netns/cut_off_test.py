@@ -44,7 +44,7 @@ class CutOffTest(unittest.TestCase):
 
             self.assertGreater(lost.distance_to(*MIDDLE), 0.8)
             self.assertGreaterEqual(self.drive(fleet, passer, EAST), SEPARATION_M)  # for which the lost one may step aside
-            self.assertRegex(passer.complaint, f"{lost.name} is out of reach; its last promise still counts")
+            self.assertRegex(passer.complaint(), f"{lost.name} is out of reach; its last promise still counts")
 
             self.drive(fleet, lost, NORTH)  # nothing is in the middle now, and the passer sees that
             self.assertGreaterEqual(self.drive(fleet, passer, WEST), SEPARATION_M)

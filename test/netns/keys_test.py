@@ -21,7 +21,7 @@ class KeysTest(unittest.TestCase):
             for robot in fleet.robots:
                 self.assertEqual(robot.peers, {})
                 self.assertFalse([line for line in robot.diagnosis if line.startswith("peer ")], robot.report())
-                self.assertIn("without this fleet's key", robot.complaint)
+                self.assertIn("without this fleet's key", robot.complaint())
                 self.assertGreater(int(robot.diagnosis["datagrams of another key"]), 10)
                 self.assertEqual(robot.diagnosis["datagrams heard"], "0")
 

@@ -47,8 +47,8 @@ class Robot:
         self.truth = None
         self.acked_s = 0.0  # newest step that all its nodes have done
         self.peers = {}  # name -> newest binding Trajectory that it knows
-        self.diagnosis = {}
-        self.complaint = ""  # of its broadcaster
+        self.diagnosis = {}  # of its broadcaster
+        self.complaints = {}  # subject -> summary, of its broadcaster
         self.planner = ""
         self._acked = {}
         self._goals = rospy.Publisher(f"/{name}/move_base_simple/goal", PoseStamped, queue_size=10)
@@ -66,8 +66,8 @@ class Robot:
         self.acked_s = min(self._acked.values())
 
     def on_diagnostics(self, status):
-        self.diagnosis = {value.key: value.value for value in status.values}
-        self.complaint = status.message
+        self.diagnosis.update({value.key: value.value for value in status.values})
+        self.complaints[status.name] = status.message
 
     def send(self, x, y):
         """A goal with any heading."""
@@ -88,21 +88,26 @@ class Robot:
     def stands_at(self, x, y):
         return self.stands() and self.distance_to(x, y) < ARRIVED_M
 
+    def complaint(self):
+        return "; ".join(self.complaints.values())
+
     def report(self):
         place = "nowhere yet" if self.truth is None else "at (%.2f, %.2f), %.2f m/s, %d contacts" % (
             *self.place(), self.truth.speed, self.truth.contacts)
-        return f"{self.name} {place}; planner: {self.planner!r}; broadcaster: {self.complaint!r} {self.diagnosis}"
+        return f"{self.name} {place}; planner: {self.planner!r}; broadcaster: {self.complaint()!r} {self.diagnosis}"
 
 
 class SeparateFleet:
     """From `with` to its end. The process that makes it stands on the simulator's host from then on; one fleet a process.
 
-    `keys`: robot -> path of its fleet key. Logs go to the directory `out`, which is emptied first."""
+    `keys`: robot -> path of its fleet key. `network`: delay_s and loss of every robot's link, as mocha_scripts.relay has them. Logs go to
+    the directory `out`, which is emptied first."""
 
-    def __init__(self, world, names, out, keys=None):
+    def __init__(self, world, names, out, keys=None, network=None):
         self.now = 0.0  # [s] simulated
         self.min_separation_m = math.inf
         self._world, self._names, self._out, self._keys = world, names, os.path.abspath(out), keys or {}
+        self._network = network or {}
         self._hosts = netns.Hosts(names)
         self._adapters = {}
         self._changed = threading.Condition()
@@ -127,6 +132,8 @@ class SeparateFleet:
 
     def _start(self):
         self.relay = RelayProcess(self._hosts, told_time=True)
+        for name in self._names:
+            self.relay.change(name, **self._network)
         self._popen(netns.SIMULATOR, ["roslaunch", os.path.join(ROOT, "test/rostest/stack.launch"), "world:=" + self._world,
                                       f"ack_timeout:={ACK_TIMEOUT_S}"])
         for name in self._names:
@@ -145,14 +152,17 @@ class SeparateFleet:
         rospy.Subscriber("/clock", Clock, self._on_clock, tcp_nodelay=True)
         self._wait(lambda: self._stamp is not None and self._acks.get_num_connections() > 0, "no simulator")
         self.run(3.0)
+        for robot in self.robots:
+            if robot.acked_s == 0.0:
+                raise AssertionError(f"{robot.name} has not started")
 
     # --- hosts ---
 
     def boot(self, name):
         """Starts a robot's stack, and its end of the adapter."""
-        key = self._keys.get(name, "")
+        key = ["fleet_key:=" + self._keys[name]] if name in self._keys else []
         self._popen(name, ["roslaunch", os.path.join(ROOT, "test/netns/robot.launch"), "robot:=" + name,
-                           f"delta_dc:={DELTA_DC_S}", "lcm_url:=" + LCM_URL, "fleet_key:=" + key])
+                           f"delta_dc:={DELTA_DC_S}", "lcm_url:=" + LCM_URL, *key])
         self.attach(name)
 
     def kill(self, name):
