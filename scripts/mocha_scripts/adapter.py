@@ -15,7 +15,7 @@ import time
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped, Twist
-from mocha_ugv.msg import FleetTrajectories, PlannerStatus, StepAck, Trajectory
+from mocha_ugv.msg import FleetTrajectories, PlannerStatus, StepAck
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
@@ -30,9 +30,8 @@ _QUEUE = 100
 TO_ROBOT = [("/clock", Clock), ("/tf", TFMessage), ("/tf_static", TFMessage), ("/{robot}/odom", Odometry),
             ("/{robot}/scan", LaserScan), ("/{robot}/move_base_simple/goal", PoseStamped)]
 TO_SIMULATOR = [("/{robot}/cmd_vel", Twist), ("/fleet_simulator/acks", StepAck), ("/diagnostics", DiagnosticArray),
-                ("/{robot}/fleet/trajectories", FleetTrajectories), ("/{robot}/committed_trajectory", Trajectory),
-                ("/{robot}/settlement", PlannerStatus), ("/{robot}/planner_status", PlannerStatus)]
-LATCHED = ("/tf_static", "/{robot}/fleet/trajectories", "/{robot}/committed_trajectory")
+                ("/{robot}/fleet/trajectories", FleetTrajectories), ("/{robot}/planner_status", PlannerStatus)]
+LATCHED = ("/tf_static", "/{robot}/fleet/trajectories")
 
 
 class Bytes(rospy.AnyMsg):
@@ -111,10 +110,12 @@ class Adapter:
     def _receive(self, stream):
         """Until the other end goes away."""
         try:
-            while head := stream.read(_HEAD.size):
+            while len(head := stream.read(_HEAD.size)) == _HEAD.size:
                 number, size = _HEAD.unpack(head)
-                self._publishers[number](stream.read(size))
-        except (OSError, struct.error, rospy.ROSException) as error:
+                text = stream.read(size)
+                if len(text) == size:
+                    self._publishers[number](text)
+        except (OSError, rospy.ROSException) as error:
             rospy.logwarn("%s: connection lost: %s", self._robot, error)
 
 
