@@ -5,6 +5,7 @@
 
 To the robot go the clock, what its sensors would say (of tf only its own part) and goals; to the simulator commands, receipts for steps, and
 what the robot reports. What is sent while the other end is away is lost, but for latched topics, of which it gets the newest when it is back."""
+import contextlib
 import io
 import socket
 import struct
@@ -91,7 +92,13 @@ class Adapter:
             self._connection.sendall(_HEAD.pack(number, len(text)) + text)
         except OSError as error:
             rospy.logwarn("%s: connection lost: %s", self._robot, error)
-            self._connection = None
+            self._drop()
+
+    def _drop(self):
+        """Wakes who reads from it, on both ends, so that they connect anew."""
+        with contextlib.suppress(OSError):
+            self._connection.shutdown(socket.SHUT_RDWR)
+        self._connection = None
 
     def run(self):
         while not rospy.is_shutdown():
