@@ -1,5 +1,6 @@
 # Headers of the LCM types in lcm/, below MOCHA_LCM_INCLUDE_DIR; a target that needs them depends on mocha_lcm_types.
 find_path(LCM_INCLUDE_DIR lcm/lcm_coretypes.h REQUIRED)
+find_library(LCM_LIBRARY lcm REQUIRED)
 find_program(LCM_GEN lcm-gen REQUIRED)
 set(MOCHA_LCM_INCLUDE_DIR ${CMAKE_BINARY_DIR}/lcm)
 file(GLOB lcm_types CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lcm/*.lcm)

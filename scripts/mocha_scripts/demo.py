@@ -6,6 +6,7 @@ import sys
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+LCM_URL = "udpm://239.255.76.67:7667?ttl=0"
 
 
 def parse(arguments):
@@ -17,6 +18,8 @@ def parse(arguments):
     parser.add_argument("--rate", type=float, default=1.0,
                         help="simulated seconds per second at most; 0: as fast as possible (default 1)")
     parser.add_argument("--seed", type=int, default=1, help="of sensor noise and odometry drift (default 1)")
+    parser.add_argument("--lcm", metavar="URL", nargs="?", const=LCM_URL, default="",
+                        help=f"robots hear each other over LCM instead of topics (default URL {LCM_URL}: this host only)")
     parser.add_argument("--limit", type=float, default=180.0, metavar="SECONDS",
                         help="simulated seconds allowed (default 180)")
     parser.add_argument("--json", metavar="FILE", help="write the results of the table there")
@@ -73,7 +76,7 @@ def main(arguments):
     print(f"demo: {' and '.join(names)} drive through {shown(options.world)} (log: {shown(options.out)}/drive.log)\n"
           "demo: simulated time, and how far each robot has driven", flush=True)
     results, why = drive.drive(options.world, names, options.out, rate=options.rate, seed=options.seed, rviz=show,
-                               record=not options.no_plots, limit_s=options.limit, progress=Progress())
+                               record=not options.no_plots, limit_s=options.limit, lcm_url=options.lcm, progress=Progress())
     print(f"demo: {why}\n\n" + referee.table(results) + "\n", flush=True)
     if options.json:
         with open(options.json, "w") as file:

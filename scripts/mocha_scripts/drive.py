@@ -14,13 +14,14 @@ RECORDED_PER_ROBOT = ["scan", "odom", "cmd_vel", "map", "global_trajectory", "pr
                       "tracking_error", "fleet/trajectories", "predicted_obstacles", "local_trajectory", "local_markers"]
 
 
-def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, limit_s=180.0, stop_at_contact=False,
+def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, lcm_url="", limit_s=180.0, stop_at_contact=False,
           progress=lambda referee: None):
     """Drives the fleet of a world file. Returns (results, why): `why` says what ended the drive.
 
     The limit is in simulated seconds. Logs, and the rosbag `drive.bag`, go to the directory `out`."""
     os.makedirs(out, exist_ok=True)
-    arguments = {"world": os.path.abspath(world), "rate": rate, "seed": seed, "rviz": str(rviz).lower()}
+    arguments = {"world": os.path.abspath(world), "rate": rate, "seed": seed, "rviz": str(rviz).lower(),
+                 "lcm_url": lcm_url}
     with Session("fleet_sim.launch", arguments, os.path.join(out, "drive.log")) as session:
         if not _wait_for_launch(session):
             return {"robots": [], "min_separation_m": None}, session.last_words()

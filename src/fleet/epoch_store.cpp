@@ -50,10 +50,7 @@ bool write_through(const std::string& path, const std::string& text) {
   return written;
 }
 
-}  // namespace
-
-std::uint32_t next_epoch(const std::string& path) {
-  const std::uint32_t epoch = read_epoch(path) + 1;
+void write_epoch(const std::string& path, std::uint32_t epoch) {
   std::error_code error;
   const auto folder = std::filesystem::path(path).parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
@@ -64,7 +61,18 @@ std::uint32_t next_epoch(const std::string& path) {
   }
   std::filesystem::rename(fresh, path, error);
   if (error) fail(path, "cannot be replaced (" + error.message() + ")");
+}
+
+}  // namespace
+
+std::uint32_t next_epoch(const std::string& path) {
+  const std::uint32_t epoch = read_epoch(path) + 1;
+  write_epoch(path, epoch);
   return epoch;
+}
+
+void raise_epoch(const std::string& path, std::uint32_t epoch) {
+  if (read_epoch(path) < epoch) write_epoch(path, epoch);
 }
 
 }  // namespace mocha

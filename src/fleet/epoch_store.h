@@ -12,4 +12,7 @@ namespace mocha {
 /// would not be heard by its peers.
 std::uint32_t next_epoch(const std::string& path);
 
+/// Makes the file say at least `epoch`, so that the next start is a later one. Throws likewise.
+void raise_epoch(const std::string& path, std::uint32_t epoch);
+
 }  // namespace mocha

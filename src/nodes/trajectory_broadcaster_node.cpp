@@ -14,9 +14,12 @@
 
 #include "fleet/commitment.h"
 #include "fleet/epoch_store.h"
+#include "fleet/wire_format.h"
+#include "nodes/fleet_network.h"
 #include "ros/conversions.h"
 #include "ros/markers.h"
 #include "ros/parameters.h"
+#include "ros/peer_diagnostics.h"
 #include "ros/promise_conversions.h"
 #include "ros/robot_identity.h"
 #include "ros/run_node.h"
@@ -43,16 +46,18 @@ std::string epoch_file(const std::string& parameter, const std::string& robot) {
 }
 
 CommitmentSettings commitment_settings(const ParameterTable& values, const std::string& robot,
-                                       const RobotModel& model) {
+                                       const RobotModel& model, const std::string& epochs) {
+  const MarginBudget margins = MarginBudget::of(model);
   CommitmentSettings settings;
   settings.agent = robot;
   settings.priority = values.integer("priority");
   settings.delta_dc_s = values.number("delta_dc");
   settings.reach_timeout_s = values.number("reach_timeout");
-  settings.peer_clearance_m = model.peer_clearance_m + MarginBudget::of(model).peer_margin_m();
+  settings.peer_clearance_m = model.peer_clearance_m + margins.peer_margin_m();
   settings.heartbeat_period_s = 1.0 / values.number("heartbeat_rate");
   settings.resend_period_s = 1.0 / values.number("resend_rate");
-  settings.epoch = next_epoch(epoch_file(values.text("epoch_file"), robot));
+  settings.clocks = {2.0 * margins.clock_s, values.number("max_clock_error")};
+  settings.epoch = next_epoch(epochs);
   return settings;
 }
 
@@ -87,43 +92,35 @@ class TrajectoryBroadcasterNode {
   TrajectoryBroadcasterNode(ros::NodeHandle& node, const ParameterTable& values)
       : robot_(robot_identity()),
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
-        commitment_(commitment_settings(values, robot_.name, model_)),
-        promises_out_(node.advertise<mocha_ugv::Trajectory>("/fleet/promises", 100)),
-        heartbeats_out_(node.advertise<mocha_ugv::Heartbeat>("/fleet/heartbeats", 100)),
+        epoch_file_(epoch_file(values.text("epoch_file"), robot_.name)),
+        commitment_(commitment_settings(values, robot_.name, model_, epoch_file_)),
         committed_(node.advertise<mocha_ugv::Trajectory>("committed_trajectory", 10, true)),
         fleet_(node.advertise<mocha_ugv::FleetTrajectories>("fleet/trajectories", 10, true)),
         drawings_(node.advertise<visualization_msgs::MarkerArray>("motion_markers", 2, true)),
         settlements_(node.advertise<mocha_ugv::PlannerStatus>("settlement", 20)),
-        proposals_(subscribe(node, "proposed_trajectory", &TrajectoryBroadcasterNode::on_proposal)),
-        leases_(subscribe(node, "lease", &TrajectoryBroadcasterNode::on_lease)),
-        promises_in_(subscribe(node, "/fleet/promises", &TrajectoryBroadcasterNode::on_promise)),
-        heartbeats_in_(
-            subscribe(node, "/fleet/heartbeats", &TrajectoryBroadcasterNode::on_heartbeat)),
+        proposals_(node.subscribe("proposed_trajectory", 100,
+                                  &TrajectoryBroadcasterNode::on_proposal, this, at_once())),
+        leases_(
+            node.subscribe("lease", 100, &TrajectoryBroadcasterNode::on_lease, this, at_once())),
+        network_(node, robot_, {values.text("lcm_url"), values.text("fleet_key")},
+                 [this](const FleetMessage& message) { hear(message); }),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
     diagnostics_.setHardwareID(robot_.name);
     diagnostics_.add("promises", this, &TrajectoryBroadcasterNode::diagnose);
+    diagnostics_.add("fleet network", this, &TrajectoryBroadcasterNode::diagnose_network);
     draw(Motion());
     ROS_INFO("%s: epoch %u", robot_.name.c_str(), commitment_.settings().epoch);
   }
 
  private:
-  template <typename Message>
-  using Event = ros::MessageEvent<const Message>;
-
-  template <typename Message>
-  ros::Subscriber subscribe(ros::NodeHandle& node, const std::string& topic,
-                            void (TrajectoryBroadcasterNode::*handle)(const Event<Message>&)) {
-    return node.subscribe(topic, 100, handle, this, at_once());
-  }
-
-  void on_proposal(const Event<mocha_ugv::Trajectory>& event) {
-    const mocha_ugv::Trajectory& message = *event.getMessage();
+  void on_proposal(const mocha_ugv::Trajectory& message) {
     if (!advance_clock(ros::Time::now())) return;
     try {
       if (message.agent != robot_.name) {
         throw std::invalid_argument("is of '" + message.agent + "'");
       }
-      const Promise wish = promise_from_message(message, robot_.map_frame);
+      // As everybody else will hear it.
+      const Promise wish = quantised(promise_from_message(message, robot_.map_frame));
       const Proposal proposal{message.sequence, wish.footprint_radius_m, wish.motion};
       if (wish.state == PromiseState::kProposed) {
         apply(commitment_.propose(proposal, now_.toSec()));
@@ -133,7 +130,9 @@ class TrajectoryBroadcasterNode {
         throw std::invalid_argument("is neither PROPOSED nor EMERGENCY");
       }
     } catch (const std::invalid_argument& error) {
-      refuse("proposed_trajectory", error.what());
+      ++refused_;
+      refusal_ = error.what();
+      ROS_WARN_THROTTLE(1.0, "Refused a message on proposed_trajectory: %s", error.what());
       mocha_ugv::PlannerStatus status;
       status.header.stamp = now_;
       status.header.frame_id = robot_.map_frame;
@@ -143,41 +142,12 @@ class TrajectoryBroadcasterNode {
     }
   }
 
-  void on_lease(const Event<mocha_ugv::Lease>& event) { lease_ = *event.getMessage(); }
+  void on_lease(const mocha_ugv::Lease& message) { lease_ = message; }
 
-  void on_promise(const Event<mocha_ugv::Trajectory>& event) {
-    hear(event, "/fleet/promises", [this](const mocha_ugv::Trajectory& message) {
-      apply(commitment_.receive(promise_from_message(message, robot_.map_frame), now_.toSec()));
-    });
-  }
-
-  void on_heartbeat(const Event<mocha_ugv::Heartbeat>& event) {
-    hear(event, "/fleet/heartbeats", [this](const mocha_ugv::Heartbeat& message) {
-      apply(commitment_.receive(beat_from_message(message), now_.toSec()));
-    });
-  }
-
-  /// A message of another robot. The same name from another node is another robot that calls itself
-  /// like this one.
-  template <typename Message, typename Handle>
-  void hear(const Event<Message>& event, const std::string& topic, Handle handle) {
-    if (event.getPublisherName() == ros::this_node::getName()) return;
+  void hear(const FleetMessage& message) {
     if (!advance_clock(ros::Time::now())) return;
-    try {
-      if (event.getMessage()->agent == robot_.name) {
-        throw std::invalid_argument("carries this robot's own name but comes from " +
-                                    event.getPublisherName());
-      }
-      handle(*event.getMessage());
-    } catch (const std::invalid_argument& error) {
-      refuse(topic, error.what());
-    }
-  }
-
-  void refuse(const std::string& topic, const std::string& why) {
-    ++refused_;
-    refusal_ = topic + ": " + why;
-    ROS_WARN_THROTTLE(1.0, "Refused a message on %s", refusal_.c_str());
+    const double now_s = now_.toSec();
+    apply(std::visit([&](const auto& each) { return commitment_.receive(each, now_s); }, message));
   }
 
   /// False while there is no time yet. Within a step, time does not run backward.
@@ -192,17 +162,24 @@ class TrajectoryBroadcasterNode {
   void step(ros::Time now) {
     if (!advance_clock(now)) return;
     apply(commitment_.tick(now_.toSec()));
+    go_on_after_known_epoch();
     publish_fleet();
     diagnostics_.update();
   }
 
+  /// Where the file that counts the starts was lost, the peers take this robot for its own past.
+  void go_on_after_known_epoch() {
+    const std::uint32_t known = commitment_.peers().known_epoch();
+    if (known <= commitment_.settings().epoch) return;
+    raise_epoch(epoch_file_, known);
+    throw std::runtime_error("peers know epoch " + std::to_string(known) + " of this robot, but " +
+                             epoch_file_ + " said " + std::to_string(commitment_.settings().epoch) +
+                             "; it is set right, and this node starts anew");
+  }
+
   void apply(const CommitmentActions& actions) {
-    for (const Promise& promise : actions.promises) {
-      promises_out_.publish(to_message(promise, robot_.map_frame, now_));
-    }
-    if (actions.beat) {
-      heartbeats_out_.publish(to_message(*actions.beat, robot_.map_frame, now_));
-    }
+    for (const Promise& promise : actions.promises) network_.send(promise, now_);
+    if (actions.beat) network_.send(*actions.beat, now_);
     for (const CommitmentEvent& event : actions.events) report(event);
   }
 
@@ -270,31 +247,24 @@ class TrajectoryBroadcasterNode {
     }
     const bool leased = lease_.valid_until > now_;
     status.addf("lease remaining (s)", "%.2f", leased ? (lease_.valid_until - now_).toSec() : 0.0);
-    for (const auto& [name, peer] : commitment_.peers().peers()) diagnose(name, peer, status);
     for (const auto& [refusal, count] : refusals_)
       status.add("proposals refused: " + refusal, count);
     status.add("breaches", breaches_);
-    status.add("duplicates", commitment_.peers().duplicates());
-    status.add("messages older than known", commitment_.peers().old_messages());
-    status.add("refused messages", refused_);
-    if (refused_ > 0) status.add("last refused message", refusal_);
+    status.add("refused proposals", refused_);
+    if (refused_ > 0) status.add("last refused proposal", refusal_);
   }
 
-  void diagnose(const std::string& name, const Peer& peer,
-                diagnostic_updater::DiagnosticStatusWrapper& status) const {
-    using diagnostic_msgs::DiagnosticStatus;
-    const bool in_reach = commitment_.peers().in_reach(peer, now_.toSec());
-    if (!in_reach) {
-      status.mergeSummary(DiagnosticStatus::WARN,
-                          name + " is out of reach; its last promise still counts");
-    }
-    status.addf("peer " + name, "%s, heard %.2f s ago, epoch %u, promise %u",
-                in_reach ? "in reach" : "out of reach", now_.toSec() - peer.last_heard_s,
-                peer.epoch, peer.binding.empty() ? 0 : peer.binding.newest().id.sequence);
+  void diagnose_network(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "hears its fleet");
+    network_.diagnose(status);
+    diagnose_peers(
+        commitment_.peers(), now_.toSec(), commitment_.settings().delta_dc_s,
+        [this](const std::string& peer) { return network_.loss(peer); }, status);
   }
 
   const RobotIdentity robot_;
   const RobotModel model_;
+  const std::string epoch_file_;
   Commitment commitment_;
   ros::Time now_;
   ros::Time next_fleet_;
@@ -305,16 +275,13 @@ class TrajectoryBroadcasterNode {
   int refused_ = 0;
   std::string refusal_;
   diagnostic_updater::Updater diagnostics_;
-  ros::Publisher promises_out_;
-  ros::Publisher heartbeats_out_;
   ros::Publisher committed_;
   ros::Publisher fleet_;
   ros::Publisher drawings_;
   ros::Publisher settlements_;
   ros::Subscriber proposals_;
   ros::Subscriber leases_;
-  ros::Subscriber promises_in_;
-  ros::Subscriber heartbeats_in_;
+  FleetNetwork network_;
   StepLoop loop_;
 };
 

@@ -1,5 +1,6 @@
 #include "ros/promise_conversions.h"
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
@@ -45,6 +46,9 @@ std::string why(const CommitmentEvent& event) {
       return in_words(event.conflict) + ": that is proposed at the same time and ranks higher";
     case Refusal::kUnanswered:
       return event.conflict.peer + " did not agree before the motion had to start";
+    case Refusal::kClock:
+      return "the clock of " + event.conflict.peer +
+             " could not be told before the motion had to start";
     case Refusal::kReplaced:
       return "replaced by a newer proposal";
     case Refusal::kEmergency:
@@ -92,6 +96,13 @@ mocha_ugv::Heartbeat to_message(const Beat& beat, const std::string& frame, ros:
     seen.state = static_cast<std::uint8_t>(line.state);
     message.seen.push_back(seen);
   }
+  for (const Echo& line : beat.echoes) {
+    mocha_ugv::PeerEcho echo;
+    echo.agent = line.agent;
+    echo.stamp.fromSec(line.stamp_s);
+    echo.held = line.held_s;
+    message.echoes.push_back(echo);
+  }
   return message;
 }
 
@@ -115,9 +126,13 @@ Promise promise_from_message(const mocha_ugv::Trajectory& message, const std::st
 
 Beat beat_from_message(const mocha_ugv::Heartbeat& message) {
   if (message.agent.empty()) throw std::invalid_argument("has no name of a robot");
-  Beat beat{message.agent, message.epoch, message.header.stamp.toSec(), {}};
+  Beat beat{message.agent, message.epoch, message.header.stamp.toSec(), {}, {}};
   for (const auto& seen : message.seen) {
     beat.seen.push_back({seen.agent, {seen.epoch, seen.sequence}, state_from_message(seen.state)});
+  }
+  for (const auto& echo : message.echoes) {
+    if (!std::isfinite(echo.held)) throw std::invalid_argument("an echo was held for no time");
+    beat.echoes.push_back({echo.agent, echo.stamp.toSec(), echo.held});
   }
   return beat;
 }

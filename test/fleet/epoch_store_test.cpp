@@ -64,6 +64,13 @@ TEST_F(EpochStore, SaysWhenItCannotWrite) {
   EXPECT_NE(error().find(path_), std::string::npos);
 }
 
+TEST_F(EpochStore, IsRaisedButNeverLowered) {
+  raise_epoch(path_, 41);
+  EXPECT_EQ(next_epoch(path_), 42u);
+  raise_epoch(path_, 7);
+  EXPECT_EQ(next_epoch(path_), 43u);
+}
+
 TEST_F(EpochStore, RefusesAFolder) {
   std::filesystem::create_directories(path_);
   EXPECT_NE(error().find(path_), std::string::npos);

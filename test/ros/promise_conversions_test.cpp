@@ -32,7 +32,8 @@ TEST(PromiseConversions, GoThereAndBack) {
     const Vector2 expected = promise().motion->at(t).pose.position;
     EXPECT_NEAR((back.motion->at(t).pose.position - expected).norm(), 0.0, 1e-9);
   }
-  const Beat beat{"ugv2", 3, 12.0, {{"ugv1", {4, 17}, PromiseState::kEmergency}}};
+  const Beat beat{
+      "ugv2", 3, 12.0, {{"ugv1", {4, 17}, PromiseState::kEmergency}}, {{"ugv1", 11.5, 0.25}}};
   const Beat heard = beat_from_message(to_message(beat, "map", ros::Time(12.0)));
   EXPECT_EQ(heard.agent, "ugv2");
   EXPECT_EQ(heard.epoch, 3u);
@@ -40,6 +41,11 @@ TEST(PromiseConversions, GoThereAndBack) {
   EXPECT_EQ(heard.seen[0].agent, "ugv1");
   EXPECT_EQ(heard.seen[0].id, (PromiseId{4, 17}));
   EXPECT_EQ(heard.seen[0].state, PromiseState::kEmergency);
+  EXPECT_EQ(heard.stamp_s, 12.0);
+  ASSERT_EQ(heard.echoes.size(), 1u);
+  EXPECT_EQ(heard.echoes[0].agent, "ugv1");
+  EXPECT_EQ(heard.echoes[0].stamp_s, 11.5);
+  EXPECT_EQ(heard.echoes[0].held_s, 0.25);
 }
 
 TEST(PromiseConversions, AWithdrawalNeedsNoMotion) {
