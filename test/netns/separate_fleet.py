@@ -1,8 +1,8 @@
 """A simulated fleet of which every robot is a host of its own: its own roscore and stack, promises by LCM over a network that loses and
 delays. Simulated time goes on only as far as the test lets it, and the network keeps that time."""
+import contextlib
 import math
 import os
-import secrets
 import shutil
 import subprocess
 import sys
@@ -32,10 +32,11 @@ ARRIVED_M = 0.2
 
 
 def new_key(path):
-    """Writes a fleet key there; its absolute path."""
+    """Makes a fleet key there; its absolute path."""
     os.makedirs(os.path.dirname(path), exist_ok=True)
-    with open(path, "w", opener=lambda name, flags: os.open(name, flags, 0o600)) as file:
-        file.write(secrets.token_hex(32) + "\n")
+    with contextlib.suppress(FileNotFoundError):
+        os.remove(path)
+    subprocess.run([os.path.join(ROOT, "scripts/fleet_key"), path], check=True, stdout=subprocess.DEVNULL)
     return os.path.abspath(path)
 
 
