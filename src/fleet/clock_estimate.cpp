@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace mocha {
+namespace {
+
+constexpr double kNewest = 0.1;  // what the newest delay counts in their mean
+
+}  // namespace
 
 ClockReading ClockEstimate::widened(const Sample& sample, double now) {
   ClockReading reading = sample.reading;
@@ -20,6 +25,7 @@ void ClockEstimate::add(double sent_s, double held_s, double stamp_s, double now
   if (!(held_s >= 0.0 && round_trip_s >= -kResolution_s && round_trip_s <= kMemory_s)) return;
   const double delay_s = std::max(0.0, 0.5 * round_trip_s);
   const Sample sample{{stamp_s - (now - delay_s), delay_s + kResolution_s, delay_s}, now};
+  delay_s_ = best_ ? delay_s_ + kNewest * (delay_s - delay_s_) : delay_s;
   if (best_) {
     const ClockReading known = widened(*best_, now);
     const double apart_s = std::abs(known.offset_s - sample.reading.offset_s);
@@ -37,7 +43,9 @@ void ClockEstimate::add(double sent_s, double held_s, double stamp_s, double now
 
 std::optional<ClockReading> ClockEstimate::reading(double now) const {
   if (!best_) return std::nullopt;
-  return widened(*best_, now);
+  ClockReading reading = widened(*best_, now);
+  reading.delay_s = delay_s_;
+  return reading;
 }
 
 }  // namespace mocha

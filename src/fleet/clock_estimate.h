@@ -9,7 +9,7 @@ namespace mocha {
 struct ClockReading {
   double offset_s = 0.0;
   double uncertainty_s = 0.0;
-  double delay_s = 0.0;  ///< of a message, there and back halved
+  double delay_s = 0.0;  ///< of a message these days, there and back halved
 };
 
 /// Where a peer's clock stands against ours, from heartbeats that are echoed: a message that goes
@@ -38,6 +38,7 @@ class ClockEstimate {
   static ClockReading widened(const Sample& sample, double now);
   static bool better(const Sample& a, const std::optional<Sample>& b, double now);
 
+  double delay_s_ = 0.0;          // the mean of about the last ten
   std::optional<Sample> best_;    // since from_s_ less kMemory_s
   std::optional<Sample> recent_;  // since from_s_
   double from_s_ = 0.0;

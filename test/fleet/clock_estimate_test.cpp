@@ -64,9 +64,18 @@ TEST(ClockEstimate, ForgetsWhatIsOldAndWidensWhatItKeeps) {
   ClockEstimate clock;
   exchange(clock, kNow_s, 0.0, 0.05, 0.0);
   for (int i = 1; i < 300; ++i) exchange(clock, kNow_s + 0.1 * i, 0.1, 0.05, 0.1);
-  EXPECT_NEAR(clock.reading(kNow_s + 30.0)->delay_s, 0.1, 1e-6);
+  EXPECT_NEAR(clock.reading(kNow_s + 30.0)->uncertainty_s, 0.12, 1e-2);
   EXPECT_NEAR(clock.reading(kNow_s + 1030.0)->uncertainty_s, 0.12 + 1000.0 * ClockEstimate::kDrift,
               0.01);
+}
+
+TEST(ClockEstimate, SaysHowLongMessagesTakeTheseDays) {
+  ClockEstimate clock;
+  for (int i = 0; i < 20; ++i) exchange(clock, kNow_s + 0.1 * i, 0.0, 0.05, 0.0);
+  EXPECT_NEAR(clock.reading(kNow_s + 2.1)->delay_s, 0.0, 1e-6);
+  for (int i = 20; i < 60; ++i) exchange(clock, kNow_s + 0.1 * i, 0.1, 0.05, 0.1);
+  EXPECT_NEAR(clock.reading(kNow_s + 6.1)->delay_s, 0.1, 0.01);
+  EXPECT_NEAR(clock.reading(kNow_s + 6.1)->uncertainty_s, 0.02, 0.001);  // still by the best
 }
 
 TEST(ClockEstimate, PassesOverWhatCannotBe) {
