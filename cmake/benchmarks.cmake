@@ -28,3 +28,8 @@ if(ompl_FOUND)
 endif()
 
 mocha_benchmark(replan test/benchmarks/replan_scene.cpp test/benchmarks/replan_run.cpp test/benchmarks/space_time_solver.cpp)
+
+foreach(name table3 fleet_delay fleet_scale)
+  mocha_benchmark(${name} test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp
+    test/benchmarks/one_phase.cpp)
+endforeach()

@@ -16,8 +16,10 @@ foreach(folder ${core_folders})
   endif()
 endforeach()
 
-# The scenes and the judge of scripts/bench replan.
-target_sources(test_planning PRIVATE test/benchmarks/replan_scene.cpp test/benchmarks/space_time_solver.cpp)
+# The scenes and the judge of scripts/bench replan, and the fleet of scripts/bench table3, fleet_delay and fleet_scale.
+target_sources(test_planning PRIVATE test/benchmarks/replan_scene.cpp test/benchmarks/space_time_solver.cpp
+  test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp test/benchmarks/one_phase.cpp
+  test/benchmarks/benchmark_world.cpp)
 
 file(GLOB rostests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/rostest/*.test)
 foreach(test ${rostests})

@@ -6,13 +6,22 @@ import subprocess
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
-def run(name, *arguments):
-    """Builds benchmark_NAME if need be, runs it, and returns what it printed as JSON."""
+def build(name):
+    """The path of benchmark_NAME, built if need be."""
     subprocess.run([os.path.join(ROOT, "scripts/build"), f"benchmark_{name}"], check=True)
-    build = os.environ.get("MOCHA_BUILD", os.path.join(ROOT, "_build"))
-    program = os.path.join(build, "devel/lib/mocha_ugv", f"benchmark_{name}")
+    folder = os.environ.get("MOCHA_BUILD", os.path.join(ROOT, "_build"))
+    return os.path.join(folder, "devel/lib/mocha_ugv", f"benchmark_{name}")
+
+
+def call(program, *arguments):
+    """What the program printed as JSON."""
     printed = subprocess.run([program, *map(str, arguments)], check=True, stdout=subprocess.PIPE, cwd=ROOT).stdout
     return json.loads(printed)
+
+
+def run(name, *arguments):
+    """Builds benchmark_NAME if need be, runs it, and returns what it printed as JSON."""
+    return call(build(name), *arguments)
 
 
 def write(result, path):

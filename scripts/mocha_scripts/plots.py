@@ -1,5 +1,5 @@
 """Draws a recorded drive (map with trajectories, speed, acceleration and yaw rate against limits, clearance, separation), or the paper's
-Figs. 6 to 11 with our own data, or the ways of all classes on a map, or what moves in recorded laser scans."""
+Figs. 6 to 13 with our own data, or the ways of all classes on a map, or what moves in recorded laser scans."""
 import argparse
 import os
 import sys
@@ -35,6 +35,16 @@ def add_table2(what):
                         help="seed of the world, as scripts/bench table2 numbers them (default 1)")
     table2.set_defaults(draw=draw_table2)
     return table2
+
+
+def add_table3(what):
+    table3 = what.add_parser("table3", help="drives of Table III, as in the paper's Figs. 12 and 13",
+                             description="Drives the five agents of one scene. Writes fig12.png (the distances of all pairs over time) and "
+                             "fig13.png (the paths among the obstacles).")
+    table3.add_argument("--seed", type=int, default=1, metavar="N",
+                        help="of the scene, as scripts/bench table3 numbers them (default 1)")
+    table3.set_defaults(draw=draw_table3)
+    return table3
 
 
 def add_classes(what):
@@ -96,6 +106,11 @@ def draw_table2(options):
     table2_plots.draw_table2(options.world, options.out)
 
 
+def draw_table3(options):
+    from mocha_scripts import table3_plots
+    table3_plots.draw_table3(options.seed, options.out)
+
+
 def draw_classes(options):
     from mocha_scripts import classes_plots
     classes_plots.draw_classes(options.file, options.classes, options.drive, options.out)
@@ -119,8 +134,8 @@ def draw_swerve(options):
 def main(arguments):
     parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
     what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
-    for plots in (add_drive(what), add_table1(what), add_table2(what), add_classes(what), add_tracks(what), add_replan(what),
-                  add_swerve(what)):
+    for plots in (add_drive(what), add_table1(what), add_table2(what), add_table3(what), add_classes(what), add_tracks(what),
+                  add_replan(what), add_swerve(what)):
         plots.add_argument("--out", default=".", metavar="DIR", help="PNG files go there (default: here)")
     options = parser.parse_args(arguments)
     os.makedirs(options.out, exist_ok=True)

@@ -8,9 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "planning/driven_trail.h"
 #include "planning/global_planner.h"
-#include "planning/goal_queue.h"
+#include "planning/pursuit.h"
 #include "ros/commitment_source.h"
 #include "ros/conversions.h"
 #include "ros/goal_inputs.h"
@@ -26,15 +25,12 @@
 #include "ros/step_loop.h"
 #include "ros/transport.h"
 #include "topology/map_terrain.h"
-#include "trajectory/stopping.h"
 
 namespace mocha {
 namespace {
 
 constexpr double kMapBorder_m = 3.0;
-constexpr double kSoonest_s = 0.2;  // between two plans, whoever asks
-constexpr double kSamePlace_m = 0.5;
-constexpr double kAfterEnd_s = 0.5;  // a plan that ended this long ago without arrival has failed
+constexpr double kBraking = 0.6;  // of the robot's acceleration limit, where a goal is given up
 
 /// Finds the way: goals and maps in, plans out.
 class GlobalPlannerNode {
@@ -44,7 +40,7 @@ class GlobalPlannerNode {
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
         values_(values),
         planner_(std::make_unique<GlobalPlanner>(model_, PlannerRules::from(values))),
-        goals_(GoalRules::from(values)),
+        pursuit_(PursuitRules::from(values), kBraking * model_.limits.max_acceleration),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
@@ -67,13 +63,9 @@ class GlobalPlannerNode {
  private:
   // --- what comes in ---
 
-  /// What is driven instead of what was planned, around something that moves.
   void on_followed(const mocha_ugv::Trajectory& message) {
-    if (goals_.empty() || goal_is_new_ || retreats_) return;
     try {
-      Motion followed = from_message(message);
-      const Vector2 end = followed.end_pose().position;
-      if ((end - goals_.current().position).norm() < kSamePlace_m) plan_ = std::move(followed);
+      pursuit_.follow(from_message(message));
     } catch (const std::exception& error) {
       ++refused_;
       ROS_WARN_THROTTLE(1.0, "Refused a message on local_trajectory: %s", error.what());
@@ -81,25 +73,15 @@ class GlobalPlannerNode {
   }
 
   void on_request(const mocha_ugv::PlannerStatus& status) {
-    requested_ = true;
+    pursuit_.request();
     request_ = status.message;
   }
 
-  void take(std::deque<Goal> goals) {
-    goals_.set(std::move(goals), now_.toSec());
-    begin_goal();
-  }
-
-  void begin_goal() {
-    plan_ = Motion();
-    retreats_ = false;
-    goal_is_new_ = true;
-    occupied_since_.reset();
-  }
+  void take(std::deque<Goal> goals) { pursuit_.take(std::move(goals), now_.toSec()); }
 
   void apply(const ParameterTable& values) {
     planner_ = std::make_unique<GlobalPlanner>(model_, PlannerRules::from(values));
-    goals_.set_rules(GoalRules::from(values));
+    pursuit_.set_rules(PursuitRules::from(values));
   }
 
   // --- what happens when ---
@@ -109,108 +91,27 @@ class GlobalPlannerNode {
     diagnostics_.update();
     const PoseReading reading = pose_.read(now);
     if (!reading.state) {
-      if (!goals_.empty()) report(PlanReason::kNoPose, {}, reading.missing);
+      if (!pursuit_.idle()) report(PlanReason::kNoPose, {}, reading.missing);
       return;
     }
-    trail_.add(*reading.state);
-    if (goals_.empty()) return;
-    inputs_.feedback(*reading.state, now);
-    switch (goals_.update(now.toSec(), *reading.state)) {
-      case GoalQueue::Event::kAllReached:
-        ROS_INFO("%s: reached its goal", identity_.name.c_str());
-        inputs_.finish(true, "reached");
-        return;
-      case GoalQueue::Event::kReached:
-        begin_goal();
-        break;
-      case GoalQueue::Event::kTimedOut:
-        inputs_.finish(false, "no progress; last: " + outputs_.text());
-        stop("no progress towards the goal");
-        return;
-      case GoalQueue::Event::kNone:
-        break;
-    }
-    if (due()) plan();
+    if (!pursuit_.idle()) inputs_.feedback(*reading.state, now);
+    Pursuit::Planner planner;
+    if (map_.available()) planner = [this](const PlanQuery& query) { return plan(query); };
+    show(pursuit_.step(now.toSec(), *reading.state, committed_.motion(), planner));
   }
 
-  bool due() const {
-    const double since_s = (now_ - planned_at_).toSec();
-    if (goal_is_new_) return true;
-    const bool retreat_ends =
-        retreats_ && now_.toSec() > plan_.end_time() - values_.number("planning_time");
-    if (requested_ || retreat_ends) return since_s >= kSoonest_s;
-    if (retreats_) return false;
-    const bool has_plan = !plan_.empty() && now_.toSec() < plan_.end_time() + kAfterEnd_s;
-    return since_s >= values_.number(has_plan ? "replan_period" : "retry_period");
-  }
-
-  void plan() {
-    if (!map_.available()) {
-      report(PlanReason::kNoMap, {}, "no map on " + ros::names::resolve("map") + " yet");
-      return;
-    }
-    if (committed_.motion().empty()) {
-      report(PlanReason::kNoPose, {}, "nothing is committed yet that a plan could start from");
-      return;
-    }
-    PlanQuery query = query_to(goals_.current());
-    if (!goal_is_new_ && !retreats_) query.driven = plan_;
-    const PlanResult result = planner_->plan(query, scene(query), [] { return false; });
-    const bool improvement = !goal_is_new_ && !requested_ && !retreats_ && !plan_.empty() &&
-                             now_.toSec() < plan_.end_time() + kAfterEnd_s;
-    planned_at_ = now_;
-    requested_ = false;
-    ++plans_made_;
-    outputs_.show_candidates(result, goals_.current(), now_);
-    if (improvement && (result.motion.empty() || !much_better(result.motion))) return;
-    if (result.motion.empty()) {
-      report(result.reason, result.violation, result.message);
-      give_up_where_occupied(result);
-      return;
-    }
-    goal_is_new_ = false;
-    occupied_since_.reset();
-    report(result.reason, result.violation, result.message);
-    class_switches_ += result.switches_class;
-    retreats_ = result.reason == PlanReason::kBackingOut;
-    if (!retreats_) goals_.move_current(result.goal);
-    adopt(result.motion);
-  }
-
-  PlanningScene scene(const PlanQuery& query) {
+  PlanResult plan(const PlanQuery& query) {
     PlanningScene scene;
     const Vector2 start = query.committed.at(query.start_time_s).pose.position;
     scene.terrain = std::make_shared<MapTerrain>(
         map_.field(DistanceField::Solid::kOccupied, {start, query.goal}, kMapBorder_m));
     scene.peers = peers_.obstacles();
-    return scene;
-  }
-
-  bool much_better(const Motion& motion) const {
-    const double remaining_s = plan_.end_time() - now_.toSec();
-    return motion.end_time() < plan_.end_time() - values_.number("better_by") * remaining_s;
-  }
-
-  void give_up_where_occupied(const PlanResult& result) {
-    goal_is_new_ = false;
-    if (result.reason != PlanReason::kGoalOccupied) {
-      occupied_since_.reset();
-      return;
-    }
-    if (!occupied_since_) occupied_since_ = now_;
-    if ((now_ - *occupied_since_).toSec() < values_.number("occupied_goal_timeout")) return;
-    inputs_.finish(false, result.message);
-    stop(result.message);
+    return planner_->plan(query, scene, [] { return false; });
   }
 
   void stop(const std::string& why) {
     ROS_INFO("%s: stops: %s", identity_.name.c_str(), why.c_str());
-    goals_.clear();
-    if (committed_.motion().empty()) return;
-    const double from_s =
-        committed_.motion().switch_time(now_.toSec() + values_.number("planning_time"));
-    adopt(Motion(from_s,
-                 brake_along(committed_.motion(), from_s, 0.6 * model_.limits.max_acceleration)));
+    adopt(pursuit_.stop(committed_.motion(), now_.toSec()));
   }
 
   bool on_plan_service(mocha_ugv::PlanTrajectory::Request& request,
@@ -241,32 +142,48 @@ class GlobalPlannerNode {
       refusal.message = map_.available() ? "the robot's state is not known yet" : "no map yet";
       return refusal;
     }
-    PlanQuery query = query_to(*goal);
+    PlanQuery query = pursuit_.query_to(*goal, committed_.motion(), now_.toSec());
     if (start) {
       query.start_time_s = now_.toSec();
       query.committed =
           Motion(now_.toSec(), {StandPhase{{start->position, start->yaw_rad.value_or(0.0)}, 0.1}});
       query.trail.clear();
     }
-    return planner_->plan(query, scene(query), [] { return false; });
-  }
-
-  PlanQuery query_to(const Goal& goal) const {
-    PlanQuery query;
-    query.committed = committed_.motion();
-    query.start_time_s =
-        committed_.motion().switch_time(now_.toSec() + values_.number("planning_time"));
-    query.goal = goal.position;
-    query.goal_yaw_rad = goal.yaw_rad;
-    query.trail = trail_.points();
-    return query;
+    return plan(query);
   }
 
   // --- what goes out ---
 
-  void adopt(const Motion& motion) {
-    plan_ = motion;
-    outputs_.adopt(motion, now_);
+  void show(const Pursuit::Output& output) {
+    if (output.planned) {
+      ++plans_made_;
+      outputs_.show_candidates(output.planned->result, output.planned->goal, now_);
+      class_switches_ += !output.plan.empty() && output.planned->result.switches_class;
+    }
+    if (output.report) {
+      const auto& [reason, violation, text] = *output.report;
+      const std::string no_map = "no map on " + ros::names::resolve("map") + " yet";
+      report(reason, violation, reason == PlanReason::kNoMap ? no_map : text);
+    }
+    finish(output.ending);
+    adopt(output.plan);
+  }
+
+  void finish(Pursuit::Ending ending) {
+    if (ending == Pursuit::Ending::kNone) return;
+    if (ending == Pursuit::Ending::kReached) {
+      ROS_INFO("%s: reached its goal", identity_.name.c_str());
+      inputs_.finish(true, "reached");
+      return;
+    }
+    const bool occupied = ending == Pursuit::Ending::kGoalOccupied;
+    const std::string why = occupied ? outputs_.text() : "no progress towards the goal";
+    inputs_.finish(false, occupied ? why : "no progress; last: " + outputs_.text());
+    ROS_INFO("%s: stops: %s", identity_.name.c_str(), why.c_str());
+  }
+
+  void adopt(const Motion& plan) {
+    if (!plan.empty()) outputs_.adopt(plan, now_);
   }
 
   void report(PlanReason reason, const Violation& violation, const std::string& text) {
@@ -275,10 +192,10 @@ class GlobalPlannerNode {
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
-    const bool fine = goals_.empty() || outputs_.reason() == PlanReason::kSolved;
+    const bool fine = pursuit_.idle() || outputs_.reason() == PlanReason::kSolved;
     status.summary(
         fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
-        goals_.empty() ? "no goal" : to_text(outputs_.reason()) + (": " + outputs_.text()));
+        pursuit_.idle() ? "no goal" : to_text(outputs_.reason()) + (": " + outputs_.text()));
     status.add("plans made", plans_made_);
     status.add("plans adopted", outputs_.adopted());
     status.add("switches to another class of ways", class_switches_);
@@ -292,20 +209,13 @@ class GlobalPlannerNode {
   const RobotModel model_;
   ParameterTable values_;
   std::unique_ptr<const GlobalPlanner> planner_;
-  GoalQueue goals_;
-  DrivenTrail trail_;
+  Pursuit pursuit_;
   PoseSource pose_;
   MapSource map_;
   PeerSource peers_;
   CommitmentSource committed_;
   PlannerOutputs outputs_;
-  Motion plan_;
   ros::Time now_;
-  ros::Time planned_at_;
-  bool goal_is_new_ = false;
-  bool requested_ = false;
-  bool retreats_ = false;  // plan_ backs out; the way to the goal is to be found from its end
-  std::optional<ros::Time> occupied_since_;
   std::string request_;
   int plans_made_ = 0;
   int class_switches_ = 0;

@@ -34,20 +34,6 @@ std::string seconds(double value) {
   return text;
 }
 
-LocalReplannerRules replanner_rules(const ParameterTable& values, const RobotModel& robot) {
-  LocalReplannerRules rules;
-  rules.settle_s = values.number("settle_time");
-  rules.emergency_s = values.number("emergency_time");
-  rules.horizon_s = values.number("horizon");
-  rules.extend_every_s = values.number("extend_every");
-  rules.answer_timeout_s = values.number("answer_timeout");
-  // The tracker brakes at e_track; a little later the promise itself is given up.
-  rules.max_error_m = 1.5 * robot.margins.tracking_m;
-  rules.max_error_rad = values.number("max_heading_error");
-  rules.mu_pre_s = values.number("trigger_horizon");
-  return rules;
-}
-
 /// Promises what the global planner planned and swerves around what moves: plans and predictions
 /// in, proposals and leases out.
 class LocalReplannerNode {
@@ -60,7 +46,7 @@ class LocalReplannerNode {
         max_fleet_age_s_(values.number("max_fleet_age")),
         max_prediction_age_s_(values.number("max_prediction_age")),
         prediction_horizon_(values.number("prediction_horizon")),
-        replanner_(model_, replanner_rules(values, model_), LocalRules::from(values)),
+        replanner_(model_, LocalReplannerRules::from(values, model_), LocalRules::from(values)),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),

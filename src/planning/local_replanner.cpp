@@ -27,6 +27,21 @@ Motion standing(double now_s, const Pose& pose) {
 
 }  // namespace
 
+LocalReplannerRules LocalReplannerRules::from(const ParameterTable& values,
+                                              const RobotModel& robot) {
+  LocalReplannerRules rules;
+  rules.settle_s = values.number("settle_time");
+  rules.emergency_s = values.number("emergency_time");
+  rules.horizon_s = values.number("horizon");
+  rules.extend_every_s = values.number("extend_every");
+  rules.answer_timeout_s = values.number("answer_timeout");
+  // The tracker brakes at e_track; a little later the promise itself is given up.
+  rules.max_error_m = 1.5 * robot.margins.tracking_m;
+  rules.max_error_rad = values.number("max_heading_error");
+  rules.mu_pre_s = values.number("trigger_horizon");
+  return rules;
+}
+
 LocalReplanner::LocalReplanner(const RobotModel& robot, const LocalReplannerRules& rules,
                                const LocalRules& local_rules, const LocalPlanner::Watch& watch)
     : own_radius_m_(robot.footprint.circumscribed_radius_m()),
@@ -142,7 +157,8 @@ void LocalReplanner::start(double now_s, const RobotState& measured, Output& out
   const bool standing_still = std::abs(measured.twist.speed) < kStanding_mps &&
                               std::abs(measured.twist.yaw_rate) < kStanding_radps;
   if (standing_still) {
-    propose(now_s, standing(now_s + rules_.settle_s, measured.pose), false, {}, false, output);
+    // There is nothing to be settled about it: unless the others know, they drive through it.
+    propose(now_s, standing(now_s, measured.pose), true, {}, false, output);
     output.message = "promises to stand";
   } else {
     stop_here(now_s, measured, output);

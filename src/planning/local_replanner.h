@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "config/parameter_table.h"
 #include "control/robot_state.h"
 #include "planning/promise_builder.h"
 #include "planning/proposals.h"
@@ -22,6 +23,8 @@ struct LocalReplannerRules {
   double max_error_m;       ///< actual against promised position
   double max_error_rad;     ///< the same for the heading
   double mu_pre_s;          ///< (37): so far ahead the plan is held against what moves
+
+  static LocalReplannerRules from(const ParameterTable& values, const RobotModel& robot);
 };
 
 /// Turns plans into promises: proposes certified motions that follow the newest plan, keeps the

@@ -9,6 +9,10 @@
 namespace mocha {
 namespace {
 
+// Knots are told in hundredths of a millimetre: of two that are nearer to each other in time, this
+// would make jerks. A polynomial of a smooth curve goes on for so long as its neighbour does.
+constexpr double kSliver_s = 0.002;
+
 /// [order][k]: the factor that u^k gets by deriving it so often.
 template <int Coefficients>
 constexpr auto falling_factorials() {
@@ -76,14 +80,17 @@ PiecewisePolynomial<D, S> PiecewisePolynomial<D, S>::slice(double t0, double t1)
   if (!(t0 >= 0.0 && t0 < t1 && t1 <= duration() * (1.0 + 1e-12))) {
     throw std::invalid_argument("PiecewisePolynomial::slice: needs 0 <= t0 < t1 <= duration");
   }
+  t1 = std::min(t1, duration());
+  int first = locate(t0).piece;
+  int last = locate(t1).piece;
+  if (first < last && piece_start(first + 1) - t0 < kSliver_s) ++first;
+  if (first < last && t1 - piece_start(last) < kSliver_s) --last;
   std::vector<Piece> pieces;
   std::vector<double> durations;
-  for (int i = 0; i < this->pieces(); ++i) {
+  for (int i = first; i <= last; ++i) {
     const double tau = durations_[i];
-    const double u0 = std::clamp((t0 - piece_start(i)) / tau, 0.0, 1.0);
-    const double u1 = std::clamp((t1 - piece_start(i)) / tau, 0.0, 1.0);
-    // A sliver of a microsecond would only spoil the conditioning.
-    if ((u1 - u0) * tau < 1e-6) continue;
+    const double u0 = i == first ? (t0 - piece_start(i)) / tau : 0.0;
+    const double u1 = i == last ? (t1 - piece_start(i)) / tau : 1.0;
     // Taylor shift to u0, then scale by (u1 - u0).
     Piece shifted = pieces_[i];
     for (int j = 0; j < kCoefficients; ++j) {

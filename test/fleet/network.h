@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <random>
 #include <string>
 #include <utility>
@@ -9,6 +8,7 @@
 
 #include "fleet/commitment.h"
 #include "fleet/motions.h"
+#include "simulation/lossy_network.h"
 
 namespace mocha::test {
 
@@ -16,21 +16,18 @@ namespace mocha::test {
 /// about all of them.
 class Network {
  public:
-  struct Link {
-    double min_delay_s = 0.0;
-    double max_delay_s = 0.01;
-    double loss = 0.0;
+  struct Link : NetworkLink {
     bool heartbeats = true;
   };
   static constexpr double kRadius_m = 0.3;
 
-  Network(int seed, Link link) : link_(link), random_(seed) {}
+  Network(int seed, const Link& link)
+      : network_(seed, link), heartbeats_(link.heartbeats), random_(seed) {}
 
   void add(const CommitmentSettings& settings) { robots_.emplace_back(settings); }
   Commitment& robot(int i) { return robots_[i]; }
   int size() const { return static_cast<int>(robots_.size()); }
   double now() const { return now_; }
-  Link& link() { return link_; }
   std::mt19937& random() { return random_; }
 
   void propose(int i, Motion motion) {
@@ -40,15 +37,13 @@ class Network {
     apply(i, robots_[i].brake({++tag_, kRadius_m, shared(std::move(motion))}, now_));
   }
   /// A robot that is cut off neither sends nor receives.
-  void cut_off(int i, bool off) { off_[i] = off; }
+  void cut_off(int i, bool off) { network_.cut_off(i, off); }
   void restart(int i, const CommitmentSettings& settings) { robots_[i] = Commitment(settings); }
 
   void run(double seconds, double step_s = 0.01) {
     for (const double until = now_ + seconds; now_ < until;) {
       now_ += step_s;
-      while (!queue_.empty() && queue_.begin()->first <= now_) {
-        const Delivery delivery = queue_.begin()->second;
-        queue_.erase(queue_.begin());
+      for (const auto& delivery : network_.receive(now_)) {
         Commitment& receiver = robots_[delivery.to];
         apply(delivery.to,
               std::visit([&](const auto& each) { return receiver.receive(each, now_); },
@@ -73,28 +68,15 @@ class Network {
   int broken() const { return broken_; }
 
  private:
-  struct Delivery {
-    int to;
-    std::variant<Promise, Beat> message;
-  };
+  using Message = std::variant<Promise, Beat>;
 
   void apply(int i, const CommitmentActions& actions) {
-    for (const Promise& promise : actions.promises) send(i, promise);
-    if (actions.beat && link_.heartbeats) send(i, *actions.beat);
+    for (const Promise& promise : actions.promises) network_.broadcast(i, size(), promise, now_);
+    if (actions.beat && heartbeats_) network_.broadcast(i, size(), *actions.beat, now_);
     for (const CommitmentEvent& event : actions.events) {
       events_.emplace_back(i, event);
       const bool settled = event.kind == CommitmentEvent::Kind::kSettled;
       if (settled && event.promise.state == PromiseState::kCommitted) check(i, event.promise);
-    }
-  }
-
-  template <typename Message>
-  void send(int from, const Message& message) {
-    for (int to = 0; to < size(); ++to) {
-      const bool lost = std::uniform_real_distribution<double>(0.0, 1.0)(random_) < link_.loss;
-      if (to == from || lost || off_[from] || off_[to]) continue;
-      std::uniform_real_distribution<double> delay(link_.min_delay_s, link_.max_delay_s);
-      queue_.emplace(now_ + delay(random_), Delivery{to, message});
     }
   }
 
@@ -108,13 +90,12 @@ class Network {
     }
   }
 
-  Link link_;
+  LossyNetwork<Message> network_;
+  bool heartbeats_;
   std::mt19937 random_;
   double now_ = 100.0;
   std::uint32_t tag_ = 0;
   std::vector<Commitment> robots_;
-  std::map<int, bool> off_;
-  std::multimap<double, Delivery> queue_;
   std::vector<std::pair<int, CommitmentEvent>> events_;
   int broken_ = 0;
 };

@@ -17,16 +17,8 @@
 namespace mocha {
 
 inline LocalReplannerRules default_replanner_rules(const RobotModel& robot) {
-  LocalReplannerRules rules;
-  rules.settle_s = 0.3;
-  rules.emergency_s = 0.1;
-  rules.horizon_s = 4.0;
-  rules.extend_every_s = 1.0;
-  rules.answer_timeout_s = 0.6;
-  rules.max_error_m = 1.5 * robot.margins.tracking_m;
-  rules.max_error_rad = 0.5;
-  rules.mu_pre_s = 3.0;
-  return rules;
+  return LocalReplannerRules::from(ParameterTable::from_schema("config/local_replanner.yaml"),
+                                   robot);
 }
 
 /// The planners of one robot in simulated time, with a perfect tracker and a broadcaster that
@@ -65,7 +57,7 @@ class ClosedLoop {
     if (output.renew_lease) leased_until_s_ = now_s + kLease_s;
     if (!output.proposal) return;
     ++proposals;
-    emergencies += output.proposal->emergency;
+    emergencies += output.proposal->emergency && !committed().empty();
     waiting_.push_back(*output.proposal);
   }
 
@@ -114,7 +106,7 @@ class ClosedLoop {
   LocalReplanner::Output output;
   double replanner_took_s = 0.0;  ///< wall time of its last step
   int proposals = 0;
-  int emergencies = 0;
+  int emergencies = 0;  ///< but for the first promise, to stand
   int plans = 0;
   int steps_without_lease = 0;  ///< while moving
   double least_clearance_m = std::numeric_limits<double>::infinity();

@@ -31,6 +31,25 @@ TEST(FirstPromise, KeepsTheTimesOfThePlan) {
   }
 }
 
+/// Where it stands is no wish: it binds at once, whatever the others have promised meanwhile. Else
+/// they would not know of the robot, and drive through it.
+TEST(FirstPromise, IsToStandAndBindsAtOnce) {
+  const RobotModel robot = rover();
+  const OccupancyGrid open = free_grid({-2.0, -3.0}, {12.0, 3.0});
+  PromiseScene scene{occupied_field(open), unseen_field(open), {}};
+  const auto through_it = std::make_shared<const Motion>(
+      straight_drive(kNow_s, {1.0, -3.0}, M_PI / 2.0, 6.0, 0.9, 0.5));
+  scene.others = {std::make_shared<PeerObstacle>("ugv2", through_it, 0.3)};
+  LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.5, 3.0}, default_local_rules());
+  const RobotState here{kNow_s, {{1.0, 0.0}, 0.3}, {0.0, 0.0}};
+  const auto output = replanner.step(kNow_s, here, scene);
+  ASSERT_TRUE(output.proposal);
+  EXPECT_TRUE(output.proposal->emergency);
+  EXPECT_EQ(output.proposal->motion.start_time(), kNow_s);
+  EXPECT_LT((output.proposal->motion.end_pose().position - here.pose.position).norm(), 1e-5);
+  EXPECT_EQ(output.proposal->motion.length_m(), 0.0);
+}
+
 /// A broadcaster that was started again knows only what was settled since: a motion that begins
 /// ahead of the moving robot. Until then the robot is not off it.
 TEST(FirstPromise, IsNotHeldAgainstARobotThatIsOnItsWayThere) {

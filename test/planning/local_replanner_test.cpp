@@ -39,8 +39,8 @@ TEST_F(LocalReplannerTest, FirstPromisesToStandWhereItStands) {
   const RobotState here{kNow_s, {{1.0, 0.5}, 0.7}, {0.0, 0.0}};
   const auto output = replanner_.step(kNow_s, here, scene_);
   ASSERT_TRUE(output.proposal);
-  EXPECT_FALSE(output.proposal->emergency);
-  EXPECT_FALSE(output.renew_lease);  // nothing is in force yet
+  EXPECT_TRUE(output.proposal->emergency);  // which is no question to the others
+  EXPECT_FALSE(output.renew_lease);         // nothing is in force yet
   EXPECT_EQ(output.proposal->motion.length_m(), 0.0);
   EXPECT_EQ(output.proposal->motion.end_pose().position, here.pose.position);
   EXPECT_FALSE(replanner_.step(kNow_s + 0.1, here, scene_).proposal);  // waits for the answer

@@ -63,6 +63,22 @@ TEST(PiecewisePolynomial, SlicesAreTheSameCurve) {
   }
 }
 
+TEST(PiecewisePolynomial, SlicesHaveNoSlivers) {
+  const PlanarPath path = random_drive(3, 5).path;
+  const double t0 = path.piece_start(1) - 1e-4;
+  const double t1 = path.piece_start(4) + 1e-4;
+  const PlanarPath part = path.slice(t0, t1);
+  ASSERT_EQ(part.pieces(), 3);
+  EXPECT_NEAR(part.duration(), t1 - t0, 1e-12);
+  for (double t = 0.0; t <= part.duration(); t += 1e-4) {
+    for (int order = 0; order <= 2; ++order) {
+      EXPECT_LT((part.derivative(t, order) - path.derivative(t0 + t, order)).norm(), 1e-7);
+    }
+  }
+  const PlanarPath all_there_is = path.slice(path.piece_start(2) - 1e-4, path.piece_start(2));
+  EXPECT_NEAR(all_there_is.duration(), 1e-4, 1e-12);
+}
+
 TEST(PiecewisePolynomial, SliceRefusesTimesOutside) {
   const PlanarPath path = random_drive(1, 3).path;
   EXPECT_THROW(path.slice(-0.1, 1.0), std::invalid_argument);

@@ -1,0 +1,141 @@
+#include "benchmarks/fleet_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace mocha {
+namespace {
+
+constexpr double kBegin_s = 1.7e9;
+constexpr int kStep_ms = 10;  // of the network and of what is watched
+constexpr int kTick_ms = 20;  // as the nodes' periods
+constexpr int kPursuit_ms = 50;
+constexpr int kProposal_ms = 100;
+constexpr int kSample_ms = 100;
+constexpr double kStanding_mps = 1e-3;
+
+class Fleet {
+ public:
+  explicit Fleet(const FleetScene& scene)
+      : scene_(scene), network_(scene.seed, scene.link), random_(scene.seed) {
+    const int digits = static_cast<int>(std::to_string(scene.agents.size()).size());
+    for (std::size_t i = 0; i < scene.agents.size(); ++i) {
+      std::string number = std::to_string(i + 1);
+      number.insert(0, digits - number.size(), '0');
+      robots_.emplace_back("ugv" + number, scene.agents[i], scene.rules);
+      // Nobody looks at the same moment as all the others.
+      late_ms_.push_back(static_cast<int>(random_() % (kProposal_ms / kStep_ms)) * kStep_ms);
+    }
+    for (const FleetAgent& agent : scene.agents) places_.push_back(agent.start.position);
+    run_.agents.resize(robots_.size());
+  }
+
+  FleetRun run(const std::function<void()>& at_end) {
+    while (run_.time_s < scene_.longest_s && !all_there()) {
+      ms_ += kStep_ms;
+      run_.time_s = 1e-3 * ms_;
+      deliver();
+      for (int i = 0; i < size(); ++i) work(i);
+      watch();
+    }
+    for (int i = 0; i < size(); ++i) {
+      run_.agents[i].reached = robots_[i].reached();
+      run_.agents[i].planning = robots_[i].record();
+    }
+    at_end();
+    return std::move(run_);
+  }
+
+ private:
+  int size() const { return static_cast<int>(robots_.size()); }
+  double now_s() const { return kBegin_s + 1e-3 * ms_; }
+
+  bool all_there() const {
+    return std::all_of(robots_.begin(), robots_.end(),
+                       [](const FleetRobot& robot) { return robot.reached(); });
+  }
+
+  void deliver() {
+    for (const auto& delivery : network_.receive(now_s())) {
+      send(delivery.to, robots_[delivery.to].hear(*delivery.message, now_s()));
+    }
+  }
+
+  void work(int i) {
+    FleetRobot& robot = robots_[i];
+    const int ms = ms_ + late_ms_[i];
+    const bool was_there = robot.reached();
+    if (ms % kTick_ms == 0) send(i, robot.tick(now_s()));
+    if (ms % kPursuit_ms == 0) robot.pursue(now_s());
+    if (ms % kProposal_ms == 0) send(i, robot.propose(now_s()));
+    if (!was_there) run_.agents[i].time_s = run_.time_s;
+  }
+
+  void send(int from, std::vector<FleetRobot::Bytes> datagrams) {
+    FleetAgentRun& agent = run_.agents[from];
+    for (FleetRobot::Bytes& datagram : datagrams) {
+      agent.bytes += datagram.size();
+      agent.largest_datagram = std::max(agent.largest_datagram, datagram.size());
+      const auto shared = std::make_shared<const FleetRobot::Bytes>(std::move(datagram));
+      for (int to = 0; to < size(); ++to) {
+        const bool hears = (places_[to] - places_[from]).norm() <= scene_.reach_m;
+        if (to != from && hears) network_.send(from, to, shared, now_s());
+      }
+    }
+  }
+
+  void watch() {
+    std::vector<RobotState> states;
+    for (FleetRobot& robot : robots_) states.push_back(robot.state(now_s()));
+    for (int i = 0; i < size(); ++i) {
+      places_[i] = states[i].pose.position;
+      if (ms_ % kSample_ms == 0) run_.agents[i].places.push_back(states[i].pose.position);
+      for (int k = 0; k < i; ++k) watch_pair(i, k, states[i], states[k]);
+    }
+  }
+
+  void watch_pair(int i, int k, const RobotState& a, const RobotState& b) {
+    const double apart_m = (a.pose.position - b.pose.position).norm();
+    for (const int one : {i, k}) {
+      double& least_m = run_.agents[one].least_separation_m;
+      least_m = std::min(least_m, apart_m);
+    }
+    run_.min_separation_m = std::min(run_.min_separation_m, apart_m);
+    if (apart_m >= 2.0 * kRadius_m) {
+      touching_.erase({i, k});
+      return;
+    }
+    const bool moving =
+        std::abs(a.twist.speed) > kStanding_mps || std::abs(b.twist.speed) > kStanding_mps;
+    if (moving && touching_.insert({i, k}).second) ++run_.contacts;
+  }
+
+  const FleetScene& scene_;
+  const double kRadius_m = load_robot_model("config", "rover").footprint.circumscribed_radius_m();
+  LossyNetwork<std::shared_ptr<const FleetRobot::Bytes>> network_;
+  std::mt19937 random_;
+  std::deque<FleetRobot> robots_;
+  std::vector<int> late_ms_;
+  std::vector<Vector2> places_;
+  std::set<std::pair<int, int>> touching_;
+  int ms_ = 0;
+  FleetRun run_;
+};
+
+}  // namespace
+
+bool FleetRun::all_reached() const {
+  return std::all_of(agents.begin(), agents.end(),
+                     [](const FleetAgentRun& agent) { return agent.reached; });
+}
+
+FleetRun run_fleet(const FleetScene& scene, const std::function<void()>& at_end) {
+  return Fleet(scene).run(at_end);
+}
+
+}  // namespace mocha

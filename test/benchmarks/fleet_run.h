@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "benchmarks/fleet_robot.h"
+#include "simulation/lossy_network.h"
+
+namespace mocha {
+
+/// A fleet in one process: robots with all their planners, no ROS, simulated time.
+struct FleetScene {
+  std::vector<FleetAgent> agents;
+  FleetRules rules;
+  NetworkLink link;
+  /// Who is farther away hears nothing.
+  double reach_m = std::numeric_limits<double>::infinity();
+  std::uint64_t seed = 1;  ///< of the network, and of when robots look
+  double longest_s = 60.0;
+};
+
+struct FleetAgentRun {
+  bool reached = false;
+  double time_s = 0.0;  ///< until it stood at its goal, or the end
+  double least_separation_m = std::numeric_limits<double>::infinity();  ///< to any other robot
+  std::size_t bytes = 0;                                                ///< sent
+  std::size_t largest_datagram = 0;
+  PlanningRecord planning;
+  std::vector<Vector2> places;  ///< every FleetRun::kSample_s from the beginning on
+};
+
+struct FleetRun {
+  static constexpr double kSample_s = 0.1;
+
+  std::vector<FleetAgentRun> agents;
+  int contacts = 0;  ///< pairs of true footprints that came to overlap while one of them moved
+  double min_separation_m = std::numeric_limits<double>::infinity();
+  double time_s = 0.0;  ///< until all stood at their goals, or the end
+
+  bool all_reached() const;
+};
+
+/// Until all stand at their goals or scene.longest_s is over. The same for the same scene, but for
+/// wall times. `at_end` is called while the robots are still there.
+FleetRun run_fleet(
+    const FleetScene& scene, const std::function<void()>& at_end = [] {});
+
+}  // namespace mocha

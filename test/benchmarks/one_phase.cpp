@@ -1,0 +1,102 @@
+#include "benchmarks/one_phase.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace mocha {
+namespace {
+
+constexpr double kContinuity_m = 0.05;
+constexpr double kRounding_m = 1e-3;  // who is too close already may come no closer
+
+}  // namespace
+
+OnePhase::OnePhase(CommitmentSettings settings)
+    : settings_(std::move(settings)),
+      peers_(settings_.agent, settings_.epoch, settings_.reach_timeout_s) {}
+
+CommitmentActions OnePhase::propose(const Proposal& proposal, double now) {
+  CommitmentActions actions = tick(now);
+  CommitmentEvent event;
+  event.kind = CommitmentEvent::Kind::kRejected;
+  event.proposal = proposal;
+  event.refusal = refusal_by_itself(*proposal.motion, now);
+  if (event.refusal == Refusal::kNone) {
+    if (const auto found = conflict(proposal, now)) {
+      event.refusal = Refusal::kPeerPromise;
+      event.conflict = *found;
+    }
+  }
+  if (event.refusal == Refusal::kNone) event = bind(proposal, PromiseState::kCommitted, actions);
+  actions.events.push_back(std::move(event));
+  return actions;
+}
+
+CommitmentActions OnePhase::brake(const Proposal& proposal, double now) {
+  CommitmentActions actions = tick(now);
+  actions.events.push_back(bind(proposal, PromiseState::kEmergency, actions));
+  return actions;
+}
+
+CommitmentActions OnePhase::receive(const Promise& promise, double now) {
+  peers_.receive(promise, now);
+  return tick(now);
+}
+
+CommitmentActions OnePhase::receive(const Beat&, double now) { return tick(now); }
+
+CommitmentActions OnePhase::tick(double now) {
+  if (!listen_until_s_) listen_until_s_ = now + settings_.reach_timeout_s;
+  peers_.prune(now);
+  binding_.prune(now);
+  CommitmentActions actions;
+  if (binding_.empty() || now < next_resend_s_) return actions;
+  next_resend_s_ = now + settings_.resend_period_s;
+  for (Claim& claim : binding_.claims()) actions.promises.push_back(std::move(claim.promise));
+  return actions;
+}
+
+CommitmentEvent OnePhase::bind(const Proposal& proposal, PromiseState state,
+                               CommitmentActions& actions) {
+  Promise promise;
+  promise.agent = settings_.agent;
+  promise.id = {settings_.epoch, ++sequence_};
+  promise.state = state;
+  promise.footprint_radius_m = proposal.footprint_radius_m;
+  promise.motion = proposal.motion;
+  binding_.bind(promise);
+  actions.promises.push_back(promise);
+  CommitmentEvent event;
+  event.kind = CommitmentEvent::Kind::kSettled;
+  event.promise = std::move(promise);
+  event.proposal = proposal;
+  return event;
+}
+
+Refusal OnePhase::refusal_by_itself(const Motion& motion, double now) const {
+  if (now < *listen_until_s_) return Refusal::kListening;
+  if (motion.start_time() < now) return Refusal::kTooLate;
+  if (binding_.empty()) return Refusal::kNone;
+  const Vector2 expected = binding_.position(motion.start_time());
+  const Vector2 begins = motion.position(motion.start_time());
+  return (begins - expected).norm() <= kContinuity_m ? Refusal::kNone : Refusal::kDiscontinuous;
+}
+
+std::optional<Conflict> OnePhase::conflict(const Proposal& proposal, double now) const {
+  const Promise mine{settings_.agent, {}, PromiseState::kProposed, 0, proposal.footprint_radius_m,
+                     proposal.motion};
+  const Vector2 here = binding_.empty() ? proposal.motion->position(now) : binding_.position(now);
+  for (const auto& [name, peer] : peers_.peers()) {
+    for (const Claim& theirs : peer.binding.claims()) {
+      const double demanded = proposal.footprint_radius_m + theirs.promise.footprint_radius_m +
+                              settings_.peer_clearance_m;
+      const double apart = (here - peer.binding.position(now)).norm();
+      const auto found =
+          first_conflict(claim_of(mine), theirs, std::min(demanded, apart - kRounding_m), now);
+      if (found) return found;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace mocha

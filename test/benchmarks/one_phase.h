@@ -1,0 +1,38 @@
+#pragma once
+
+#include "fleet/commitment.h"
+
+namespace mocha {
+
+/// The paper's protocol (IV-D 4), to be measured against: a trajectory that meets nothing known so
+/// far is binding at once, and then broadcast. Nobody is asked, so that of two robots that promise
+/// within one message's delay neither knows of the other. Calls and answers are those of
+/// Commitment; what is in force is sent again every resend_period, heartbeats there are none.
+class OnePhase {
+ public:
+  /// Of the settings, those about settling have no meaning.
+  explicit OnePhase(CommitmentSettings settings);
+
+  CommitmentActions propose(const Proposal& proposal, double now);
+  CommitmentActions brake(const Proposal& proposal, double now);
+  CommitmentActions receive(const Promise& promise, double now);
+  CommitmentActions receive(const Beat& beat, double now);
+  CommitmentActions tick(double now);
+
+  const PeerTable& peers() const { return peers_; }
+  const PromiseChain& binding() const { return binding_; }
+
+ private:
+  CommitmentEvent bind(const Proposal& proposal, PromiseState state, CommitmentActions& actions);
+  Refusal refusal_by_itself(const Motion& motion, double now) const;
+  std::optional<Conflict> conflict(const Proposal& proposal, double now) const;
+
+  CommitmentSettings settings_;
+  PeerTable peers_;
+  PromiseChain binding_;
+  std::uint32_t sequence_ = 0;
+  std::optional<double> listen_until_s_;
+  double next_resend_s_ = 0.0;
+};
+
+}  // namespace mocha
