@@ -11,20 +11,22 @@ import rosbag
 from matplotlib.patches import Circle
 
 from mocha_scripts import drive_plots, worlds
-from mocha_scripts.classes_plots import COLORS, draw_world, label_place
+from mocha_scripts.classes_plots import COLORS, draw_world
 from mocha_ugv.msg import MotionPhase, PlannerStatus
 
 EVERY_S = 2.0  # the robots of the time-lapse are drawn
 STEP_S = 0.05  # at which promises are sampled
 WIDTH_IN = 15.0
+LABEL_SHARE = np.array((0.10, 0.03))  # half a label, of the width that is shown
 TEAM_MATE = "moving"  # name of the term (33)
 
 
 @dataclass
 class Plan:
-    """The ways of one plan (Candidate messages), and the promises of driving team-mates that were known then."""
+    """The ways of one plan (Candidate messages), the map, and the promises of driving team-mates that were known then."""
     time_s: float
     ways: list
+    grid: object  # OccupancyGrid
     promises: dict  # agent: places (N x 2) [m]
 
 
@@ -35,7 +37,8 @@ class Recording:
         self.plans = {name: [] for name in names}
         self._heard = {name: [] for name in names}  # (time, trajectories)
         truth = {name: [] for name in names}  # time, x, y
-        topics = [f"/{name}/{topic}" for name in names for topic in ("candidates", "fleet/trajectories")]
+        grids = {}
+        topics = [f"/{name}/{topic}" for name in names for topic in ("candidates", "fleet/trajectories", "map")]
         with rosbag.Bag(bag) as messages:
             for topic, message, _ in messages.read_messages(topics + ["/fleet_simulator/ground_truth"]):
                 stamp, name = message.header.stamp.to_sec(), topic.split("/")[1]
@@ -43,7 +46,9 @@ class Recording:
                     self._heard[name].append((stamp, [one for one in message.trajectories if drives(one)]))
                 elif topic.endswith("/candidates"):
                     if any(way.selected for way in message.candidates):
-                        self.plans[name].append(Plan(stamp, message.candidates, {}))
+                        self.plans[name].append(Plan(stamp, message.candidates, grids.get(name), {}))
+                elif topic.endswith("/map"):
+                    grids[name] = message
                 else:
                     for one in message.robots:
                         truth[one.name].append((stamp, one.pose.x, one.pose.y))
@@ -144,25 +149,41 @@ def signature(path, circles):
 
 def cost_before(way, before, circles):
     """What the same way cost in the plan before; None where that did not make it out."""
-    same = [one.cost for one in (before.ways if before else []) if solved(one) and signature(places(one), circles) == signature(places(way), circles)]
-    return min(same, default=None)
+    own = signature(places(way), circles)
+    return min((one.cost for one in (before.ways if before else []) if solved(one) and signature(places(one), circles) == own), default=None)
 
 
-def draw_ways(axes, plan):
+def label_places(paths, size):
+    """For every path a place that is far from the other paths and where no label of that half size is yet."""
+    chosen = []
+    inner = [path[len(path) // 10:len(path) - len(path) // 10] for path in paths]
+    for i, path in enumerate(inner):
+        apart = [min((np.hypot(*(other - place).T).min() for k, other in enumerate(paths) if k != i), default=0.0) for place in path]
+        covered = [max(0.0, 2.0 - min((np.abs((place - taken) / size).max() for taken in chosen), default=2.0)) for place in path]
+        chosen.append(path[int(np.argmax(np.minimum(apart, 1.0) - 10.0 * np.array(covered)))])
+    return chosen
+
+
+def draw_ways(axes, plan, before, world):
     paths = [places(way) for way in plan.ways]
+    labels = label_places([path for way, path in zip(plan.ways, paths) if solved(way)], LABEL_SHARE * np.ptp(window(plan, world)))
     for i, (way, path) in enumerate(zip(plan.ways, paths)):
-        color, sure = COLORS[i % len(COLORS)], solved(way)
-        added = f" ({due_to_team_mate(way):.1f})" if sure else ""
-        axes.plot(*path.T, color=color, lw=4.0 if way.selected else 1.8 if sure else 1.0, ls="-" if sure else ":", zorder=4 if way.selected else 3,
-                  label=describe(way) + added + (", chosen" if way.selected else ""))
-        if sure:
-            axes.annotate(describe(way) + added, label_place(paths, i), color=color, weight="bold", ha="center", va="center", zorder=6,
+        color, text = COLORS[i % len(COLORS)], describe(way)
+        if solved(way):
+            was = cost_before(way, before, world.get("circles") or [])
+            text = (f"{was:.1f} \u2192 " if was is not None else "") + f"{text} ({due_to_team_mate(way):.1f})"
+            axes.annotate(text, labels.pop(0), color=color, weight="bold", ha="center", va="center", zorder=6,
                           bbox={"boxstyle": "round,pad=0.15", "fc": "w", "ec": color, "alpha": 0.9})
+        axes.plot(*path.T, color=color, lw=4.0 if way.selected else 1.8 if solved(way) else 1.0, ls="-" if solved(way) else ":",
+                  zorder=4 if way.selected else 3, label=text + (", chosen" if way.selected else ""))
 
 
-def draw_plan(axes, name, plan, world, radius_m):
-    draw_world(axes, world)
-    draw_ways(axes, plan)
+def draw_plan(axes, name, plan, before, world, radius_m):
+    if plan.grid is not None:
+        drive_plots.draw_grid(axes, plan.grid)
+    axes.set_facecolor("0.8")
+    drive_plots.draw_obstacles(axes, world)
+    draw_ways(axes, plan, before, world)
     for agent, promise in plan.promises.items():
         axes.plot(*promise.T, "k--", lw=2.2, zorder=5, label=f"promised by {agent}")
         axes.add_patch(Circle(promise[0], radius_m[agent], fc="none", ec="k", ls="--", zorder=5))
@@ -171,8 +192,10 @@ def draw_plan(axes, name, plan, world, radius_m):
     axes.annotate(name, start, ha="center", va="center", fontsize=7, zorder=8)
     axes.plot(*goal, "*", color="w", ms=15, mec="k", zorder=7)
     knows = "knows the promise of " + " and ".join(sorted(plan.promises)) if plan.promises else "nobody has promised a drive yet"
-    axes.set(aspect="equal", xlim=window(plan, world), xlabel="x [m]", ylabel="y [m]", title=f"{name} plans at {plan.time_s:.2f} s: {knows}")
-    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), title="cost J (of which (33),\ndue to team-mates)", fontsize=9)
+    axes.set(aspect="equal", xlim=window(plan, world), ylim=[world["bounds"][end][1] for end in ("min", "max")], xlabel="x [m]", ylabel="y [m]",
+             title=f"{name} plans at {plan.time_s:.2f} s on its map (grey: not seen yet): {knows}")
+    earlier = f"in its plan at {before.time_s:.2f} s \u2192\n" if before else ""
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=9, title=f"cost {earlier}now (of which (33),\ndue to team-mates)")
 
 
 def window(plan, world):
@@ -183,11 +206,12 @@ def window(plan, world):
 
 def draw_time_lapse(axes, truth, world, radius_m):
     draw_world(axes, world)
-    begin = min(track[0, 0] for track in truth.values())
+    moving = {name: moving_s(track) for name, track in truth.items()}
+    begin = min(first for first, _ in moving.values())
     for i, (name, track) in enumerate(sorted(truth.items())):
         color = drive_plots.COLOURS[i % len(drive_plots.COLOURS)]
         axes.plot(track[:, 1], track[:, 2], color=color, lw=1.5, label=name, zorder=3)
-        for time_s in np.arange(track[0, 0], last_motion_s(track) + EVERY_S, EVERY_S):
+        for time_s in np.arange(begin, moving[name][1] + EVERY_S, EVERY_S):
             place = [np.interp(time_s, track[:, 0], track[:, column]) for column in (1, 2)]
             axes.add_patch(Circle(place, radius_m[name], fc=color, ec="k", lw=0.6, alpha=0.45, zorder=4))
             axes.annotate(f"{time_s - begin:.0f}", place, ha="center", va="center", fontsize=7, zorder=5)
@@ -195,10 +219,15 @@ def draw_time_lapse(axes, truth, world, radius_m):
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
-def last_motion_s(track):
-    """When a robot came within a centimetre of where it ended."""
-    apart = np.hypot(*(track[:, 1:] - track[-1, 1:]).T)
-    return track[np.flatnonzero(apart > 0.01)[-1], 0] if (apart > 0.01).any() else track[0, 0]
+def moving_s(track):
+    """From when to when a robot drove: when it had left its first place by a centimetre, and when its last one was so near."""
+    away = [np.flatnonzero(np.hypot(*(track[:, 1:] - track[end, 1:]).T) > 0.01) for end in (0, -1)]
+    return (track[away[0][0], 0] if len(away[0]) else track[-1, 0]), (track[away[1][-1], 0] if len(away[1]) else track[0, 0])
+
+
+def save(figure, path):
+    figure.savefig(path, dpi=110, bbox_inches="tight")  # the legends stand outside
+    plt.close(figure)
 
 
 def table(told, circles):
@@ -226,11 +255,11 @@ def draw_costs(bag, world_path, out):
     spans_m = [np.ptp(window(plan, world)) for plan, _ in told.values()]
     heights = [min(7.0, 0.8 * WIDTH_IN * height_m / span_m) + 0.8 for span_m in spans_m]
     figure, axes = plt.subplots(len(told), 1, figsize=(WIDTH_IN, sum(heights)), gridspec_kw={"height_ratios": heights}, squeeze=False)
-    for (name, (plan, _)), panel in zip(told.items(), axes[:, 0]):
-        draw_plan(panel, name, plan, world, radius_m)
-    drive_plots.save(figure, os.path.join(out, "costs.png"))
+    for (name, (plan, before)), panel in zip(told.items(), axes[:, 0]):
+        draw_plan(panel, name, plan, before, world, radius_m)
+    save(figure, os.path.join(out, "costs.png"))
     width_m = world["bounds"]["max"][0] - world["bounds"]["min"][0]
     figure, panel = plt.subplots(figsize=(WIDTH_IN, min(14.0, 0.9 * WIDTH_IN * height_m / width_m) + 0.8))
     draw_time_lapse(panel, recording.truth, world, radius_m)
-    drive_plots.save(figure, os.path.join(out, "time_lapse.png"))
+    save(figure, os.path.join(out, "time_lapse.png"))
     return table(told, world.get("circles") or [])

@@ -84,7 +84,8 @@ def add_costs(what):
     costs = what.add_parser("costs", help="what a recorded fleet's ways cost, as in the paper's Figs. 14 and 15",
                             description="Writes costs.png (for each robot the ways of one plan, their costs and what the team-mates' promises "
                             "add to them: for the robot that promised first its first plan, for the others their first that knew a promise) and "
-                            "time_lapse.png (the drives), and prints the costs, beside those of the same ways in the plan before.")
+                            "time_lapse.png (the drives), and prints the costs, beside those of the same ways in the plan before. A way is optimised with "
+                            "(33), so where it makes room for a promise its duration rises rather than (33) itself.")
     costs.add_argument("bag", help="drive.bag of a demo")
     costs.add_argument("--world", default=os.path.join(ROOT, "config/worlds/corridor_meet.yaml"), metavar="FILE",
                        help="world file that was driven (default: two robots that meet in the corridor)")
