@@ -124,8 +124,8 @@ def solved(way):
 
 
 def due_to_team_mate(way):
-    """Value of (33) in the cost; None where no cost was made out."""
-    return next((term.value for term in way.terms if term.name == TEAM_MATE), None) if solved(way) else None
+    """Value of (33) in the cost, which has no such term while no team-mate is known; None where no cost was made out."""
+    return sum(term.value for term in way.terms if term.name == TEAM_MATE) if solved(way) else None
 
 
 def describe(way):
@@ -226,6 +226,7 @@ def moving_s(track):
 
 
 def save(figure, path):
+    figure.tight_layout()
     figure.savefig(path, dpi=110, bbox_inches="tight")  # the legends stand outside
     plt.close(figure)
 
