@@ -1,5 +1,5 @@
 """Draws a recorded drive (map with trajectories, speed, acceleration and yaw rate against limits, clearance, separation), or the paper's
-Figs. 6 to 13 with our own data, or the ways of all classes on a map, or what moves in recorded laser scans."""
+Figs. 6 to 15 with our own data, or the ways of all classes on a map, or what moves in recorded laser scans."""
 import argparse
 import os
 import sys
@@ -90,6 +90,19 @@ def add_swerve(what):
     return swerve
 
 
+def add_costs(what):
+    costs = what.add_parser("costs", help="what a recorded fleet's ways cost, as in the paper's Figs. 14 and 15",
+                            description="Writes costs.png (for each robot the ways of one plan, their costs and what the team-mates' promises "
+                            "add to them: for the robot that promised first its first plan, for the others their first that knew a promise) and "
+                            "time_lapse.png (the drives), and prints the costs, beside those of the same ways in the plan before. A way is optimised with "
+                            "(33), so where it makes room for a promise its duration rises rather than (33) itself.")
+    costs.add_argument("bag", help="drive.bag of a demo")
+    costs.add_argument("--world", default=os.path.join(ROOT, "config/worlds/corridor_meet.yaml"), metavar="FILE",
+                       help="world file that was driven (default: two robots that meet in the corridor)")
+    costs.set_defaults(draw=draw_costs)
+    return costs
+
+
 # The imports stand in the functions, as the help needs no matplotlib.
 def draw_drive(options):
     from mocha_scripts import drive_plots
@@ -131,11 +144,16 @@ def draw_swerve(options):
     swerve_plots.draw_swerve(options.bag, options.world, options.out)
 
 
+def draw_costs(options):
+    from mocha_scripts import costs_plots
+    print(costs_plots.draw_costs(options.bag, options.world, options.out))
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
     what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
     for plots in (add_drive(what), add_table1(what), add_table2(what), add_table3(what), add_classes(what), add_tracks(what),
-                  add_replan(what), add_swerve(what)):
+                  add_replan(what), add_swerve(what), add_costs(what)):
         plots.add_argument("--out", default=".", metavar="DIR", help="PNG files go there (default: here)")
     options = parser.parse_args(arguments)
     os.makedirs(options.out, exist_ok=True)
