@@ -24,7 +24,14 @@ void GoalQueue::set(std::deque<Goal> goals, double now_s) {
   begin(now_s);
 }
 
+Goal GoalQueue::current() const {
+  Goal goal = goals_.front();
+  if (instead_) goal.position = *instead_;
+  return goal;
+}
+
 void GoalQueue::begin(double now_s) {
+  instead_.reset();
   nearest_m_ = std::numeric_limits<double>::infinity();
   progress_at_.reset();
   progress_s_ = now_s;
@@ -43,7 +50,7 @@ void GoalQueue::note_progress(double now_s, const Vector2& position) {
 GoalQueue::Event GoalQueue::update(double now_s, const RobotState& state) {
   if (goals_.empty()) return Event::kNone;
   note_progress(now_s, state.pose.position);
-  const Goal& goal = current();
+  const Goal goal = current();
   const bool there = (state.pose.position - goal.position).norm() <= rules_.tolerance_m;
   const bool aligned = !goal.yaw_rad || std::abs(wrap_angle(*goal.yaw_rad - state.pose.yaw_rad)) <=
                                             rules_.yaw_tolerance_rad;

@@ -37,10 +37,12 @@ class GoalQueue {
   void set(std::deque<Goal> goals, double now_s);
   void clear() { goals_.clear(); }
   bool empty() const { return goals_.empty(); }
-  /// The goal that counts now; the queue must not be empty.
-  const Goal& current() const { return goals_.front(); }
-  /// The current goal turned out to be occupied; this place near by counts instead.
-  void move_current(const Vector2& position) { goals_.front().position = position; }
+  /// The goal that counts now, as it was given; the queue must not be empty.
+  const Goal& asked() const { return goals_.front(); }
+  /// Where that is to be reached for now: there, or near by while it is occupied.
+  Goal current() const;
+  /// The goal turned out to be occupied, or free again: this place near by, or itself, counts.
+  void move_current(const Vector2& position) { instead_ = position; }
   std::size_t remaining() const { return goals_.size(); }
 
   /// Arrival is standing within the tolerances; then the next goal counts. Progress is coming
@@ -54,6 +56,7 @@ class GoalQueue {
 
   GoalRules rules_;
   std::deque<Goal> goals_;
+  std::optional<Vector2> instead_;
   double nearest_m_ = 0.0;
   std::optional<Vector2> progress_at_;
   double progress_s_ = 0.0;

@@ -1,5 +1,6 @@
 #include "planning/pursuit.h"
 
+#include <cmath>
 #include <utility>
 
 #include "trajectory/stopping.h"
@@ -9,6 +10,7 @@ namespace {
 
 constexpr double kSoonest_s = 0.2;  // between two plans, whoever asks
 constexpr double kSamePlace_m = 0.5;
+constexpr double kSameGoal_m = 0.05;
 constexpr double kAfterEnd_s = 0.5;   // a plan that ended this long ago without arrival has failed
 constexpr double kRounding_s = 1e-6;  // of differences of times
 
@@ -108,14 +110,14 @@ void Pursuit::plan(double now_s, const Motion& committed, const Planner& planner
         planner ? "nothing is committed yet that a plan could start from" : "no map yet";
     return;
   }
-  PlanQuery query = query_to(goals_.current(), committed, now_s);
+  PlanQuery query = query_to(goals_.asked(), committed, now_s);
   if (!goal_is_new_ && !retreats_) query.driven = plan_;
-  output.planned = Planned{goals_.current(), planner(query)};
+  output.planned = Planned{goals_.asked(), planner(query)};
   const PlanResult& result = output.planned->result;
   const bool improvement = !goal_is_new_ && !requested_ && !retreats_ && has_plan(now_s);
   planned_at_s_ = now_s;
   requested_ = false;
-  if (improvement && (result.motion.empty() || !much_better(result.motion, now_s))) return;
+  if (improvement && (result.motion.empty() || !much_better(result, now_s))) return;
   output.report = Report{result.reason, result.violation, result.message};
   goal_is_new_ = false;
   if (result.motion.empty()) {
@@ -129,9 +131,13 @@ void Pursuit::plan(double now_s, const Motion& committed, const Planner& planner
   output.plan = plan_;
 }
 
-bool Pursuit::much_better(const Motion& motion, double now_s) const {
+/// Quicker by far; or it leads to the goal itself, or farther, than where it was occupied before.
+bool Pursuit::much_better(const PlanResult& result, double now_s) const {
+  const Vector2& asked = goals_.asked().position;
+  const double nearer_m = (goals_.current().position - asked).norm() - (result.goal - asked).norm();
+  if (std::abs(nearer_m) > kSameGoal_m) return nearer_m > 0.0;
   const double remaining_s = plan_.end_time() - now_s;
-  return motion.end_time() < plan_.end_time() - rules_.better_by * remaining_s;
+  return result.motion.end_time() < plan_.end_time() - rules_.better_by * remaining_s;
 }
 
 void Pursuit::give_up_where_occupied(const PlanResult& result, const Motion& committed,

@@ -80,7 +80,7 @@ class Pursuit {
   bool due(double now_s) const;
   bool has_plan(double now_s) const;
   void plan(double now_s, const Motion& committed, const Planner& planner, Output& output);
-  bool much_better(const Motion& motion, double now_s) const;
+  bool much_better(const PlanResult& result, double now_s) const;
   void give_up_where_occupied(const PlanResult& result, const Motion& committed, double now_s,
                               Output& output);
 

@@ -188,6 +188,20 @@ TEST_F(PursuitTest, GoesToTheFreePlaceNearAnOccupiedGoal) {
   EXPECT_EQ(step().ending, Ending::kReached);
 }
 
+/// As where a team-mate stood there when the goal was given.
+TEST_F(PursuitTest, GoesToTheGoalItselfOnceThatIsFree) {
+  goal_ = Vector2(kLength_m - 0.25, 0.0);
+  run(0.2);
+  goal_.reset();
+  const double replan_s = rules().replan_period_s;
+  const auto output = run(replan_s + 0.2);
+  ASSERT_FALSE(output.plan.empty());
+  EXPECT_NEAR(output.plan.end_pose().position.x(), kLength_m, 1e-6);
+  goal_ = Vector2(kLength_m - 0.4, 0.0);  // occupied again: the plan at hand may still be driven
+  EXPECT_TRUE(run(replan_s + 0.2).plan.empty());
+  EXPECT_NEAR(pursuit_.plan().end_pose().position.x(), kLength_m, 1e-6);
+}
+
 TEST_F(PursuitTest, StopsAlongWhatIsInForce) {
   committed_ = long_drive(now_s_ - 4.0, 30.0);
   const Motion braking = pursuit_.stop(committed_, now_s_);
