@@ -18,8 +18,8 @@ std::pair<std::string, std::uint32_t> sender_of(const FleetMessage& message) {
 
 }  // namespace
 
-DatagramLink::DatagramLink(std::string agent, std::optional<FleetKey> key)
-    : agent_(std::move(agent)), key_(std::move(key)) {}
+DatagramLink::DatagramLink(std::string agent, const std::optional<FleetKey>& key)
+    : agent_(std::move(agent)), key_(key) {}
 
 std::vector<DatagramLink::Bytes> DatagramLink::pack(const FleetMessage& message) {
   if (std::holds_alternative<Promise>(message)) return {send(message)};

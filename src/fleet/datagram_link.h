@@ -41,7 +41,7 @@ class DatagramLink {
   };
 
   /// Without a key, everybody on the network is trusted.
-  DatagramLink(std::string agent, std::optional<FleetKey> key);
+  DatagramLink(std::string agent, const std::optional<FleetKey>& key);
 
   /// Throws as encode() does. A long heartbeat becomes several datagrams.
   std::vector<Bytes> pack(const FleetMessage& message);

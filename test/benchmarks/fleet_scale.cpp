@@ -10,16 +10,10 @@
 #include <vector>
 
 #include "benchmarks/fleet_scene.h"
+#include "benchmarks/median.h"
 
 namespace mocha {
 namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::size_t memory_bytes() {
   const struct mallinfo2 info = mallinfo2();

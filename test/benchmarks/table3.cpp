@@ -10,16 +10,10 @@
 
 #include "benchmarks/curve_json.h"
 #include "benchmarks/fleet_scene.h"
+#include "benchmarks/median.h"
 
 namespace mocha {
 namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 const char* text(bool value) { return value ? "true" : "false"; }
 
