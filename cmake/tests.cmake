@@ -45,3 +45,8 @@ target_link_libraries(fuzz_datagrams Eigen3::Eigen sodium -fsanitize=address,und
 add_dependencies(fuzz_datagrams mocha_lcm_types)
 add_dependencies(tests fuzz_datagrams)
 add_test(NAME fuzz_datagrams COMMAND fuzz_datagrams 1000000 1)
+
+# Fleets that have to agree on who goes first, through the whole stack.
+foreach(world two_swap five four_corners ten_through_a_door)
+  add_test(NAME drive_${world} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/drive_test.py ${world})
+endforeach()
