@@ -22,7 +22,9 @@ CommitmentActions OnePhase::propose(const Proposal& proposal, double now) {
   event.proposal = proposal;
   event.refusal = refusal_by_itself(*proposal.motion, now);
   if (event.refusal == Refusal::kNone) {
-    if (const auto found = conflict(proposal, now)) {
+    for (const auto& [name, peer] : peers_.peers()) {
+      const auto found = conflict(proposal, name, now);
+      if (!found) continue;
       event.refusal = Refusal::kPeerPromise;
       event.conflict = *found;
     }
@@ -39,8 +41,18 @@ CommitmentActions OnePhase::brake(const Proposal& proposal, double now) {
 }
 
 CommitmentActions OnePhase::receive(const Promise& promise, double now) {
-  peers_.receive(promise, now);
-  return tick(now);
+  const bool news = peers_.receive(promise, now) == PeerTable::Verdict::kNews;
+  CommitmentActions actions = tick(now);
+  if (!news || !is_binding(promise.state) || binding_.empty()) return actions;
+  const Promise& mine = binding_.newest();
+  if (auto found = conflict({0, mine.footprint_radius_m, mine.motion}, promise.agent, now)) {
+    CommitmentEvent event;
+    event.kind = CommitmentEvent::Kind::kBreached;
+    event.promise = mine;
+    event.conflict = *found;
+    actions.events.push_back(std::move(event));
+  }
+  return actions;
 }
 
 CommitmentActions OnePhase::receive(const Beat&, double now) { return tick(now); }
@@ -82,19 +94,19 @@ Refusal OnePhase::refusal_by_itself(const Motion& motion, double now) const {
   return (begins - expected).norm() <= kContinuity_m ? Refusal::kNone : Refusal::kDiscontinuous;
 }
 
-std::optional<Conflict> OnePhase::conflict(const Proposal& proposal, double now) const {
+std::optional<Conflict> OnePhase::conflict(const Proposal& proposal, const std::string& name,
+                                           double now) const {
   const Promise mine{settings_.agent, {}, PromiseState::kProposed, 0, proposal.footprint_radius_m,
                      proposal.motion};
   const Vector2 here = binding_.empty() ? proposal.motion->position(now) : binding_.position(now);
-  for (const auto& [name, peer] : peers_.peers()) {
-    for (const Claim& theirs : peer.binding.claims()) {
-      const double demanded = proposal.footprint_radius_m + theirs.promise.footprint_radius_m +
-                              settings_.peer_clearance_m;
-      const double apart = (here - peer.binding.position(now)).norm();
-      const auto found =
-          first_conflict(claim_of(mine), theirs, std::min(demanded, apart - kRounding_m), now);
-      if (found) return found;
-    }
+  const Peer& peer = peers_.peers().at(name);
+  for (const Claim& theirs : peer.binding.claims()) {
+    const double demanded = proposal.footprint_radius_m + theirs.promise.footprint_radius_m +
+                            settings_.peer_clearance_m;
+    const double apart = (here - peer.binding.position(now)).norm();
+    auto found =
+        first_conflict(claim_of(mine), theirs, std::min(demanded, apart - kRounding_m), now);
+    if (found) return found;
   }
   return std::nullopt;
 }

@@ -25,7 +25,8 @@ class OnePhase {
  private:
   CommitmentEvent bind(const Proposal& proposal, PromiseState state, CommitmentActions& actions);
   Refusal refusal_by_itself(const Motion& motion, double now) const;
-  std::optional<Conflict> conflict(const Proposal& proposal, double now) const;
+  std::optional<Conflict> conflict(const Proposal& proposal, const std::string& peer,
+                                   double now) const;
 
   CommitmentSettings settings_;
   PeerTable peers_;
