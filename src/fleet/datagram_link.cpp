@@ -68,7 +68,10 @@ std::optional<FleetMessage> DatagramLink::take(Datagram datagram, const std::uin
   }
   if (!senders_[sender].take(epoch, datagram.number)) {
     ++counts_.repeated;
-    return std::nullopt;
+    // Who lost the count of its starts has to be told, and is by whoever hears its heartbeat.
+    const bool lost_count = senders_[sender].is_past(epoch);
+    if (!lost_count || !std::holds_alternative<Beat>(datagram.message)) return std::nullopt;
+    return std::move(datagram.message);
   }
   ++counts_.taken;
   return std::move(datagram.message);

@@ -15,8 +15,9 @@
 namespace mocha {
 
 /// One robot's end of the fleet network, but for the network itself: its messages become numbered
-/// and, where there is a key, sealed datagrams; what comes back are messages of others, each once.
-/// Whatever else comes is counted and forgotten.
+/// and, where there is a key, sealed datagrams; what comes back are messages of others, each once
+/// but for heartbeats of former epochs, which PeerTable answers and else makes nothing of. Whatever
+/// else comes is counted and forgotten.
 class DatagramLink {
  public:
   using Bytes = std::vector<std::uint8_t>;

@@ -14,6 +14,9 @@ class ReplayGuard {
   /// False for what came before (or is too old to tell). A higher epoch begins anew.
   bool take(std::uint32_t epoch, std::uint32_t number);
 
+  /// Of an epoch before the one that is known.
+  bool is_past(std::uint32_t epoch) const { return epoch < epoch_; }
+
   /// Share of the newest datagrams (up to kWindow) that have not come.
   double loss() const;
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "fleet/motions.h"
+#include "fleet/peer_table.h"
 
 namespace mocha {
 namespace {
@@ -44,10 +45,35 @@ TEST(DatagramLink, ARecordingOfAFormerStartIsOver) {
   DatagramLink before("a", kKey);
   DatagramLink after("a", kKey);
   DatagramLink b("b", kKey);
-  const auto old = before.pack(beat_of("a", 1)).at(0);
+  Promise stands{"a", {1, 1}, PromiseState::kCommitted, 0, 0.3, nullptr};
+  stands.motion = test::shared(test::stand(kNow_s, {1.0, 2.0}));
+  const auto old = before.pack(stands).at(0);
   EXPECT_TRUE(unpacked(b, after.pack(beat_of("a", 2)).at(0)));
   EXPECT_FALSE(unpacked(b, old));
   EXPECT_EQ(b.counts().repeated, 1);
+}
+
+/// Over the network, too, as where its epoch file is gone.
+TEST(DatagramLink, WhoLostTheCountOfItsStartsIsToldByItsPeers) {
+  DatagramLink before("a", kKey);
+  DatagramLink after("a", kKey);
+  DatagramLink link("b", kKey);
+  PeerTable b("b", 1, 1.0);
+  PeerTable a("a", 1, 1.0);
+  const auto hear = [&](const std::optional<FleetMessage>& heard) {
+    ASSERT_TRUE(heard);
+    b.receive(std::get<Beat>(*heard), kNow_s);
+  };
+  hear(unpacked(link, before.pack(beat_of("a", 7)).at(0)));
+  hear(unpacked(link, after.pack(beat_of("a", 1)).at(0)));
+  EXPECT_EQ(b.peers().at("a").epoch, 7u);
+  EXPECT_EQ(b.old_messages(), 1);
+  Beat answer = beat_of("b");
+  answer.seen = b.seen(kNow_s + 0.1);
+  const auto told = unpacked(after, link.pack(answer).at(0));
+  ASSERT_TRUE(told);
+  a.receive(std::get<Beat>(*told), kNow_s + 0.2);
+  EXPECT_EQ(a.known_epoch(), 7u);
 }
 
 TEST(DatagramLink, TellsItselfFromOneThatBearsItsName) {
