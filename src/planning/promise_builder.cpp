@@ -107,7 +107,7 @@ std::optional<CertifiedMotion> PromiseBuilder::longest(const Motion& motion,
                                                        const PromiseScene& scene, double from_s,
                                                        double earliest_s, double latest_s) const {
   const Violation obstacle = certify(motion, scene, from_s);
-  const double begin_s = motion.cut_time(from_s);
+  const double begin_s = motion.clean_cut(motion.cut_time(from_s));
   double brake_s = latest_s;
   if (motion.end_time() <= latest_s) {
     const Motion whole = remainder(motion, begin_s);

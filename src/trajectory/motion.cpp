@@ -19,7 +19,8 @@ constexpr double kLeastSpeed =
 constexpr double kRestAcceleration = 1e-3;  // [m/s^2] likewise
 constexpr double kRestJerk = 1e-3;          // [m/s^3] likewise
 constexpr double kLargest = 1e12;           // [m], [m/s^2] beyond, squares soon overflow
-constexpr double kShortestPhase_s = 1e-5;   // shorter parts of a phase are dropped when cutting
+constexpr double kSliver_s = 2e-3;
+constexpr double kShortestPhase_s = 1e-5;  // shorter parts of a phase are dropped when cutting
 
 /// Progress of a quintic turn and its rate, u in [0, 1].
 double turn_progress(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
@@ -209,6 +210,13 @@ double Motion::cut_time(double t) const {
   if (phases_.empty() || t <= start_time_s_ || t >= end_time()) return t;
   const int i = phase_at(t);
   return std::holds_alternative<TurnPhase>(phases_[i]) ? phase_starts_[i] : t;
+}
+
+double Motion::clean_cut(double t) const {
+  for (const double boundary : phase_starts_) {
+    if (std::abs(t - boundary) < kSliver_s) return boundary;
+  }
+  return t;
 }
 
 std::vector<Phase> Motion::phases_between(double t0, double t1) const {

@@ -79,6 +79,10 @@ class Motion {
   /// that is under way.
   double cut_time(double t) const;
 
+  /// t, or the boundary between two phases that is less than 2 ms away: what a cut at t would leave
+  /// of a phase is too short to be told in the numbers of a message.
+  double clean_cut(double t) const;
+
   /// The phases between absolute times t0 and t1 (clamped); empty where t1 <= t0. Used to compose
   /// motions. Turns in place are never cut: t0 and t1 must be switch times, or
   /// std::invalid_argument is thrown.

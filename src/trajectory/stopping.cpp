@@ -14,6 +14,7 @@ constexpr double kSlowest = 1e-3;  // [m/s] slower is rest
 constexpr double kRamp_s = 0.2;    // longest time from the present acceleration to the deceleration
 constexpr double kKnotSpacing_s = 0.2;
 constexpr double kStand_s = 0.1;
+constexpr double kSliver_s = 2e-3;  // of a drive, before the braking: of no use
 
 /// What a braking robot follows: states by the time at which the original motion has them, up to
 /// where that ends.
@@ -174,7 +175,8 @@ std::vector<Phase> brake_from(const Pose& pose, double speed, double yaw_rate,
 
 Motion with_brake(const Motion& motion, double t0, double t_brake, double deceleration) {
   const double start = std::max(t0, motion.start_time());
-  t_brake = before_crawling(motion, t_brake);
+  t_brake = motion.clean_cut(before_crawling(motion, t_brake));
+  if (t_brake > start && t_brake - start < kSliver_s) t_brake = start;
   const double switch_s = motion.switch_time(t_brake);
   std::vector<Phase> phases = motion.phases_between(start, switch_s);
   if (phases.empty() || switch_s == t_brake) {

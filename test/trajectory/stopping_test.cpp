@@ -172,6 +172,23 @@ TEST(Stopping, ComposesMotionAndBrake) {
   EXPECT_EQ(with_brake(motion, 0.0, 5.0, 1.0).length_m(), 0.0);  // not yet begun
 }
 
+/// What is left of a drive within a millisecond has accelerations that no robot can have meant,
+/// once its numbers are rounded.
+TEST(Stopping, LeavesNoSliversBeforeTheBraking) {
+  const Motion whole = within(random_drive(9, 10), {1.5, 2.0, 2.0}, 20.0);
+  const double middle = 0.5 * (20.0 + whole.end_time());
+  std::vector<Phase> phases = whole.phases_between(20.0, middle);
+  for (Phase& phase : whole.phases_between(middle, whole.end_time())) phases.push_back(phase);
+  const Motion halves(20.0, phases);
+  for (const double off_s : {-1e-3, -3e-4, 3e-4, 1e-3}) {
+    const Motion soon = with_brake(whole, middle, middle + std::abs(off_s), 1.4);
+    EXPECT_EQ(soon.phases().size(), 1u) << off_s;
+    const Motion at_boundary = with_brake(halves, 21.0, middle + off_s, 1.4);
+    EXPECT_EQ(at_boundary.phases().size(), 2u) << off_s;
+    expect_joins(halves.at(middle), at_boundary.at(middle + 1e-12));
+  }
+}
+
 TEST(Stopping, OffTheMotionStaysOnItsCircle) {
   const Pose pose{{1.0, 2.0}, 0.7};
   for (const double speed : {1.5, 0.2, 0.004, -0.8}) {
