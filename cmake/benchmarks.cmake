@@ -29,7 +29,7 @@ endif()
 
 mocha_benchmark(replan test/benchmarks/replan_scene.cpp test/benchmarks/replan_run.cpp test/benchmarks/space_time_solver.cpp)
 
-foreach(name table3 fleet_delay fleet_scale)
+foreach(name table3 fleet_delay fleet_scale deadlock)
   mocha_benchmark(${name} test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp
     test/benchmarks/one_phase.cpp)
 endforeach()

@@ -5,14 +5,9 @@
 
 #include "config/parameter_table.h"
 #include "control/robot_state.h"
+#include "world/goal.h"
 
 namespace mocha {
-
-/// A place to be reached, with a heading where one is asked for. Map frame.
-struct Goal {
-  Vector2 position;
-  std::optional<double> yaw_rad;
-};
 
 struct GoalRules {
   double tolerance_m;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "world/goal.h"
 #include "world/obstacle.h"
 #include "world/robot_model.h"
 
@@ -24,11 +25,6 @@ struct Mover {
   bool loop;  ///< from the last point straight on to the first, and so on (two points: back and
               ///< forth); else it stops there
   std::vector<Vector2> path;
-};
-
-struct Goal {
-  Vector2 position;
-  std::optional<double> yaw_rad;
 };
 
 struct WorldRobot {

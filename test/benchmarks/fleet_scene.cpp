@@ -68,14 +68,19 @@ std::vector<Circle> strewn(int count, double smallest_m, double largest_m, doubl
   return circles;
 }
 
-std::shared_ptr<const FleetMap> map_of(const std::vector<Circle>& circles, const Vector2& low,
-                                       const Vector2& high) {
+OccupancyGrid free_map(const Vector2& low, const Vector2& high) {
   OccupancyGrid grid;
   grid.resolution_m = kCell_m;
   grid.origin = low;
   grid.width = static_cast<int>(std::lround((high.x() - low.x()) / kCell_m));
   grid.height = static_cast<int>(std::lround((high.y() - low.y()) / kCell_m));
   grid.cells.assign(static_cast<std::size_t>(grid.width) * grid.height, OccupancyGrid::kFree);
+  return grid;
+}
+
+std::shared_ptr<const FleetMap> map_of(const std::vector<Circle>& circles, const Vector2& low,
+                                       const Vector2& high) {
+  OccupancyGrid grid = free_map(low, high);
   for (const Circle& circle : circles)
     fill_disc(grid, circle.centre, circle.radius_m, OccupancyGrid::kOccupied);
   return std::make_shared<const FleetMap>(grid);
@@ -135,6 +140,21 @@ FleetWorld crossing_robots(int seed) {
   world.scene.seed = seed;
   world.scene.longest_s = 90.0;
   return world;
+}
+
+FleetScene fleet_of(const World& world, int seed) {
+  OccupancyGrid grid = free_map(world.bounds.min(), world.bounds.max());
+  for (const Circle& circle : world.circles)
+    fill_disc(grid, circle.centre, circle.radius_m, OccupancyGrid::kOccupied);
+  for (const Polygon& polygon : world.polygons)
+    fill_polygon(grid, polygon, OccupancyGrid::kOccupied);
+  const auto map = std::make_shared<const FleetMap>(grid);
+  FleetScene scene;
+  for (const WorldRobot& robot : world.robots) {
+    if (robot.goal) scene.agents.push_back({robot.start, robot.goal->position, map});
+  }
+  scene.seed = seed;
+  return scene;
 }
 
 FleetWorld spread_robots(int count, int seed) {

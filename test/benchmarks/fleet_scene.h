@@ -2,6 +2,7 @@
 
 #include "benchmarks/fleet_run.h"
 #include "world/obstacle.h"
+#include "world/world_file.h"
 
 namespace mocha {
 
@@ -18,6 +19,10 @@ FleetWorld five_agents(int seed);
 /// Two to four robots on the rim of an open place of 6 m, each on its way to the other side, at
 /// most two pillars between them.
 FleetWorld crossing_robots(int seed);
+
+/// The robots of a world that have a goal, all of which know its walls; how they look, when, and
+/// what the network does follows the seed. Every robot is a rover.
+FleetScene fleet_of(const World& world, int seed);
 
 /// So many robots, each on 40 m^2 with a pillar, on their ways to places 8 m away; each knows the
 /// map around its own way.
