@@ -12,6 +12,8 @@ constexpr std::size_t kRemembered = 64;  // own datagrams that may still come ba
 std::pair<std::string, std::uint32_t> sender_of(const FleetMessage& message) {
   if (const auto* promise = std::get_if<Promise>(&message))
     return {promise->agent, promise->id.epoch};
+  if (const auto* request = std::get_if<WayRequest>(&message))
+    return {request->agent, request->epoch};
   const Beat& beat = std::get<Beat>(message);
   return {beat.agent, beat.epoch};
 }
@@ -22,7 +24,7 @@ DatagramLink::DatagramLink(std::string agent, const std::optional<FleetKey>& key
     : agent_(std::move(agent)), key_(key) {}
 
 std::vector<DatagramLink::Bytes> DatagramLink::pack(const FleetMessage& message) {
-  if (std::holds_alternative<Promise>(message)) return {send(message)};
+  if (!std::holds_alternative<Beat>(message)) return {send(message)};
   std::vector<Bytes> datagrams;
   for (const Beat& beat : in_datagrams(std::get<Beat>(message))) datagrams.push_back(send(beat));
   return datagrams;

@@ -21,7 +21,7 @@ constexpr std::size_t kSizeAt = kSealAt + FleetKey::kSealBytes;
 constexpr std::size_t kFrame = kSizeAt + 2;
 constexpr std::size_t kMostBody = kMostDatagramBytes - kLcmHeader - kFrame;
 
-enum class Kind : std::uint8_t { kPromise = 1, kBeat = 2 };
+enum class Kind : std::uint8_t { kPromise = 1, kBeat = 2, kWayRequest = 3 };
 
 PromiseState get_state(ByteReader& in) {
   const auto state = in.get<std::uint8_t>();
@@ -110,11 +110,48 @@ Beat get_beat(ByteReader& in, std::string agent, std::uint32_t epoch) {
   return beat;
 }
 
+void put_request(ByteWriter& out, const WayRequest& request, std::uint32_t number) {
+  put_head(out, Kind::kWayRequest, request.agent, request.epoch, number);
+  out.put(static_cast<std::uint8_t>(request.rank.stuck));
+  out.put(static_cast<std::int32_t>(request.rank.priority));
+  put_name(out, request.rank.agent);
+  put_number<std::uint16_t>(out, request.radius_m, kRadii, "the radius of a way request");
+  put_number<std::uint16_t>(out, request.speed_mps, kRadii, "the speed of a way request");
+  out.put(count_of(request.way.size(), "places"));
+  for (const Vector2& place : request.way) {
+    put_number<std::int32_t>(out, place.x(), kPlaces, "a place of a way");
+    put_number<std::int32_t>(out, place.y(), kPlaces, "a place of a way");
+  }
+}
+
+WayRequest get_request(ByteReader& in, std::string agent, std::uint32_t epoch) {
+  WayRequest request;
+  request.agent = std::move(agent);
+  request.epoch = epoch;
+  const auto stuck = in.get<std::uint8_t>();
+  require_said(stuck <= 1, "is neither stuck nor not");
+  request.rank.stuck = stuck == 1;
+  request.rank.priority = in.get<std::int32_t>();
+  request.rank.agent = get_name(in);
+  request.radius_m = get_number<std::uint16_t>(in, kRadii);
+  request.speed_mps = get_number<std::uint16_t>(in, kRadii);
+  const std::size_t places = in.get<std::uint8_t>();
+  for (std::size_t i = 0; i < places; ++i) {
+    const double x = get_number<std::int32_t>(in, kPlaces);
+    request.way.emplace_back(x, get_number<std::int32_t>(in, kPlaces));
+  }
+  validate(request);
+  return request;
+}
+
 ByteWriter body_of(const Datagram& datagram) {
   ByteWriter body;
   if (const auto* promise = std::get_if<Promise>(&datagram.message)) {
     validate(*promise);
     put_promise(body, *promise, datagram.number);
+  } else if (const auto* request = std::get_if<WayRequest>(&datagram.message)) {
+    validate(*request);
+    put_request(body, *request, datagram.number);
   } else {
     put_beat(body, std::get<Beat>(datagram.message), datagram.number);
   }
@@ -123,13 +160,15 @@ ByteWriter body_of(const Datagram& datagram) {
 
 Datagram from_body(ByteReader in) {
   const auto kind = static_cast<Kind>(in.get<std::uint8_t>());
-  require_said(kind == Kind::kPromise || kind == Kind::kBeat, "is of no known kind");
+  require_said(kind >= Kind::kPromise && kind <= Kind::kWayRequest, "is of no known kind");
   std::string agent = get_name(in);
   const auto epoch = in.get<std::uint32_t>();
   Datagram datagram;
   datagram.number = in.get<std::uint32_t>();
   if (kind == Kind::kPromise) {
     datagram.message = get_promise(in, std::move(agent), epoch);
+  } else if (kind == Kind::kWayRequest) {
+    datagram.message = get_request(in, std::move(agent), epoch);
   } else {
     datagram.message = get_beat(in, std::move(agent), epoch);
   }

@@ -5,6 +5,7 @@
 
 #include "ros/promise_conversions.h"
 #include "ros/transport.h"
+#include "ros/way_request_conversions.h"
 
 namespace mocha {
 namespace {
@@ -34,9 +35,12 @@ FleetNetwork::FleetNetwork(ros::NodeHandle& node, const RobotIdentity& robot,
   }
   promises_out_ = node.advertise<mocha_ugv::Trajectory>("/fleet/promises", 100);
   heartbeats_out_ = node.advertise<mocha_ugv::Heartbeat>("/fleet/heartbeats", 100);
+  requests_out_ = node.advertise<mocha_ugv::WayRequest>("/fleet/way_requests", 100);
   promises_in_ = node.subscribe("/fleet/promises", 100, &FleetNetwork::on_promise, this, at_once());
   heartbeats_in_ =
       node.subscribe("/fleet/heartbeats", 100, &FleetNetwork::on_heartbeat, this, at_once());
+  requests_in_ = node.subscribe("/fleet/way_requests", 100, &FleetNetwork::on_way_request, this,
+                                at_once());
 }
 
 void FleetNetwork::send(const FleetMessage& message, ros::Time now) {
@@ -44,6 +48,8 @@ void FleetNetwork::send(const FleetMessage& message, ros::Time now) {
     for (const auto& bytes : link_.pack(message)) unsent_ += !channel_->send(bytes);
   } else if (const auto* promise = std::get_if<Promise>(&message)) {
     promises_out_.publish(to_message(*promise, robot_.map_frame, now));
+  } else if (const auto* request = std::get_if<WayRequest>(&message)) {
+    requests_out_.publish(to_message(*request, robot_.map_frame, now));
   } else {
     heartbeats_out_.publish(to_message(std::get<Beat>(message), robot_.map_frame, now));
   }
@@ -58,6 +64,12 @@ void FleetNetwork::on_promise(const Event<mocha_ugv::Trajectory>& event) {
 void FleetNetwork::on_heartbeat(const Event<mocha_ugv::Heartbeat>& event) {
   take(event, "/fleet/heartbeats",
        [](const mocha_ugv::Heartbeat& message) { return beat_from_message(message); });
+}
+
+void FleetNetwork::on_way_request(const Event<mocha_ugv::WayRequest>& event) {
+  take(event, "/fleet/way_requests", [this](const mocha_ugv::WayRequest& message) {
+    return way_request_from_message(message, robot_.map_frame);
+  });
 }
 
 /// A message of another robot. The same name from another node is another robot that calls itself

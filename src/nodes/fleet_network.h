@@ -3,6 +3,7 @@
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <mocha_ugv/Heartbeat.h>
 #include <mocha_ugv/Trajectory.h>
+#include <mocha_ugv/WayRequest.h>
 #include <ros/ros.h>
 
 #include <functional>
@@ -22,7 +23,7 @@ struct FleetNetworkSettings {
 };
 
 /// How the robots of a fleet hear each other: datagrams over LCM, or where they share a roscore,
-/// the topics /fleet/promises and /fleet/heartbeats. What comes from outside and is no use is
+/// the topics /fleet/promises, /fleet/heartbeats and /fleet/way_requests. What comes from outside and is no use is
 /// counted and reported.
 class FleetNetwork {
  public:
@@ -44,6 +45,7 @@ class FleetNetwork {
 
   void on_promise(const Event<mocha_ugv::Trajectory>& event);
   void on_heartbeat(const Event<mocha_ugv::Heartbeat>& event);
+  void on_way_request(const Event<mocha_ugv::WayRequest>& event);
   void on_datagram(const LcmChannel::Bytes& bytes);
   template <typename Message, typename Convert>
   void take(const Event<Message>& event, const std::string& topic, Convert convert);
@@ -57,8 +59,10 @@ class FleetNetwork {
   std::string refusal_;
   ros::Publisher promises_out_;
   ros::Publisher heartbeats_out_;
+  ros::Publisher requests_out_;
   ros::Subscriber promises_in_;
   ros::Subscriber heartbeats_in_;
+  ros::Subscriber requests_in_;
   std::unique_ptr<LcmChannel> channel_;
 };
 

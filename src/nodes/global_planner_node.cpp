@@ -24,6 +24,7 @@
 #include "ros/status_conversions.h"
 #include "ros/step_loop.h"
 #include "ros/transport.h"
+#include "ros/way_requests.h"
 #include "topology/map_terrain.h"
 
 namespace mocha {
@@ -40,12 +41,18 @@ class GlobalPlannerNode {
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
         values_(values),
         planner_(std::make_unique<GlobalPlanner>(model_, PlannerRules::from(values))),
-        pursuit_(PursuitRules::from(values), kBraking * model_.limits.max_acceleration),
+        pursuit_(PursuitRules::from(values), kBraking * model_.limits.max_acceleration,
+                 RightOfWay({false, values.integer("priority"), identity_.name}, model_,
+                            PlannerRules::from(values))),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
         committed_(node, identity_.name),
         outputs_(node, identity_, model_),
+        requests_of_ways_(node, identity_,
+                          [this](const WayRequest& request) {
+                            pursuit_.hear(request, ros::Time::now().toSec());
+                          }),
         followed_(node.subscribe("local_trajectory", 2, &GlobalPlannerNode::on_followed, this,
                                  at_once())),
         requests_(
@@ -81,7 +88,7 @@ class GlobalPlannerNode {
 
   void apply(const ParameterTable& values) {
     planner_ = std::make_unique<GlobalPlanner>(model_, PlannerRules::from(values));
-    pursuit_.set_rules(PursuitRules::from(values));
+    pursuit_.set_rules(PursuitRules::from(values), PlannerRules::from(values));
   }
 
   // --- what happens when ---
@@ -95,18 +102,23 @@ class GlobalPlannerNode {
       return;
     }
     if (!pursuit_.idle()) inputs_.feedback(*reading.state, now);
-    Pursuit::Planner planner;
-    if (map_.available()) planner = [this](const PlanQuery& query) { return plan(query); };
-    show(pursuit_.step(now.toSec(), *reading.state, committed_.motion(), planner));
+    Outlook outlook;
+    if (map_.available()) {
+      outlook.plan = [this](const PlanQuery& query) { return plan(query); };
+      outlook.scene = [this](const std::vector<Vector2>& places) { return scene(places); };
+    }
+    show(pursuit_.step(now.toSec(), *reading.state, committed_.motion(), outlook));
   }
 
   PlanResult plan(const PlanQuery& query) {
-    PlanningScene scene;
     const Vector2 start = query.committed.at(query.start_time_s).pose.position;
-    scene.terrain = std::make_shared<MapTerrain>(
-        map_.field(DistanceField::Solid::kOccupied, {start, query.goal}, kMapBorder_m));
-    scene.peers = peers_.obstacles();
-    return planner_->plan(query, scene, [] { return false; });
+    return planner_->plan(query, scene({start, query.goal}), [] { return false; });
+  }
+
+  PlanningScene scene(const std::vector<Vector2>& places) {
+    return {std::make_shared<MapTerrain>(
+                map_.field(DistanceField::Solid::kOccupied, places, kMapBorder_m)),
+            peers_.obstacles()};
   }
 
   void stop(const std::string& why) {
@@ -165,6 +177,7 @@ class GlobalPlannerNode {
       const std::string no_map = "no map on " + ros::names::resolve("map") + " yet";
       report(reason, violation, reason == PlanReason::kNoMap ? no_map : text);
     }
+    if (output.request) requests_of_ways_.send(*output.request, now_);
     finish(output.ending);
     adopt(output.plan);
   }
@@ -202,7 +215,8 @@ class GlobalPlannerNode {
     status.add("last request", request_);
     status.add("parameter changes refused", parameters_.refused());
     status.add("messages refused", refused_ + committed_.refused() + inputs_.refused() +
-                                       map_.refused() + peers_.refused() + pose_.refused());
+                                       map_.refused() + peers_.refused() + pose_.refused() +
+                                       requests_of_ways_.refused());
   }
 
   const RobotIdentity identity_;
@@ -215,6 +229,7 @@ class GlobalPlannerNode {
   PeerSource peers_;
   CommitmentSource committed_;
   PlannerOutputs outputs_;
+  WayRequests requests_of_ways_;
   ros::Time now_;
   std::string request_;
   int plans_made_ = 0;

@@ -25,6 +25,7 @@
 #include "ros/run_node.h"
 #include "ros/step_loop.h"
 #include "ros/transport.h"
+#include "ros/way_request_conversions.h"
 #include "safety/margin_budget.h"
 #include "world/robot_model.h"
 
@@ -98,10 +99,13 @@ class TrajectoryBroadcasterNode {
         fleet_(node.advertise<mocha_ugv::FleetTrajectories>("fleet/trajectories", 10, true)),
         drawings_(node.advertise<visualization_msgs::MarkerArray>("motion_markers", 2, true)),
         settlements_(node.advertise<mocha_ugv::PlannerStatus>("settlement", 20)),
+        requests_out_(node.advertise<mocha_ugv::WayRequest>("fleet/way_requests", 100)),
         proposals_(node.subscribe("proposed_trajectory", 100,
                                   &TrajectoryBroadcasterNode::on_proposal, this, at_once())),
         leases_(
             node.subscribe("lease", 100, &TrajectoryBroadcasterNode::on_lease, this, at_once())),
+        requests_(node.subscribe("way_request", 10, &TrajectoryBroadcasterNode::on_way_request,
+                                 this, at_once())),
         network_(node, robot_, {values.text("lcm_url"), values.text("fleet_key")},
                  [this](const FleetMessage& message) { hear(message); }),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
@@ -142,12 +146,34 @@ class TrajectoryBroadcasterNode {
     }
   }
 
+  /// For all team-mates, who make nothing of one in another name.
+  void on_way_request(const mocha_ugv::WayRequest& message) {
+    if (!advance_clock(ros::Time::now())) return;
+    try {
+      WayRequest request = way_request_from_message(message, robot_.map_frame);
+      if (request.agent != robot_.name) {
+        throw std::invalid_argument("is of '" + request.agent + "'");
+      }
+      request.epoch = commitment_.settings().epoch;
+      network_.send(request, now_);
+    } catch (const std::invalid_argument& error) {
+      ++refused_;
+      refusal_ = error.what();
+      ROS_WARN_THROTTLE(1.0, "Refused a message on way_request: %s", error.what());
+    }
+  }
+
   void on_lease(const mocha_ugv::Lease& message) { lease_ = message; }
 
   void hear(const FleetMessage& message) {
     if (!advance_clock(ros::Time::now())) return;
-    const double now_s = now_.toSec();
-    apply(std::visit([&](const auto& each) { return commitment_.receive(each, now_s); }, message));
+    if (const auto* request = std::get_if<WayRequest>(&message)) {
+      requests_out_.publish(to_message(*request, robot_.map_frame, now_));
+    } else if (const auto* promise = std::get_if<Promise>(&message)) {
+      apply(commitment_.receive(*promise, now_.toSec()));
+    } else {
+      apply(commitment_.receive(std::get<Beat>(message), now_.toSec()));
+    }
   }
 
   /// False while there is no time yet. Within a step, time does not run backward.
@@ -279,8 +305,10 @@ class TrajectoryBroadcasterNode {
   ros::Publisher fleet_;
   ros::Publisher drawings_;
   ros::Publisher settlements_;
+  ros::Publisher requests_out_;
   ros::Subscriber proposals_;
   ros::Subscriber leases_;
+  ros::Subscriber requests_;
   FleetNetwork network_;
   StepLoop loop_;
 };

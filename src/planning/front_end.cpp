@@ -13,6 +13,13 @@ namespace {
 constexpr double kSlack_m = 0.01;  // over the proved margin, for the optimiser to work in
 constexpr double kSameGoal_m = 0.5;
 
+bool is_under_way(const PlanQuery& query, const Vector2& goal) {
+  return !query.driven.empty() && query.driven.end_time() > query.start_time_s &&
+         (query.driven.end_pose().position - goal).norm() < kSameGoal_m;
+}
+
+}  // namespace
+
 WayRules way_rules(const RobotModel& robot, const PlannerRules& rules) {
   double radius_m = 0.0;
   for (const auto& disc : robot.footprint.cover()) radius_m = std::max(radius_m, disc.radius_m);
@@ -28,13 +35,6 @@ WayRules way_rules(const RobotModel& robot, const PlannerRules& rules) {
   ways.prm_samples = rules.prm_samples;
   return ways;
 }
-
-bool is_under_way(const PlanQuery& query, const Vector2& goal) {
-  return !query.driven.empty() && query.driven.end_time() > query.start_time_s &&
-         (query.driven.end_pose().position - goal).norm() < kSameGoal_m;
-}
-
-}  // namespace
 
 std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_speed) {
   const double step_s = 0.2 / max_speed;

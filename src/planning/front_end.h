@@ -24,6 +24,9 @@ struct Approaches {
   std::optional<Signature> driven;  ///< class of the plan that is being driven to the same goal
 };
 
+/// How ways are searched for this robot.
+WayRules way_rules(const RobotModel& robot, const PlannerRules& rules);
+
 /// Places on a motion from a time on to its end, at most 0.2 m apart at speeds up to `max_speed`.
 std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_speed);
 

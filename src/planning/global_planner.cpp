@@ -152,6 +152,13 @@ PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scen
     run(query, front_end.after_braking(query, scene, *goal), scene, should_stop, result);
     if (result.reason == PlanReason::kSolved) return result;
   }
+  const bool peers_block = result.candidates.empty() && !scene.peers.empty() &&
+                           front_end.reaches(start.pose.position, *goal, *scene.terrain);
+  if (peers_block) {
+    result.reason = PlanReason::kPeerConflict;
+    result.message = "team-mates stand in every way to " + place(*goal);
+    return result;
+  }
   if (const auto retreat = back_out(query, *goal, *scene.terrain)) {
     result.reason = PlanReason::kBackingOut;
     result.message += "; backs out along the driven path";

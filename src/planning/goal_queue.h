@@ -38,6 +38,8 @@ class GoalQueue {
   Goal current() const;
   /// The goal turned out to be occupied, or free again: this place near by, or itself, counts.
   void move_current(const Vector2& position) { instead_ = position; }
+  /// The robot makes room for others: that is no lack of progress.
+  void wait(double now_s) { progress_s_ = now_s; }
   std::size_t remaining() const { return goals_.size(); }
 
   /// Arrival is standing within the tolerances; then the next goal counts. Progress is coming

@@ -10,6 +10,7 @@
 #include "planning/goal_queue.h"
 #include "planning/plan_result.h"
 #include "planning/planning_scene.h"
+#include "planning/right_of_way.h"
 
 namespace mocha {
 
@@ -25,11 +26,19 @@ struct PursuitRules {
   static PursuitRules from(const ParameterTable& values);
 };
 
+/// Whom to ask for plans and for what is around; empty functions while there is no map.
+struct Outlook {
+  std::function<PlanResult(const PlanQuery&)> plan;
+  /// Surroundings that hold these places.
+  std::function<PlanningScene(const std::vector<Vector2>&)> scene;
+};
+
 /// Pursues goals: when to plan, what to ask the planner, which of its plans to drive, and when a
-/// goal is reached or given up. Pure decisions: time, measurements and plans come in.
+/// goal is reached or given up. Where team-mates stand in the way, it asks for it; where it is in
+/// the way of a higher one, it makes room first. Pure decisions: time, measurements and plans come
+/// in.
 class Pursuit {
  public:
-  using Planner = std::function<PlanResult(const PlanQuery&)>;
 
   enum class Ending { kNone, kReached, kNoProgress, kGoalOccupied };
   struct Planned {
@@ -45,13 +54,14 @@ class Pursuit {
     std::optional<Planned> planned;  ///< what the planner found, whatever became of it
     std::optional<Report> report;
     Motion plan;                    ///< to be driven from now on; empty: no news
+    std::optional<WayRequest> request;  ///< for all team-mates
     Ending ending = Ending::kNone;  ///< of all goals
   };
 
-  /// `deceleration` [m/s^2]: of braking where a goal is given up.
-  Pursuit(const PursuitRules& rules, double deceleration);
+  /// `deceleration` [m/s^2]: of braking where a goal is given up, or room is to be made.
+  Pursuit(const PursuitRules& rules, double deceleration, RightOfWay right_of_way);
   /// For what is pursued now, too.
-  void set_rules(const PursuitRules& rules);
+  void set_rules(const PursuitRules& rules, const PlannerRules& planner);
 
   /// Goals to be reached in order, instead of those there were.
   void take(std::deque<Goal> goals, double now_s);
@@ -63,10 +73,12 @@ class Pursuit {
   /// Drops all goals. The plan brakes along what is in force; empty where nothing is.
   Motion stop(const Motion& committed, double now_s);
 
-  /// `committed`: the motion in force, empty if there is none; `planner`: an empty function while
-  /// there is no map.
+  /// What a team-mate asks for.
+  void hear(const WayRequest& request, double now_s) { right_of_way_.hear(request, now_s); }
+
+  /// `committed`: the motion in force, empty if there is none.
   Output step(double now_s, const RobotState& state, const Motion& committed,
-              const Planner& planner);
+              const Outlook& outlook);
 
   /// What would be asked now to get to `goal`; `committed` must not be empty.
   PlanQuery query_to(const Goal& goal, const Motion& committed, double now_s) const;
@@ -76,16 +88,27 @@ class Pursuit {
   const Motion& plan() const { return plan_; }
 
  private:
+  void pursue(double now_s, const RobotState& state, const Motion& committed,
+              const Outlook& outlook, Output& output);
   void begin_goal();
   bool due(double now_s) const;
   bool has_plan(double now_s) const;
-  void plan(double now_s, const Motion& committed, const Planner& planner, Output& output);
+  Goal target() const;
+  void plan(double now_s, const Motion& committed, const Outlook& outlook, Output& output);
+  bool waits_for_others(const PlanResult& result, const Motion& committed, double now_s,
+                        Output& output);
   bool much_better(const PlanResult& result, double now_s) const;
-  void give_up_where_occupied(const PlanResult& result, const Motion& committed, double now_s,
-                              Output& output);
+  void on_failure(const PlanResult& result, const Motion& committed, double now_s, Output& output);
+  void make_room(double now_s, const RobotState& state, const Motion& committed,
+                 const Outlook& outlook, Output& output);
+  Motion brake(const Motion& committed, double now_s) const;
+  void ask(double now_s, const RobotState& state, const Outlook& outlook, Output& output);
+  std::vector<Vector2> wanted_way(double now_s, const RobotState& state,
+                                  const PlanningScene& scene) const;
 
   PursuitRules rules_;
   const double deceleration_;
+  RightOfWay right_of_way_;
   GoalQueue goals_;
   DrivenTrail trail_;
   Motion plan_;
@@ -94,6 +117,13 @@ class Pursuit {
   bool requested_ = false;
   bool retreats_ = false;  // plan_ backs out; the way to the goal is to be found from its end
   std::optional<double> occupied_since_s_;
+  std::optional<Vector2> refuge_;  // where it leaves their ways to others
+  bool at_refuge_ = false;
+  double looked_s_ = -std::numeric_limits<double>::infinity();  // whether it is in the way
+  std::optional<double> stands_since_s_;                        // though it wants to go on
+  bool asks_ = false;  // its request is in force
+  bool withdraws_ = false;
+  double asked_s_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace mocha

@@ -12,9 +12,12 @@ namespace {
 
 constexpr double kRounding = 1e-6;
 
-/// A* over a lattice that holds the corners of a map.
+/// Over a lattice that holds the corners of a map: A* to a goal, or Dijkstra's search for a place
+/// that suits.
 class LatticeSearch {
  public:
+  using Suits = std::function<bool(const Vector2&)>;
+
   LatticeSearch(const Terrain& terrain, const TravelCost& cost, double step_m)
       : terrain_(terrain), cost_(cost) {
     const double finest_m = 2.0 * terrain.detail_m();
@@ -26,9 +29,29 @@ class LatticeSearch {
 
   /// Start, nodes between, goal; nothing if there is no way.
   std::vector<Vector2> run(const Vector2& start, const Vector2& goal) {
-    const int from = entry_node(start);
     const int to = entry_node(goal);
-    if (from < 0 || to < 0) return {};
+    if (to < 0) return {};
+    std::vector<Vector2> points = search(start, to, nullptr);
+    if (!points.empty()) points.push_back(goal);
+    return points;
+  }
+
+  std::vector<Vector2> run(const Vector2& start, const Suits& suits) {
+    return search(start, kNowhere, suits);
+  }
+
+ private:
+  static constexpr int kNowhere = -1;
+
+  struct Entry {
+    float bound;
+    int node;
+    bool operator<(const Entry& other) const { return bound > other.bound; }
+  };
+
+  std::vector<Vector2> search(const Vector2& start, int to, const Suits& suits) {
+    const int from = entry_node(start);
+    if (from < 0) return {};
     const std::size_t nodes = static_cast<std::size_t>(columns_) * rows_;
     best_.assign(nodes, std::numeric_limits<float>::infinity());
     parent_.assign(nodes, -1);
@@ -38,19 +61,13 @@ class LatticeSearch {
     while (!queue_.empty()) {
       const Entry entry = queue_.top();
       queue_.pop();
-      if (entry.node == to) return trace(start, from, to, goal);
+      const bool there = suits ? suits(position(entry.node)) : entry.node == to;
+      if (there) return trace(start, from, entry.node);
       if (entry.bound > best_[entry.node] + heuristic(entry.node, to) + 1e-4f) continue;
       expand(entry.node, to);
     }
     return {};
   }
-
- private:
-  struct Entry {
-    float bound;
-    int node;
-    bool operator<(const Entry& other) const { return bound > other.bound; }
-  };
 
   /// The node around p to which the straight way is cheapest; -1 if all are blocked.
   int entry_node(const Vector2& p) const {
@@ -75,6 +92,7 @@ class LatticeSearch {
   }
 
   float heuristic(int node, int to) const {
+    if (to == kNowhere) return 0.0f;
     const float dx = std::abs(node % columns_ - to % columns_);
     const float dy = std::abs(node / columns_ - to / columns_);
     const float octile = std::max(dx, dy) + 0.41421356f * std::min(dx, dy);
@@ -107,8 +125,8 @@ class LatticeSearch {
     }
   }
 
-  std::vector<Vector2> trace(const Vector2& start, int from, int to, const Vector2& goal) const {
-    std::vector<Vector2> points = {goal};
+  std::vector<Vector2> trace(const Vector2& start, int from, int to) const {
+    std::vector<Vector2> points;
     for (int node = to; node != from; node = parent_[node]) points.push_back(position(node));
     points.push_back(position(from));
     points.push_back(start);
@@ -127,6 +145,17 @@ class LatticeSearch {
 };
 
 }  // namespace
+
+GridPath find_nearest_place(const Terrain& terrain, const Vector2& start, const TravelCost& cost,
+                            double step_m, const LatticeSearch::Suits& suits) {
+  GridPath path;
+  path.outcome = GridPath::Outcome::kStartBlocked;
+  if (!terrain.bounds().contains(start) || cost.at(start) == TravelCost::kInfinity) return path;
+  path.points = suits(start) ? std::vector<Vector2>{start}
+                             : LatticeSearch(terrain, cost, step_m).run(start, suits);
+  path.outcome = path.points.empty() ? GridPath::Outcome::kNoPath : GridPath::Outcome::kFound;
+  return path;
+}
 
 GridPath find_grid_path(const Terrain& terrain, const Vector2& start, const Vector2& goal,
                         const TravelCost& cost, double step_m) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "topology/travel_cost.h"
@@ -18,5 +19,10 @@ struct GridPath {
 /// blocked.
 GridPath find_grid_path(const Terrain& terrain, const Vector2& start, const Vector2& goal,
                         const TravelCost& cost, double step_m);
+
+/// The same to that one of the places on the lattice for which `suits` holds to which the way is
+/// cheapest. It begins at `start`, which is asked as well.
+GridPath find_nearest_place(const Terrain& terrain, const Vector2& start, const TravelCost& cost,
+                            double step_m, const std::function<bool(const Vector2&)>& suits);
 
 }  // namespace mocha

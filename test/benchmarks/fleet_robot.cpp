@@ -77,7 +77,8 @@ FleetRobot::FleetRobot(std::string name, const FleetAgent& agent, const FleetRul
       agent_(agent),
       rules_(rules),
       planner_(robot_, PlannerRules::from(global_values(rules))),
-      pursuit_(PursuitRules::from(global_values(rules)), kBraking * robot_.limits.max_acceleration),
+      pursuit_(PursuitRules::from(global_values(rules)), kBraking * robot_.limits.max_acceleration,
+               RightOfWay({false, 0, name_}, robot_, PlannerRules::from(global_values(rules)))),
       replanner_(robot_, LocalReplannerRules::from(local_values(rules), robot_),
                  LocalRules::from(local_values(rules))),
       protocol_(protocol(commitment_settings(name_, robot_, rules), rules)),
@@ -113,8 +114,12 @@ std::vector<FleetRobot::Bytes> FleetRobot::hear(const Bytes& datagram, double no
   return with_protocol(now_s, [&](auto& protocol) {
     const auto heard = link_.unpack(datagram.data(), datagram.size());
     if (!heard) return CommitmentActions();
-    return std::visit([&](const auto& message) { return protocol.receive(message, now_s); },
-                      *heard);
+    if (const auto* request = std::get_if<WayRequest>(&*heard)) {
+      pursuit_.hear(*request, now_s);
+      return CommitmentActions();
+    }
+    if (const auto* promise = std::get_if<Promise>(&*heard)) return protocol.receive(*promise, now_s);
+    return protocol.receive(std::get<Beat>(*heard), now_s);
   });
 }
 
@@ -223,14 +228,18 @@ std::vector<FleetRobot::Bytes> FleetRobot::propose(double now_s) {
   });
 }
 
-void FleetRobot::pursue(double now_s) {
+std::vector<FleetRobot::Bytes> FleetRobot::pursue(double now_s) {
   if (!reached_ && pursuit_.idle()) pursuit_.take({Goal{agent_.goal, std::nullopt}}, now_s);
   refresh_peers(now_s);
-  const Pursuit::Output output =
+  Pursuit::Output output =
       pursuit_.step(now_s, state(now_s), replanner_.committed(),
-                    [this](const PlanQuery& query) { return plan(query); });
+                    {[this](const PlanQuery& query) { return plan(query); },
+                     [this](const auto&) { return PlanningScene{agent_.map->terrain, others_}; }});
   reached_ = reached_ || output.ending == Pursuit::Ending::kReached;
   if (!output.plan.empty()) replanner_.set_plan(output.plan);
+  if (!output.request) return {};
+  output.request->epoch = CommitmentSettings().epoch;
+  return link_.pack(*output.request);
 }
 
 PlanResult FleetRobot::plan(const PlanQuery& query) {

@@ -69,7 +69,7 @@ class FleetRobot {
   /// A step of the local replanner.
   std::vector<Bytes> propose(double now_s);
   /// A step of the global planner.
-  void pursue(double now_s);
+  std::vector<Bytes> pursue(double now_s);
 
   /// Where it really is, and how it moves. Brakes from here on where its lease has expired.
   RobotState state(double now_s);

@@ -71,7 +71,7 @@ class Fleet {
     const int ms = ms_ + late_ms_[i];
     const bool was_there = robot.reached();
     if (ms % kTick_ms == 0) send(i, robot.tick(now_s()));
-    if (ms % kPursuit_ms == 0) robot.pursue(now_s());
+    if (ms % kPursuit_ms == 0) send(i, robot.pursue(now_s()));
     if (ms % kProposal_ms == 0) send(i, robot.propose(now_s()));
     if (!was_there) run_.agents[i].time_s = run_.time_s;
   }

@@ -1,0 +1,75 @@
+#include "fleet/way_request.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mocha {
+namespace {
+
+constexpr double kMaxRadius_m = 10.0;
+constexpr double kMaxSpeed = 50.0;  // [m/s]
+constexpr double kFinest_m = 0.02;  // of what is left out
+
+void require(bool condition, const std::string& what) {
+  if (!condition) throw std::invalid_argument("way request: " + what);
+}
+
+double distance_m(const Vector2& place, const Vector2& a, const Vector2& b) {
+  const Vector2 along = b - a;
+  const double length2 = along.squaredNorm();
+  const double share =
+      length2 > 0.0 ? std::clamp((place - a).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (place - a - share * along).norm();
+}
+
+/// Douglas and Peucker: marks what has to be kept between two places that are.
+void keep_between(const std::vector<Vector2>& way, std::size_t first, std::size_t last,
+                  double tolerance_m, std::vector<bool>& kept) {
+  double farthest_m = tolerance_m;
+  std::size_t farthest = first;
+  for (std::size_t i = first + 1; i < last; ++i) {
+    const double off_m = distance_m(way[i], way[first], way[last]);
+    if (off_m <= farthest_m) continue;
+    farthest_m = off_m;
+    farthest = i;
+  }
+  if (farthest == first) return;
+  kept[farthest] = true;
+  keep_between(way, first, farthest, tolerance_m, kept);
+  keep_between(way, farthest, last, tolerance_m, kept);
+}
+
+}  // namespace
+
+bool outranks(const Rank& a, const Rank& b) {
+  if (a.stuck != b.stuck) return a.stuck;
+  return a.priority != b.priority ? a.priority > b.priority : a.agent < b.agent;
+}
+
+void validate(const WayRequest& request) {
+  require(!request.agent.empty() && !request.rank.agent.empty(), "has no name of a robot");
+  require(request.way.size() <= kMostWayPlaces,
+          "has " + std::to_string(request.way.size()) + " places, allowed are 64");
+  for (const Vector2& place : request.way) require(place.allFinite(), "a place is not finite");
+  require(request.radius_m > 0.0 && request.radius_m <= kMaxRadius_m,
+          "radius = " + std::to_string(request.radius_m) + " m, allowed is above 0 up to 10 m");
+  require(request.speed_mps > 0.0 && request.speed_mps <= kMaxSpeed,
+          "speed = " + std::to_string(request.speed_mps) + " m/s, allowed is above 0 up to 50 m/s");
+}
+
+std::vector<Vector2> said_shortly(const std::vector<Vector2>& way) {
+  if (way.size() < 2) return way;
+  std::vector<Vector2> few;
+  for (double tolerance_m = kFinest_m;; tolerance_m *= 2.0) {
+    std::vector<bool> kept(way.size(), false);
+    kept.front() = kept.back() = true;
+    keep_between(way, 0, way.size() - 1, tolerance_m, kept);
+    few.clear();
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      if (kept[i]) few.push_back(way[i]);
+    }
+    if (few.size() <= kMostWayPlaces) return few;
+  }
+}
+
+}  // namespace mocha
