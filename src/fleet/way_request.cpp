@@ -1,7 +1,8 @@
 #include "fleet/way_request.h"
 
-#include <algorithm>
 #include <stdexcept>
+
+#include "world/obstacle.h"
 
 namespace mocha {
 namespace {
@@ -14,21 +15,13 @@ void require(bool condition, const std::string& what) {
   if (!condition) throw std::invalid_argument("way request: " + what);
 }
 
-double distance_m(const Vector2& place, const Vector2& a, const Vector2& b) {
-  const Vector2 along = b - a;
-  const double length2 = along.squaredNorm();
-  const double share =
-      length2 > 0.0 ? std::clamp((place - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (place - a - share * along).norm();
-}
-
 /// Douglas and Peucker: marks what has to be kept between two places that are.
 void keep_between(const std::vector<Vector2>& way, std::size_t first, std::size_t last,
                   double tolerance_m, std::vector<bool>& kept) {
   double farthest_m = tolerance_m;
   std::size_t farthest = first;
   for (std::size_t i = first + 1; i < last; ++i) {
-    const double off_m = distance_m(way[i], way[first], way[last]);
+    const double off_m = (way[i] - nearest_on_segment(way[i], way[first], way[last])).norm();
     if (off_m <= farthest_m) continue;
     farthest_m = off_m;
     farthest = i;

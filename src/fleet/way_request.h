@@ -20,15 +20,15 @@ struct Rank {
 bool outranks(const Rank& a, const Rank& b);
 
 /// "Keep out of this way of mine": of a robot whose team-mates stand in it. It is said again and
-/// again until the robot is where it wants to be, and lapses when it is not heard any more. It binds
-/// nobody: what may be driven is settled by promises alone.
+/// again until the robot is where it wants to be, and lapses when it is not heard any more. It
+/// binds nobody: what may be driven is settled by promises alone.
 struct WayRequest {
   std::string agent;
   std::uint32_t epoch = 0;
   /// Its own, or of the robot that it makes room for: who stands in the way of that stands in the
   /// way of the higher one.
   Rank rank;
-  double radius_m = 0.0;  ///< circumscribed
+  double radius_m = 0.0;   ///< circumscribed
   double speed_mps = 0.0;  ///< it comes no faster
   /// Places of the centre from where it is to where it wants to be, straight between. Map frame.
   /// None: the request is withdrawn.

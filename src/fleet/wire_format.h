@@ -13,10 +13,10 @@
 
 namespace mocha {
 
-// Promises, heartbeats and way requests as bytes on the network: LCM messages (lcm/datagram_t.lcm) of one
-// datagram each. Numbers are quantised: times to 1 us, places to 0.01 mm, headings, speeds and
-// accelerations to 1e-5 rad, m/s and m/s^2, radii to 1 mm (up). So that all robots hold the same
-// motion, the one that promises drives quantised(), too.
+// Promises, heartbeats and way requests as bytes on the network: LCM messages (lcm/datagram_t.lcm)
+// of one datagram each. Numbers are quantised: times to 1 us, places to 0.01 mm, headings, speeds
+// and accelerations to 1e-5 rad, m/s and m/s^2, radii to 1 mm (up). So that all robots hold the
+// same motion, the one that promises drives quantised(), too.
 
 /// Of everything below; others are refused.
 constexpr int kWireVersion = 1;

@@ -39,8 +39,8 @@ FleetNetwork::FleetNetwork(ros::NodeHandle& node, const RobotIdentity& robot,
   promises_in_ = node.subscribe("/fleet/promises", 100, &FleetNetwork::on_promise, this, at_once());
   heartbeats_in_ =
       node.subscribe("/fleet/heartbeats", 100, &FleetNetwork::on_heartbeat, this, at_once());
-  requests_in_ = node.subscribe("/fleet/way_requests", 100, &FleetNetwork::on_way_request, this,
-                                at_once());
+  requests_in_ =
+      node.subscribe("/fleet/way_requests", 100, &FleetNetwork::on_way_request, this, at_once());
 }
 
 void FleetNetwork::send(const FleetMessage& message, ros::Time now) {

@@ -23,8 +23,8 @@ struct FleetNetworkSettings {
 };
 
 /// How the robots of a fleet hear each other: datagrams over LCM, or where they share a roscore,
-/// the topics /fleet/promises, /fleet/heartbeats and /fleet/way_requests. What comes from outside and is no use is
-/// counted and reported.
+/// the topics /fleet/promises, /fleet/heartbeats and /fleet/way_requests. What comes from outside
+/// and is no use is counted and reported.
 class FleetNetwork {
  public:
   /// `hear` gets what others say, in the node's thread. Throws std::runtime_error for a url that

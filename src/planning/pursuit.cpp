@@ -15,11 +15,16 @@ constexpr double kSameGoal_m = 0.05;
 constexpr double kAfterEnd_s = 0.5;   // a plan that ended this long ago without arrival has failed
 constexpr double kRounding_s = 1e-6;  // of differences of times
 constexpr double kLook_s = 0.25;      // between two looks whether it is in anybody's way
-constexpr double kPatience_s = 1.5;   // of standing in front of others, until it asks for the way
-constexpr double kAgain_s = 0.5;      // a request in force is said again
+constexpr double kNear_m = 1.0;       // beside its way, somebody may come into it again
 constexpr double kOnPlan_m = 0.5;     // farther off its plan, a robot drives something else
+constexpr double kSampleSpeed_mps = 1.0;
 constexpr double kStanding_mps = 0.03;
 constexpr double kStanding_radps = 0.03;
+
+bool at_rest(const RobotState& state) {
+  return std::abs(state.twist.speed) < kStanding_mps &&
+         std::abs(state.twist.yaw_rate) < kStanding_radps;
+}
 
 }  // namespace
 
@@ -43,26 +48,30 @@ void Pursuit::set_rules(const PursuitRules& rules, const PlannerRules& planner) 
 
 void Pursuit::take(std::deque<Goal> goals, double now_s) {
   goals_.set(std::move(goals), now_s);
+  parked_ = false;
+  right_of_way_.set_parked(false);
   begin_goal();
 }
 
 void Pursuit::begin_goal() {
+  refuge_.reset();
+  right_of_way_.set_stuck(false);
+  begin_way();
+}
+
+void Pursuit::begin_way() {
   plan_ = Motion();
   retreats_ = false;
-  goal_is_new_ = true;
+  way_is_new_ = true;
   occupied_since_s_.reset();
-  refuge_.reset();
-  at_refuge_ = false;
-  stands_since_s_.reset();
-  withdraws_ = asks_;
-  asks_ = false;
-  right_of_way_.set_stuck(false);
+  asking_.stop();
 }
 
 void Pursuit::follow(Motion followed) {
-  if (goals_.empty() || goal_is_new_ || retreats_) return;
+  if (!has_errand() || way_is_new_ || retreats_) return;
   const Vector2 end = followed.end_pose().position;
-  if ((end - goals_.current().position).norm() < kSamePlace_m) plan_ = std::move(followed);
+  const Vector2 there = makes_room() ? refuge_->place : goals_.current().position;
+  if ((end - there).norm() < kSamePlace_m) plan_ = std::move(followed);
 }
 
 Motion Pursuit::brake(const Motion& committed, double now_s) const {
@@ -72,6 +81,7 @@ Motion Pursuit::brake(const Motion& committed, double now_s) const {
 
 Motion Pursuit::stop(const Motion& committed, double now_s) {
   goals_.clear();
+  parked_ = false;
   begin_goal();
   if (!committed.empty()) plan_ = brake(committed, now_s);
   return plan_;
@@ -81,33 +91,33 @@ Pursuit::Output Pursuit::step(double now_s, const RobotState& state, const Motio
                               const Outlook& outlook) {
   Output output;
   trail_.add(state);
-  if (!goals_.empty()) pursue(now_s, state, committed, outlook, output);
-  if (withdraws_ && !output.request) output.request = right_of_way_.request_for({}, right_of_way_.own());
-  withdraws_ = false;
+  if (refuge_) goals_.wait(now_s);
+  output.ending = ending_of(goals_.update(now_s, state));
+  if (output.ending == Ending::kNoProgress) output.plan = stop(committed, now_s);
+  if (outlook.scene && !committed.empty()) make_room(now_s, state, committed, outlook, output);
+  if (has_errand() && due(now_s)) plan(now_s, committed, outlook, output);
+  if (has_errand() && outlook.scene) ask(now_s, state, outlook, output);
+  if (asking_.take_withdrawal())
+    output.request = right_of_way_.request_for({}, right_of_way_.own());
   return output;
 }
 
-void Pursuit::pursue(double now_s, const RobotState& state, const Motion& committed,
-                     const Outlook& outlook, Output& output) {
-  if (refuge_) goals_.wait(now_s);
-  switch (goals_.update(now_s, state)) {
+Pursuit::Ending Pursuit::ending_of(GoalQueue::Event event) {
+  switch (event) {
     case GoalQueue::Event::kAllReached:
-      output.ending = Ending::kReached;
+      parked_ = true;
+      right_of_way_.set_parked(true);
       begin_goal();
-      return;
+      return Ending::kReached;
     case GoalQueue::Event::kReached:
       begin_goal();
-      break;
+      return Ending::kNone;
     case GoalQueue::Event::kTimedOut:
-      output.ending = Ending::kNoProgress;
-      output.plan = stop(committed, now_s);
-      return;
+      return Ending::kNoProgress;
     case GoalQueue::Event::kNone:
       break;
   }
-  make_room(now_s, state, committed, outlook, output);
-  if (due(now_s)) plan(now_s, committed, outlook, output);
-  ask(now_s, state, outlook, output);
+  return Ending::kNone;
 }
 
 bool Pursuit::has_plan(double now_s) const {
@@ -116,8 +126,8 @@ bool Pursuit::has_plan(double now_s) const {
 
 bool Pursuit::due(double now_s) const {
   const double since_s = now_s - planned_at_s_ + kRounding_s;
-  if (goal_is_new_) return true;
-  if (refuge_ && !at_refuge_ && has_plan(now_s) && !requested_ && !retreats_) return false;
+  if (way_is_new_) return true;
+  if (makes_room() && has_plan(now_s) && !requested_ && !retreats_) return false;
   const bool retreat_ends = retreats_ && now_s > plan_.end_time() - rules_.planning_time_s;
   if (requested_ || retreat_ends) return since_s >= kSoonest_s;
   if (retreats_) return false;
@@ -135,7 +145,7 @@ PlanQuery Pursuit::query_to(const Goal& goal, const Motion& committed, double no
 }
 
 Goal Pursuit::target() const {
-  return refuge_ && !at_refuge_ ? Goal{*refuge_, std::nullopt} : goals_.asked();
+  return makes_room() ? Goal{refuge_->place, std::nullopt} : goals_.asked();
 }
 
 void Pursuit::plan(double now_s, const Motion& committed, const Outlook& outlook, Output& output) {
@@ -147,43 +157,49 @@ void Pursuit::plan(double now_s, const Motion& committed, const Outlook& outlook
     return;
   }
   PlanQuery query = query_to(target(), committed, now_s);
-  if (!goal_is_new_ && !retreats_) query.driven = plan_;
+  if (!way_is_new_ && !retreats_) query.driven = plan_;
   output.planned = Planned{target(), outlook.plan(query)};
   const PlanResult& result = output.planned->result;
-  const bool improvement = !goal_is_new_ && !requested_ && !retreats_ && has_plan(now_s);
+  const bool improvement = !way_is_new_ && !requested_ && !retreats_ && has_plan(now_s);
   planned_at_s_ = now_s;
   requested_ = false;
   if (waits_for_others(result, committed, now_s, output)) return;
   if (improvement && (result.motion.empty() || !much_better(result, now_s))) return;
   output.report = Report{result.reason, result.violation, result.message};
-  goal_is_new_ = false;
+  way_is_new_ = false;
   if (result.motion.empty()) {
     on_failure(result, committed, now_s, output);
     return;
   }
+  adopt(result, output);
+}
+
+void Pursuit::adopt(const PlanResult& result, Output& output) {
   occupied_since_s_.reset();
   retreats_ = result.reason == PlanReason::kBackingOut;
-  if (at_refuge_) {
+  if (makes_room()) {
+    output.report->message = "makes room for " + refuge_->whose.agent + ": " + result.message;
+  } else {
     refuge_.reset();
-    at_refuge_ = false;
+    if (!retreats_) goals_.move_current(result.goal);
   }
-  if (!retreats_ && !refuge_) goals_.move_current(result.goal);
   plan_ = result.motion;
   output.plan = plan_;
 }
 
-/// A plan to the goal that would meet a higher one is not driven; where there is no other, the robot
-/// waits where it is, which is in nobody's way.
+/// A plan to the goal that would get into the way of a higher one is not driven; where there is no
+/// other, the robot waits where it is, which is in nobody's way.
 bool Pursuit::waits_for_others(const PlanResult& result, const Motion& committed, double now_s,
                                Output& output) {
-  const bool to_goal = !refuge_ || at_refuge_;
-  if (!to_goal || result.motion.empty() || !right_of_way_.meets(result.motion, now_s)) return false;
-  if (has_plan(now_s) && !at_refuge_) return true;
-  goal_is_new_ = false;
-  refuge_ = committed.end_pose().position;
+  if (makes_room() || result.motion.empty()) return false;
+  const auto whose = right_of_way_.in_way_of(result.motion, now_s);
+  if (!whose) return false;
+  if (!refuge_ && has_plan(now_s)) return true;
+  way_is_new_ = false;
+  refuge_ = Refuge{committed.end_pose().position, *whose};
   output.report = Report();
   output.report->reason = PlanReason::kPeerConflict;
-  output.report->message = "waits until " + right_of_way_.foremost(now_s).agent + " has passed";
+  output.report->message = "waits until " + whose->agent + " has passed";
   return true;
 }
 
@@ -198,7 +214,7 @@ bool Pursuit::much_better(const PlanResult& result, double now_s) const {
 
 void Pursuit::on_failure(const PlanResult& result, const Motion& committed, double now_s,
                          Output& output) {
-  if (refuge_ && !at_refuge_) {
+  if (makes_room()) {
     plan_ = brake(committed, now_s);
     output.plan = plan_;
     return;
@@ -213,32 +229,38 @@ void Pursuit::on_failure(const PlanResult& result, const Motion& committed, doub
   output.plan = stop(committed, now_s);
 }
 
+/// Whose way it stands or drives in, or will stand in where it waits.
+std::optional<Rank> Pursuit::in_way_of(double now_s, const RobotState& state) const {
+  if (refuge_) return right_of_way_.in_way_of(refuge_->place, now_s);
+  if (!goals_.empty() && has_plan(now_s)) return right_of_way_.in_way_of(plan_, now_s);
+  return right_of_way_.in_way_of(state.pose.position, now_s);
+}
+
 void Pursuit::make_room(double now_s, const RobotState& state, const Motion& committed,
                         const Outlook& outlook, Output& output) {
-  const bool rests = std::abs(state.twist.speed) < kStanding_mps &&
-                     std::abs(state.twist.yaw_rate) < kStanding_radps;
-  at_refuge_ = refuge_ && rests &&
-               (state.pose.position - *refuge_).norm() < rules_.goals.tolerance_m;
-  if (now_s < looked_s_ + kLook_s || !outlook.scene || committed.empty()) return;
-  looked_s_ = now_s;
-  if (refuge_ && !right_of_way_.yields(now_s)) {
-    begin_goal();
-    return;
+  if (goals_.empty() && !parked_) return;
+  const double close_m = rules_.goals.tolerance_m;
+  if (refuge_) {
+    refuge_->there = at_rest(state) && (state.pose.position - refuge_->place).norm() < close_m;
+    if (goals_.empty() && refuge_->there) begin_goal();
   }
-  const bool in_the_way = refuge_          ? right_of_way_.in_the_way(*refuge_, now_s)
-                          : has_plan(now_s) ? right_of_way_.meets(plan_, now_s)
-                                            : right_of_way_.in_the_way(state.pose.position, now_s);
-  if (!in_the_way) return;
+  if (now_s < looked_s_ + kLook_s) return;
+  looked_s_ = now_s;
+  if (refuge_ && !right_of_way_.yields(now_s)) begin_goal();
+  const auto whose = in_way_of(now_s, state);
+  if (!whose) return;
   const Motion braking = brake(committed, now_s);
   const Vector2 from = braking.end_pose().position;
-  const auto refuge = right_of_way_.refuge(
-      from, outlook.scene({from, goals_.asked().position}), now_s);
-  const bool stuck = right_of_way_.stuck();
-  begin_goal();
-  right_of_way_.set_stuck(stuck);
-  refuge_ = refuge;
-  if (!refuge || (*refuge - from).norm() > rules_.goals.tolerance_m) return;
-  goal_is_new_ = false;
+  const auto place = right_of_way_.refuge(from, outlook.scene({from}), now_s);
+  begin_way();
+  refuge_.reset();
+  if (!place) {
+    right_of_way_.set_stuck(!goals_.empty());
+    return;
+  }
+  refuge_ = Refuge{*place, *whose};
+  if ((*place - from).norm() > close_m) return;
+  way_is_new_ = false;
   planned_at_s_ = now_s;
   plan_ = braking;
   output.plan = plan_;
@@ -248,36 +270,30 @@ void Pursuit::make_room(double now_s, const RobotState& state, const Motion& com
 std::vector<Vector2> Pursuit::wanted_way(double now_s, const RobotState& state,
                                          const PlanningScene& scene) const {
   const Vector2& here = state.pose.position;
-  const Vector2 there = refuge_ ? *refuge_ : goals_.current().position;
+  const Vector2 there = makes_room() ? refuge_->place : goals_.current().position;
   const bool on_plan = has_plan(now_s) && !retreats_ &&
                        (plan_.position(now_s) - here).norm() < kOnPlan_m &&
                        (plan_.end_pose().position - there).norm() < kSamePlace_m;
   if (!on_plan) return right_of_way_.way(here, there, scene);
-  std::vector<Vector2> way = path_of(plan_, now_s, 1.0);
+  std::vector<Vector2> way = path_of(plan_, now_s, kSampleSpeed_mps);
   way.insert(way.begin(), here);
   return way;
 }
 
 void Pursuit::ask(double now_s, const RobotState& state, const Outlook& outlook, Output& output) {
-  const bool rests = std::abs(state.twist.speed) < kStanding_mps &&
-                     std::abs(state.twist.yaw_rate) < kStanding_radps;
-  if (at_refuge_ || !outlook.scene) {
-    withdraws_ = withdraws_ || asks_;
-    asks_ = false;
+  if (refuge_ && refuge_->there) {
+    asking_.stop();
+    return;
   }
-  if (at_refuge_ || !outlook.scene || !rests) stands_since_s_.reset();
-  if (at_refuge_ || !outlook.scene) return;
-  if (rests && !stands_since_s_) stands_since_s_ = now_s;
-  if (!asks_ && (!stands_since_s_ || now_s < *stands_since_s_ + kPatience_s)) return;
-  if (now_s < asked_s_ + kAgain_s) return;
-  asked_s_ = now_s;
-  const PlanningScene scene = outlook.scene({state.pose.position, goals_.current().position});
+  if (!asking_.due(now_s, at_rest(state))) return;
+  const PlanningScene scene = outlook.scene({state.pose.position, target().position});
   const std::vector<Vector2> way = wanted_way(now_s, state, scene);
-  if (way.empty() || (!asks_ && !right_of_way_.blocked(way, scene, now_s))) return;
-  asks_ = true;
-  const bool for_another = refuge_ && right_of_way_.yields(now_s);
-  output.request = right_of_way_.request_for(
-      way, for_another ? right_of_way_.foremost(now_s) : right_of_way_.own());
+  const bool on_it = right_of_way_.is_near(way, scene, now_s, 0.0);
+  if (!asking_.look(now_s, on_it, right_of_way_.is_near(way, scene, now_s, kNear_m))) return;
+  if (way.empty()) return;
+  const bool for_another = makes_room() && outranks(refuge_->whose, right_of_way_.own());
+  output.request =
+      right_of_way_.request_for(way, for_another ? refuge_->whose : right_of_way_.own());
 }
 
 }  // namespace mocha

@@ -11,6 +11,7 @@
 #include "planning/plan_result.h"
 #include "planning/planning_scene.h"
 #include "planning/right_of_way.h"
+#include "planning/way_asking.h"
 
 namespace mocha {
 
@@ -34,12 +35,11 @@ struct Outlook {
 };
 
 /// Pursues goals: when to plan, what to ask the planner, which of its plans to drive, and when a
-/// goal is reached or given up. Where team-mates stand in the way, it asks for it; where it is in
-/// the way of a higher one, it makes room first. Pure decisions: time, measurements and plans come
-/// in.
+/// goal is reached or given up. Where team-mates stand in its way, it asks for it; where it is in
+/// the way of a higher one, it makes room first, and so it does where it has reached its goal,
+/// until it is told to stop. Pure decisions: time, measurements and plans come in.
 class Pursuit {
  public:
-
   enum class Ending { kNone, kReached, kNoProgress, kGoalOccupied };
   struct Planned {
     Goal goal;
@@ -53,9 +53,9 @@ class Pursuit {
   struct Output {
     std::optional<Planned> planned;  ///< what the planner found, whatever became of it
     std::optional<Report> report;
-    Motion plan;                    ///< to be driven from now on; empty: no news
+    Motion plan;                        ///< to be driven from now on; empty: no news
     std::optional<WayRequest> request;  ///< for all team-mates
-    Ending ending = Ending::kNone;  ///< of all goals
+    Ending ending = Ending::kNone;      ///< of all goals
   };
 
   /// `deceleration` [m/s^2]: of braking where a goal is given up, or room is to be made.
@@ -88,19 +88,31 @@ class Pursuit {
   const Motion& plan() const { return plan_; }
 
  private:
-  void pursue(double now_s, const RobotState& state, const Motion& committed,
-              const Outlook& outlook, Output& output);
+  /// Where it leaves the way to a higher one.
+  struct Refuge {
+    Vector2 place;
+    Rank whose;
+    bool there = false;  ///< it waits there
+  };
+
   void begin_goal();
+  void begin_way();
+  Ending ending_of(GoalQueue::Event event);
+  /// It is to go somewhere, to its refuge or to the goal.
+  bool has_errand() const { return makes_room() || !goals_.empty(); }
+  bool makes_room() const { return refuge_ && !refuge_->there; }
+  Goal target() const;
   bool due(double now_s) const;
   bool has_plan(double now_s) const;
-  Goal target() const;
   void plan(double now_s, const Motion& committed, const Outlook& outlook, Output& output);
+  void adopt(const PlanResult& result, Output& output);
   bool waits_for_others(const PlanResult& result, const Motion& committed, double now_s,
                         Output& output);
   bool much_better(const PlanResult& result, double now_s) const;
   void on_failure(const PlanResult& result, const Motion& committed, double now_s, Output& output);
   void make_room(double now_s, const RobotState& state, const Motion& committed,
                  const Outlook& outlook, Output& output);
+  std::optional<Rank> in_way_of(double now_s, const RobotState& state) const;
   Motion brake(const Motion& committed, double now_s) const;
   void ask(double now_s, const RobotState& state, const Outlook& outlook, Output& output);
   std::vector<Vector2> wanted_way(double now_s, const RobotState& state,
@@ -109,21 +121,18 @@ class Pursuit {
   PursuitRules rules_;
   const double deceleration_;
   RightOfWay right_of_way_;
+  WayAsking asking_;
   GoalQueue goals_;
   DrivenTrail trail_;
   Motion plan_;
   double planned_at_s_ = -std::numeric_limits<double>::infinity();
-  bool goal_is_new_ = false;
+  bool way_is_new_ = false;
   bool requested_ = false;
   bool retreats_ = false;  // plan_ backs out; the way to the goal is to be found from its end
+  bool parked_ = false;    // it has reached its goals, and nobody said otherwise since
   std::optional<double> occupied_since_s_;
-  std::optional<Vector2> refuge_;  // where it leaves their ways to others
-  bool at_refuge_ = false;
+  std::optional<Refuge> refuge_;
   double looked_s_ = -std::numeric_limits<double>::infinity();  // whether it is in the way
-  std::optional<double> stands_since_s_;                        // though it wants to go on
-  bool asks_ = false;  // its request is in force
-  bool withdraws_ = false;
-  double asked_s_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace mocha

@@ -12,64 +12,75 @@
 
 namespace mocha {
 
-/// Who of a fleet makes room for whom where two want the same narrow place. The robot of higher rank
-/// says which way it wants; who stands or would drive in that way keeps out of it until the other
-/// has passed, and if somebody stands in the way to where it keeps out, asks him in turn, in the
-/// name of the higher one. Who has no place to keep out outranks all who have one.
+/// Who of a fleet makes room for whom where two want the same narrow place. The robot of higher
+/// rank says which way it wants; who stands or would drive in that way keeps out of it until the
+/// other has passed, and if somebody stands in the way to where it keeps out, asks him in turn, in
+/// the name of the higher one. Who has no place to keep out outranks all who have one; who is
+/// parked is outranked by all who are on their way.
 ///
 /// As ranks are a total order, somebody always goes on; a request ends with its goal, so nobody
 /// waits for ever.
 class RightOfWay {
  public:
-  /// `own`: this robot's rank while it is not stuck.
+  /// `own`: this robot's rank while it is neither stuck nor parked.
   RightOfWay(Rank own, RobotModel robot, const PlannerRules& rules);
   void set_rules(const PlannerRules& rules);
 
   /// A validated request of a team-mate, in force until it is replaced, withdrawn or lapses.
   void hear(const WayRequest& request, double now_s);
 
+  // --- what is asked of this robot ---
+
   /// Whether a request of higher rank is in force.
   bool yields(double now_s) const { return !above(now_s).empty(); }
-  /// The highest of those who have the right of way; there must be one.
-  const Rank& foremost(double now_s) const { return above(now_s).front()->rank; }
-
-  /// Whether who stands here is in a way that has been asked for by a higher rank.
-  bool in_the_way(const Vector2& place, double now_s) const;
+  /// The highest rank whose way it is that who stands here stands in; none: nobody's.
+  std::optional<Rank> in_way_of(const Vector2& place, double now_s) const;
   /// The same for who drives `motion` and then stands: somewhere on such a way at a time when the
   /// other may have come there.
-  bool meets(const Motion& motion, double now_s) const;
+  std::optional<Rank> in_way_of(const Motion& motion, double now_s) const;
 
-  /// The nearest place, by way of the map, that is in nobody's way who has the right of it; if there
-  /// is none that is in nobody's, one that leaves the higher ones theirs. Standing team-mates are
-  /// driven around if possible; else they will be asked. Nothing where there is no such place: then
-  /// this robot is stuck, and yields to nobody until set_stuck(false).
-  std::optional<Vector2> refuge(const Vector2& from, const PlanningScene& scene, double now_s);
-  bool stuck() const { return own_.stuck; }
+  /// The nearest place, by way of the map, that is in nobody's way who has the right of it; if
+  /// there is none that is in nobody's, one that leaves the higher ones theirs. Standing team-mates
+  /// are driven around if possible; else they will be asked. Nothing where there is no such place:
+  /// this robot is stuck.
+  std::optional<Vector2> refuge(const Vector2& from, const PlanningScene& scene,
+                                double now_s) const;
+
+  // --- what it asks of others ---
+
+  const Rank& own() const { return own_; }
   void set_stuck(bool stuck) { own_.stuck = stuck; }
+  void set_parked(bool parked);
 
   /// The way on the map from here to there, team-mates aside; empty if there is none.
   std::vector<Vector2> way(const Vector2& from, const Vector2& to,
                            const PlanningScene& scene) const;
-  /// Whether a team-mate is somewhere on it now.
-  bool blocked(const std::vector<Vector2>& way, const PlanningScene& scene, double now_s) const;
-  /// What to say to ask for it, for oneself or for whom one makes room.
+  /// Whether a team-mate is now closer to it than its centre must be, and `more_m` besides.
+  bool is_near(const std::vector<Vector2>& way, const PlanningScene& scene, double now_s,
+               double more_m) const;
+  /// What to say to ask for it, in the name of `rank`; without a way, to ask no more.
   WayRequest request_for(const std::vector<Vector2>& way, const Rank& rank) const;
-  const Rank& own() const { return own_; }
 
  private:
   struct Heard {
     WayRequest request;
     double until_s;
   };
+  /// A place, and how many of the highest leave it alone.
+  struct Refuge {
+    std::size_t spared = 0;
+    std::optional<Vector2> place;
+  };
 
   /// The requests in force that this robot yields to, highest first.
   std::vector<const WayRequest*> above(double now_s) const;
   double keep_m(const WayRequest& request) const;
-  std::optional<Vector2> refuge_from(const std::vector<const WayRequest*>& ways,
-                                     const Vector2& from, const PlanningScene& scene, double now_s,
-                                     bool around_all) const;
+  bool meets(const Motion& motion, const WayRequest& request, double now_s) const;
+  Refuge best_refuge(const std::vector<const WayRequest*>& ways, const Vector2& from,
+                     const PlanningScene& scene, double now_s, bool around_all) const;
 
   Rank own_;
+  const int priority_;
   const RobotModel robot_;
   WayRules rules_;
   std::map<std::string, Heard> heard_;

@@ -31,13 +31,14 @@ class LatticeSearch {
   std::vector<Vector2> run(const Vector2& start, const Vector2& goal) {
     const int to = entry_node(goal);
     if (to < 0) return {};
-    std::vector<Vector2> points = search(start, to, nullptr);
+    std::vector<Vector2> points =
+        search(start, to, nullptr, std::numeric_limits<double>::infinity());
     if (!points.empty()) points.push_back(goal);
     return points;
   }
 
-  std::vector<Vector2> run(const Vector2& start, const Suits& suits) {
-    return search(start, kNowhere, suits);
+  std::vector<Vector2> run(const Vector2& start, const Suits& suits, double most_m) {
+    return search(start, kNowhere, suits, most_m);
   }
 
  private:
@@ -49,7 +50,7 @@ class LatticeSearch {
     bool operator<(const Entry& other) const { return bound > other.bound; }
   };
 
-  std::vector<Vector2> search(const Vector2& start, int to, const Suits& suits) {
+  std::vector<Vector2> search(const Vector2& start, int to, const Suits& suits, double most_m) {
     const int from = entry_node(start);
     if (from < 0) return {};
     const std::size_t nodes = static_cast<std::size_t>(columns_) * rows_;
@@ -61,9 +62,10 @@ class LatticeSearch {
     while (!queue_.empty()) {
       const Entry entry = queue_.top();
       queue_.pop();
+      if (entry.bound > most_m) return {};
+      if (entry.bound > best_[entry.node] + heuristic(entry.node, to) + 1e-4f) continue;
       const bool there = suits ? suits(position(entry.node)) : entry.node == to;
       if (there) return trace(start, from, entry.node);
-      if (entry.bound > best_[entry.node] + heuristic(entry.node, to) + 1e-4f) continue;
       expand(entry.node, to);
     }
     return {};
@@ -147,12 +149,12 @@ class LatticeSearch {
 }  // namespace
 
 GridPath find_nearest_place(const Terrain& terrain, const Vector2& start, const TravelCost& cost,
-                            double step_m, const LatticeSearch::Suits& suits) {
+                            double step_m, double most_m, const LatticeSearch::Suits& suits) {
   GridPath path;
   path.outcome = GridPath::Outcome::kStartBlocked;
   if (!terrain.bounds().contains(start) || cost.at(start) == TravelCost::kInfinity) return path;
   path.points = suits(start) ? std::vector<Vector2>{start}
-                             : LatticeSearch(terrain, cost, step_m).run(start, suits);
+                             : LatticeSearch(terrain, cost, step_m).run(start, suits, most_m);
   path.outcome = path.points.empty() ? GridPath::Outcome::kNoPath : GridPath::Outcome::kFound;
   return path;
 }

@@ -21,8 +21,9 @@ GridPath find_grid_path(const Terrain& terrain, const Vector2& start, const Vect
                         const TravelCost& cost, double step_m);
 
 /// The same to that one of the places on the lattice for which `suits` holds to which the way is
-/// cheapest. It begins at `start`, which is asked as well.
+/// cheapest, no dearer than `most_m`. They are asked in this order, `start` first.
 GridPath find_nearest_place(const Terrain& terrain, const Vector2& start, const TravelCost& cost,
-                            double step_m, const std::function<bool(const Vector2&)>& suits);
+                            double step_m, double most_m,
+                            const std::function<bool(const Vector2&)>& suits);
 
 }  // namespace mocha

@@ -118,7 +118,8 @@ std::vector<FleetRobot::Bytes> FleetRobot::hear(const Bytes& datagram, double no
       pursuit_.hear(*request, now_s);
       return CommitmentActions();
     }
-    if (const auto* promise = std::get_if<Promise>(&*heard)) return protocol.receive(*promise, now_s);
+    if (const auto* promise = std::get_if<Promise>(&*heard))
+      return protocol.receive(*promise, now_s);
     return protocol.receive(std::get<Beat>(*heard), now_s);
   });
 }
@@ -231,10 +232,11 @@ std::vector<FleetRobot::Bytes> FleetRobot::propose(double now_s) {
 std::vector<FleetRobot::Bytes> FleetRobot::pursue(double now_s) {
   if (!reached_ && pursuit_.idle()) pursuit_.take({Goal{agent_.goal, std::nullopt}}, now_s);
   refresh_peers(now_s);
-  Pursuit::Output output =
-      pursuit_.step(now_s, state(now_s), replanner_.committed(),
-                    {[this](const PlanQuery& query) { return plan(query); },
-                     [this](const auto&) { return PlanningScene{agent_.map->terrain, others_}; }});
+  Pursuit::Output output = pursuit_.step(now_s, state(now_s), replanner_.committed(),
+                                         {[this](const PlanQuery& query) { return plan(query); },
+                                          [this](const auto&) {
+                                            return PlanningScene{agent_.map->terrain, others_};
+                                          }});
   reached_ = reached_ || output.ending == Pursuit::Ending::kReached;
   if (!output.plan.empty()) replanner_.set_plan(output.plan);
   if (!output.request) return {};

@@ -69,6 +69,13 @@ Beat beat() {
   return beat;
 }
 
+WayRequest way_request() {
+  WayRequest request{"ugv1", 3, {true, -7, "ugv2"}, 0.333, 1.25, {}};
+  for (std::size_t i = 0; i < kMostWayPlaces; ++i)
+    request.way.emplace_back(-20000.0 + 0.5 * i, 12.34567 - 0.25 * i);
+  return request;
+}
+
 TEST(WireFormat, GivesBackPromisesButForTheQuantisation) {
   std::mt19937 random(1);
   for (int run = 0; run < 200; ++run) {
@@ -135,6 +142,29 @@ TEST(WireFormat, GivesBackBeatsAndWithdrawals) {
   EXPECT_NEAR(heard.echoes[0].held_s, 0.015, 1e-6);
   Promise void_one{"ugv1", {3, 9}, PromiseState::kWithdrawn, 0, 0.3, nullptr};
   EXPECT_EQ(std::get<Promise>(decoded(encoded(void_one))).motion, nullptr);
+}
+
+TEST(WireFormat, GivesBackWayRequests) {
+  WayRequest sent = way_request();
+  sent.agent = std::string(63, 'x');
+  sent.rank.agent = std::string(63, 'y');
+  const Bytes bytes = encoded(sent);
+  EXPECT_LE(bytes.size(), kMostDatagramBytes);
+  const WayRequest heard = std::get<WayRequest>(decoded(bytes));
+  EXPECT_EQ(heard.agent, sent.agent);
+  EXPECT_EQ(heard.epoch, sent.epoch);
+  EXPECT_TRUE(heard.rank.stuck);
+  EXPECT_EQ(heard.rank.priority, sent.rank.priority);
+  EXPECT_EQ(heard.rank.agent, sent.rank.agent);
+  EXPECT_DOUBLE_EQ(heard.radius_m, sent.radius_m);
+  EXPECT_DOUBLE_EQ(heard.speed_mps, sent.speed_mps);
+  ASSERT_EQ(heard.way.size(), sent.way.size());
+  for (std::size_t i = 0; i < sent.way.size(); ++i)
+    EXPECT_LT((heard.way[i] - sent.way[i]).norm(), 1e-5);
+  sent.way.clear();
+  EXPECT_TRUE(std::get<WayRequest>(decoded(encoded(sent))).way.empty());
+  sent.speed_mps = 0.0;
+  EXPECT_THROW(encoded(sent), std::invalid_argument);
 }
 
 TEST(WireFormat, TenSecondsOfDriveFitIntoOneDatagram) {
@@ -245,7 +275,7 @@ TEST(WireFormat, BeatsThatAreTooLongAreDivided) {
 /// Whatever comes is a message that encoded() could have made, or is refused.
 TEST(WireFormat, MutantsAreRefusedOrSound) {
   std::mt19937 random(5);
-  std::vector<Bytes> seeds = {encoded(beat())};
+  std::vector<Bytes> seeds = {encoded(beat()), encoded(way_request())};
   for (int i = 0; i < 20; ++i) seeds.push_back(encoded(promise_of(any(i, random, kNow_s))));
   std::uniform_int_distribution<int> byte(0, 255);
   int refused = 0;

@@ -80,6 +80,11 @@ class Fuzzer {
       }
       return beat;
     }
+    if (below(4) == 0) {
+      WayRequest request{agent, epoch, {below(2) == 0, below(3), "ugv2"}, 0.3, 1.0, {}};
+      for (int i = below(20); i > 0; --i) request.way.emplace_back(below(40), below(40));
+      return request;
+    }
     Promise promise{
         agent,  {epoch, 1U + below(9)}, static_cast<PromiseState>(1 + below(4)), below(3), 0.3,
         nullptr};
@@ -159,10 +164,20 @@ class Fuzzer {
     const auto begin = std::chrono::steady_clock::now();
     if (const auto message = link_.unpack(bytes.data(), bytes.size())) {
       now_s_ += 1e-4;
-      answer(std::visit([&](const auto& each) { return robot_.receive(each, now_s_); }, *message));
+      take(*message);
     }
     const auto took = std::chrono::steady_clock::now() - begin;
     slowest_s_ = std::max(slowest_s_, std::chrono::duration<double>(took).count());
+  }
+
+  void take(const FleetMessage& message) {
+    if (const auto* promise = std::get_if<Promise>(&message)) {
+      answer(robot_.receive(*promise, now_s_));
+    } else if (const auto* beat = std::get_if<Beat>(&message)) {
+      answer(robot_.receive(*beat, now_s_));
+    } else {
+      validate(std::get<WayRequest>(message));
+    }
   }
 
   /// Its own words are those of a sound robot, whatever it hears.

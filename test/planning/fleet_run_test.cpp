@@ -54,5 +54,25 @@ TEST(FleetRun, WhoHearsNothingDrivesIntoTheOthersAndThatIsSeen) {
   EXPECT_GT(contacts, 0);
 }
 
+/// Nobody gets through where the way is as wide as one robot but by making room.
+class NarrowPlaces : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(NarrowPlaces, AllArriveWithoutContact) {
+  FleetScene scene = fleet_of(load_world(GetParam(), "config"), 1);
+  scene.rules.planning_threads = 1;
+  scene.link = {0.0, 0.05, 0.1};
+  scene.longest_s = 150.0;
+  const FleetRun run = run_fleet(scene);
+  EXPECT_TRUE(run.all_reached());
+  EXPECT_EQ(run.contacts, 0);
+  EXPECT_GE(run.min_separation_m, 0.8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, NarrowPlaces,
+                         ::testing::Values("config/worlds/narrow_corridor.yaml",
+                                           "config/worlds/passing_place.yaml",
+                                           "test/worlds/dead_end_for_two.yaml",
+                                           "test/worlds/two_behind_each_other.yaml"));
+
 }  // namespace
 }  // namespace mocha

@@ -29,8 +29,10 @@ class PursuitTest : public ::testing::Test {
     result.goal = goal_.value_or(query.goal);
     const Pose from = query.committed.at(query.start_time_s).pose;
     if (reason_ == PlanReason::kSolved) {
-      result.motion = straight_drive(query.start_time_s, from.position, 0.0,
-                                     (result.goal - from.position).norm(), speed_, kAcceleration);
+      const Vector2 along = result.goal - from.position;
+      result.motion =
+          straight_drive(query.start_time_s, from.position, std::atan2(along.y(), along.x()),
+                         along.norm(), speed_, kAcceleration);
     } else if (reason_ == PlanReason::kBackingOut) {
       result.motion = Motion(query.start_time_s, {StandPhase{from, 2.0}});
     }
@@ -41,28 +43,60 @@ class PursuitTest : public ::testing::Test {
     now_s_ += kPeriod_s;
     state_.stamp_s = now_s_;
     return pursuit_.step(now_s_, state_, committed_,
-                         [this](const PlanQuery& query) { return answer(query); });
+                         {[this](const PlanQuery& query) { return answer(query); },
+                          [this](const std::vector<Vector2>&) { return scene_; }});
   }
 
   /// The last step of so many that said anything; the number of plans asked for is in asked_.
   Pursuit::Output run(double time_s) {
     Pursuit::Output last;
     asked_.clear();
+    said_.clear();
     for (const double end_s = now_s_ + time_s; now_s_ < end_s - 1e-6;) {
       Pursuit::Output output = step();
+      if (output.request) said_.push_back(*output.request);
       if (output.planned || output.ending != Ending::kNone) last = std::move(output);
     }
     return last;
   }
 
   double now_s_ = 1.7e9;
-  Pursuit pursuit_{rules(), kAcceleration};
+  Pursuit pursuit_{rules(), kAcceleration,
+                   RightOfWay({false, 0, "ugv5"}, rover(), default_rules())};
+  PlanningScene scene_{terrain_of(free_grid({-5.0, -5.0}, {12.0, 5.0})), {}};
   RobotState state_;
   Motion committed_ = standing(now_s_, {0.0, 0.0}, 0.0);
   PlanReason reason_ = PlanReason::kSolved;
   std::optional<Vector2> goal_;  // where the plan leads instead
   double speed_ = 0.8;
   std::vector<PlanQuery> asked_;
+  std::vector<WayRequest> said_;
+
+  void stand_ahead(const std::string& name) {
+    scene_.peers = {std::make_shared<PeerObstacle>(
+        name, std::make_shared<const Motion>(standing(now_s_ - 5.0, {1.0, 0.0}, 0.0)), 0.3)};
+  }
+
+  /// Somebody asks for a way, now and for the time of a run of `time_s`.
+  Pursuit::Output run_while_asked(const WayRequest& request, double time_s) {
+    Pursuit::Output last;
+    std::vector<PlanQuery> asked;
+    std::vector<WayRequest> said;
+    for (const double end_s = now_s_ + time_s; now_s_ < end_s - 1e-6;) {
+      pursuit_.hear(request, now_s_);
+      Pursuit::Output output = run(0.5);
+      if (output.planned || output.ending != Ending::kNone) last = std::move(output);
+      asked.insert(asked.end(), asked_.begin(), asked_.end());
+      said.insert(said.end(), said_.begin(), said_.end());
+    }
+    asked_ = asked;
+    said_ = said;
+    return last;
+  }
+
+  static WayRequest way_of(const std::string& agent, std::vector<Vector2> way) {
+    return {agent, 1, {false, 0, agent}, 0.3, 1.0, std::move(way)};
+  }
 };
 
 TEST_F(PursuitTest, PlansAtOnceAndIsDoneWhereTheGoalIsReached) {
@@ -79,7 +113,7 @@ TEST_F(PursuitTest, PlansAtOnceAndIsDoneWhereTheGoalIsReached) {
 }
 
 TEST_F(PursuitTest, SaysWhatIsMissing) {
-  const auto no_map = pursuit_.step(now_s_, state_, committed_, nullptr);
+  const auto no_map = pursuit_.step(now_s_, state_, committed_, {});
   ASSERT_TRUE(no_map.report);
   EXPECT_EQ(no_map.report->reason, PlanReason::kNoMap);
   committed_ = Motion();
@@ -217,9 +251,137 @@ TEST_F(PursuitTest, NewRulesCountAtOnce) {
   step();
   PursuitRules faster = rules();
   faster.replan_period_s = 0.25;
-  pursuit_.set_rules(faster);
+  pursuit_.set_rules(faster, default_rules());
   run(1.0);
   EXPECT_EQ(asked_.size(), 4u);
+}
+
+TEST_F(PursuitTest, AsksForItsWayWhereSomebodyStandsInIt) {
+  reason_ = PlanReason::kNoPath;
+  stand_ahead("ugv7");
+  run(1.4);
+  EXPECT_TRUE(said_.empty());
+  run(2.0);
+  ASSERT_GE(said_.size(), 3u);
+  EXPECT_EQ(said_.back().agent, "ugv5");
+  EXPECT_EQ(said_.back().rank.agent, "ugv5");
+  EXPECT_FALSE(said_.back().rank.stuck);
+  EXPECT_NEAR(said_.back().way.front().x(), 0.0, 1e-9);
+  EXPECT_NEAR(said_.back().way.back().x(), kLength_m, 1e-9);
+  pursuit_.stop(committed_, now_s_);
+  run(0.1);
+  ASSERT_EQ(said_.size(), 1u);
+  EXPECT_TRUE(said_.front().way.empty());  // it withdraws
+  run(5.0);
+  EXPECT_TRUE(said_.empty());
+}
+
+TEST_F(PursuitTest, AsksNobodyWhereNobodyIsInItsWay) {
+  reason_ = PlanReason::kNoPath;
+  run(10.0);
+  EXPECT_TRUE(said_.empty());
+}
+
+TEST_F(PursuitTest, MakesRoomForAHigherOneAndGoesOnWhenItHasPassed) {
+  step();
+  const WayRequest request = way_of("ugv2", {{9.0, 0.0}, {-4.0, 0.0}});
+  pursuit_.hear(request, now_s_);
+  const auto output = run_while_asked(request, 0.5);
+  ASSERT_TRUE(output.planned);
+  const Vector2 refuge = output.planned->goal.position;
+  EXPECT_GT(std::abs(refuge.y()), 0.8);
+  EXPECT_LT(refuge.norm(), 1.5);
+  EXPECT_FALSE(output.plan.empty());
+  state_.pose.position = refuge;
+  committed_ = standing(now_s_, refuge, 0.0);
+  run_while_asked(request, 10.0);  // it plans to the goal again and again, but drives nothing
+  EXPECT_GT(asked_.size(), 5u);
+  EXPECT_EQ(asked_.back().goal.x(), kLength_m);
+  EXPECT_TRUE(said_.empty());
+  EXPECT_NEAR((pursuit_.plan().end_pose().position - refuge).norm(), 0.0, 1e-6);
+  const auto after =
+      run_while_asked(way_of("ugv2", {{-3.0, 0.0}, {-4.0, 0.0}}), 1.0);  // it is past
+  ASSERT_FALSE(pursuit_.plan().empty());
+  EXPECT_NEAR(pursuit_.plan().end_pose().position.x(), kLength_m, 1e-6);
+  EXPECT_EQ(after.ending, Ending::kNone);
+}
+
+TEST_F(PursuitTest, WaitingForOthersIsNoLackOfProgress) {
+  step();
+  const WayRequest request = way_of("ugv2", {{9.0, 0.0}, {-4.0, 0.0}});
+  const Vector2 refuge = run_while_asked(request, 0.5).planned->goal.position;
+  state_.pose.position = refuge;
+  committed_ = standing(now_s_, refuge, 0.0);
+  EXPECT_EQ(run_while_asked(request, rules().goals.timeout_s + 5.0).ending, Ending::kNone);
+  EXPECT_EQ(run(0.5).ending, Ending::kNone);
+}
+
+TEST_F(PursuitTest, DoesNotMoveForALowerOne) {
+  reason_ = PlanReason::kNoPath;
+  stand_ahead("ugv7");
+  run_while_asked(way_of("ugv7", {{1.0, 0.0}, {-4.0, 0.0}}), 3.0);
+  for (const PlanQuery& query : asked_) EXPECT_EQ(query.goal.x(), kLength_m);
+  EXPECT_FALSE(said_.empty());
+}
+
+TEST_F(PursuitTest, StandsStillWhereItIsInNobodysWayButWouldGetThere) {
+  state_.pose.position = {0.0, 3.0};
+  committed_ = standing(now_s_, {0.0, 3.0}, 0.0);
+  const auto output = run_while_asked(way_of("ugv2", {{3.0, -4.0}, {3.0, 4.0}}), 2.0);
+  EXPECT_TRUE(pursuit_.plan().empty());
+  ASSERT_TRUE(output.report);
+  EXPECT_EQ(output.report->reason, PlanReason::kPeerConflict);
+  EXPECT_NE(output.report->message.find("ugv2"), std::string::npos);
+  run(3.0);  // lapsed
+  EXPECT_FALSE(pursuit_.plan().empty());
+}
+
+TEST_F(PursuitTest, AsksInTheNameOfWhomItMakesRoomFor) {
+  step();
+  reason_ = PlanReason::kNoPath;
+  for (const double x : {-1.0, 0.0, 1.0}) {
+    for (const double y : {-1.0, 0.0, 1.0}) {
+      if (x == 0.0 && y == 0.0) continue;
+      scene_.peers.push_back(std::make_shared<PeerObstacle>(
+          "ugv7", std::make_shared<const Motion>(standing(now_s_ - 5.0, {x, y}, 0.0)), 0.3));
+    }
+  }
+  run_while_asked(way_of("ugv2", {{9.0, 0.0}, {-4.0, 0.0}}), 4.0);
+  ASSERT_FALSE(said_.empty());
+  EXPECT_EQ(said_.back().agent, "ugv5");
+  EXPECT_EQ(said_.back().rank.agent, "ugv2");
+}
+
+TEST_F(PursuitTest, WhoCannotGetOutOfTheWaySaysSo) {
+  OccupancyGrid grid = free_grid({-0.6, -0.6}, {12.0, 0.6});  // a dead end, the way out ahead
+  scene_.terrain = terrain_of(grid);
+  step();
+  reason_ = PlanReason::kNoPath;
+  stand_ahead("ugv2");
+  run_while_asked(way_of("ugv2", {{9.0, 0.0}, {-0.3, 0.0}}), 4.0);
+  ASSERT_FALSE(said_.empty());
+  EXPECT_TRUE(said_.back().rank.stuck);
+  EXPECT_EQ(said_.back().rank.agent, "ugv5");
+  EXPECT_NEAR(said_.back().way.back().x(), kLength_m, 1e-9);
+}
+
+TEST_F(PursuitTest, MakesRoomWhereItIsParkedButNotWhereItWasToldToStop) {
+  state_.pose.position = {kLength_m, 0.0};
+  committed_ = standing(now_s_, {kLength_m, 0.0}, 0.0);
+  ASSERT_EQ(step().ending, Ending::kReached);
+  const WayRequest request = way_of("ugv9", {{9.0, 0.0}, {-4.0, 0.0}});
+  const auto output = run_while_asked(request, 1.0);
+  ASSERT_TRUE(output.planned);
+  EXPECT_EQ(output.ending, Ending::kNone);
+  const Vector2 refuge = output.planned->goal.position;
+  EXPECT_GT(std::abs(refuge.y()), 0.8);
+  state_.pose.position = refuge;
+  run_while_asked(request, 3.0);
+  EXPECT_TRUE(asked_.empty());  // it stays there
+  pursuit_.stop(committed_, now_s_);
+  state_.pose.position = {kLength_m, 0.0};
+  run_while_asked(request, 3.0);
+  EXPECT_TRUE(asked_.empty());
 }
 
 }  // namespace

@@ -12,6 +12,8 @@ namespace {
 
 using Outcome = GridPath::Outcome;
 
+constexpr double kFar_m = 100.0;
+
 double length_m(const GridWay& path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.points.size(); ++i)
@@ -305,6 +307,70 @@ TEST(GridPath, ACoarseLatticeOnAFineMapStillKeepsTheClearance) {
 TEST(GridPath, OneCellIsAMap) {
   const OccupancyGrid grid = free_grid({0.0, 0.0}, {0.05, 0.05});
   EXPECT_EQ(search(grid, {0.01, 0.01}, {0.04, 0.04}).outcome, Outcome::kFound);
+}
+
+/// A room with a door at (3, 1) in the wall at x = 3.
+OccupancyGrid two_rooms() {
+  OccupancyGrid grid = free_grid({0.0, 0.0}, {6.0, 6.0});
+  fill_box(grid, {3.0, 0.0}, {3.05, 0.5});
+  fill_box(grid, {3.0, 1.5}, {3.05, 6.0});
+  return grid;
+}
+
+GridPath nearest(const OccupancyGrid& grid, const Vector2& start, double most_m,
+                 const std::function<bool(const Vector2&)>& suits) {
+  const MapTerrain terrain(occupied_field(grid));
+  const TravelCost cost(terrain, start, {}, {});
+  return find_nearest_place(terrain, start, cost, 0.1, most_m, suits);
+}
+
+TEST(NearestPlace, IsNearestByTheWayNotThroughTheWall) {
+  const Vector2 start(2.6, 4.0);
+  const auto suits = [](const Vector2& p) { return p.x() > 3.3 || p.y() > 5.4; };
+  const GridPath path = nearest(two_rooms(), start, kFar_m, suits);
+  ASSERT_EQ(path.outcome, Outcome::kFound);
+  EXPECT_EQ(path.points.front(), start);
+  EXPECT_GT(path.points.back().y(), 5.4);
+  EXPECT_LT(path.points.back().y(), 5.55);
+  EXPECT_LT(path.points.back().x(), 3.0);
+}
+
+TEST(NearestPlace, GoesThroughTheDoorWhereOnlyThatSuits) {
+  const GridPath path =
+      nearest(two_rooms(), {2.0, 4.0}, kFar_m, [](const Vector2& p) { return p.x() > 3.5; });
+  ASSERT_EQ(path.outcome, Outcome::kFound);
+  for (const Vector2& place : path.points) {
+    if (std::abs(place.x() - 3.0) < 0.2) {
+      EXPECT_LT(std::abs(place.y() - 1.0), 0.3);
+    }
+  }
+  EXPECT_EQ(
+      nearest(two_rooms(), {2.0, 4.0}, 2.0, [](const Vector2& p) { return p.x() > 3.5; }).outcome,
+      Outcome::kNoPath);
+}
+
+TEST(NearestPlace, IsTheStartWhereThatSuits) {
+  const GridPath path =
+      nearest(two_rooms(), {1.03, 1.07}, kFar_m, [](const Vector2&) { return true; });
+  ASSERT_EQ(path.points.size(), 1u);
+  EXPECT_EQ(path.points.front(), Vector2(1.03, 1.07));
+  EXPECT_EQ(nearest(two_rooms(), {3.02, 4.0}, kFar_m, [](const Vector2&) { return true; }).outcome,
+            Outcome::kStartBlocked);
+}
+
+TEST(NearestPlace, AsksForPlacesInTheOrderOfTheirDistance) {
+  const Vector2 start(2.0, 3.0);
+  double last_m = 0.0;
+  int asked = 0;
+  nearest(free_grid({0.0, 0.0}, {4.0, 6.0}), start, 1.2, [&](const Vector2& place) {
+    const double apart_m = (place - start).norm();
+    EXPECT_GT(apart_m, last_m - 0.15);  // of the lattice's eight directions
+    last_m = std::max(last_m, apart_m);
+    ++asked;
+    return false;
+  });
+  EXPECT_GT(asked, 300);
+  EXPECT_LT(asked, 600);
 }
 
 }  // namespace
