@@ -215,6 +215,7 @@ bool Pursuit::much_better(const PlanResult& result, double now_s) const {
 void Pursuit::on_failure(const PlanResult& result, const Motion& committed, double now_s,
                          Output& output) {
   if (makes_room()) {
+    refuge_->out_of_reach = true;
     plan_ = brake(committed, now_s);
     output.plan = plan_;
     return;
@@ -229,8 +230,10 @@ void Pursuit::on_failure(const PlanResult& result, const Motion& committed, doub
   output.plan = stop(committed, now_s);
 }
 
-/// Whose way it stands or drives in, or will stand in where it waits.
+/// For whom another place is to be found: whose way it stands or drives in, or will stand in where
+/// it is going to wait; or for whom it cannot get there.
 std::optional<Rank> Pursuit::in_way_of(double now_s, const RobotState& state) const {
+  if (makes_room() && refuge_->out_of_reach) return refuge_->whose;
   if (refuge_) return right_of_way_.in_way_of(refuge_->place, now_s);
   if (!goals_.empty() && has_plan(now_s)) return right_of_way_.in_way_of(plan_, now_s);
   return right_of_way_.in_way_of(state.pose.position, now_s);
@@ -252,6 +255,10 @@ void Pursuit::make_room(double now_s, const RobotState& state, const Motion& com
   const Motion braking = brake(committed, now_s);
   const Vector2 from = braking.end_pose().position;
   const auto place = right_of_way_.refuge(from, outlook.scene({from}), now_s);
+  if (place && makes_room() && (*place - refuge_->place).norm() < close_m) {
+    refuge_->out_of_reach = false;  // there is none but this: whoever stands in between is asked
+    return;
+  }
   begin_way();
   refuge_.reset();
   if (!place) {

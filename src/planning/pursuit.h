@@ -92,7 +92,8 @@ class Pursuit {
   struct Refuge {
     Vector2 place;
     Rank whose;
-    bool there = false;  ///< it waits there
+    bool there = false;         ///< it waits there
+    bool out_of_reach = false;  ///< no way there was found
   };
 
   void begin_goal();

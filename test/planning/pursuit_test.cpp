@@ -352,6 +352,19 @@ TEST_F(PursuitTest, AsksInTheNameOfWhomItMakesRoomFor) {
   EXPECT_EQ(said_.back().rank.agent, "ugv2");
 }
 
+TEST_F(PursuitTest, LooksForAnotherRefugeWhereTheFirstIsOutOfReach) {
+  step();
+  const WayRequest request = way_of("ugv2", {{9.0, 0.0}, {-4.0, 0.0}});
+  const Vector2 first = run_while_asked(request, 0.5).planned->goal.position;
+  reason_ = PlanReason::kPeerConflict;  // somebody came in between, and stays
+  scene_.peers = {std::make_shared<PeerObstacle>(
+      "ugv7", std::make_shared<const Motion>(standing(now_s_ - 5.0, first, 0.0)), 0.3)};
+  pursuit_.request();
+  const Vector2 next = run_while_asked(request, 1.5).planned->goal.position;
+  EXPECT_GT((next - first).norm(), 0.5);
+  EXPECT_GT(std::abs(next.y()), 0.8);
+}
+
 TEST_F(PursuitTest, WhoCannotGetOutOfTheWaySaysSo) {
   OccupancyGrid grid = free_grid({-0.6, -0.6}, {12.0, 0.6});  // a dead end, the way out ahead
   scene_.terrain = terrain_of(grid);
