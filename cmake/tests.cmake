@@ -36,7 +36,7 @@ foreach(test ${netns_tests})
 endforeach()
 # A million broken datagrams, under the sanitizers. Of the core it is built from the sources, as the libraries are not.
 file(GLOB fuzzed_sources CONFIGURE_DEPENDS
-  ${PROJECT_SOURCE_DIR}/src/fleet/*.cpp ${PROJECT_SOURCE_DIR}/src/trajectory/*.cpp)
+  ${PROJECT_SOURCE_DIR}/src/fleet/*.cpp ${PROJECT_SOURCE_DIR}/src/trajectory/*.cpp ${PROJECT_SOURCE_DIR}/src/world/obstacle.cpp)
 add_executable(fuzz_datagrams EXCLUDE_FROM_ALL test/fuzz/datagrams.cpp ${fuzzed_sources})
 target_include_directories(fuzz_datagrams PRIVATE src test)
 target_include_directories(fuzz_datagrams SYSTEM PRIVATE ${MOCHA_LCM_INCLUDE_DIR})
@@ -47,6 +47,6 @@ add_dependencies(tests fuzz_datagrams)
 add_test(NAME fuzz_datagrams COMMAND fuzz_datagrams 1000000 1)
 
 # Fleets that have to agree on who goes first, through the whole stack.
-foreach(world two_swap five four_corners)
+foreach(world two_swap five four_corners narrow_corridor passing_place ten_through_a_door)
   add_test(NAME drive_${world} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/drive_test.py ${world})
 endforeach()

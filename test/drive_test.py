@@ -12,7 +12,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SAFETY_DISTANCE_M = 0.8  # of the paper's Table III: two radii and 0.2 m
-LIMIT_S = 120.0  # simulated
+LIMIT_S = 240.0  # simulated
 
 
 def faults(results):

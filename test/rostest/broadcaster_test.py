@@ -11,7 +11,8 @@ import rosnode
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
-from mocha_ugv.msg import FleetTrajectories, Heartbeat, MotionPhase, PlannerStatus, Trajectory
+from geometry_msgs.msg import Point
+from mocha_ugv.msg import FleetTrajectories, Heartbeat, MotionPhase, PlannerStatus, Trajectory, WayRequest
 
 RADIUS_M = 0.3
 LEAD_S = 1.5  # long, so that a busy machine does not decide the test
@@ -26,12 +27,15 @@ class Robot:
         self.committed = []
         self.settlements = {}
         self.fleet = None
+        self.ways = []
         self.diagnosis = {}
         self.changed = threading.Condition()
         self.proposals = rospy.Publisher("/%s/proposed_trajectory" % name, Trajectory, queue_size=10)
         rospy.Subscriber("/%s/committed_trajectory" % name, Trajectory, self.on_committed)
         rospy.Subscriber("/%s/settlement" % name, PlannerStatus, self.on_settlement)
         rospy.Subscriber("/%s/fleet/trajectories" % name, FleetTrajectories, self.on_fleet)
+        self.way_requests = rospy.Publisher("/%s/way_request" % name, WayRequest, queue_size=10)
+        rospy.Subscriber("/%s/fleet/way_requests" % name, WayRequest, self.on_way)
         rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics)
 
     def on_committed(self, message):
@@ -47,6 +51,11 @@ class Robot:
     def on_fleet(self, fleet):
         with self.changed:
             self.fleet = fleet
+            self.changed.notify_all()
+
+    def on_way(self, request):
+        with self.changed:
+            self.ways.append(request)
             self.changed.notify_all()
 
     def on_diagnostics(self, array):
@@ -118,6 +127,15 @@ def drive(start, end):
     phase.start_derivatives = phase.end_derivatives = [0.0] * 4  # from rest to rest
     message.phases = [phase]
     return message
+
+
+def way_request(**changes):
+    request = WayRequest(agent="race1", stuck=True, priority=-3, behalf="race0", radius=RADIUS_M, speed=1.0)
+    request.header.frame_id = "map"
+    request.way = [Point(1.5, 2.0, 0.0), Point(3.0, -4.25, 0.0)]
+    for field, value in changes.items():
+        setattr(request, field, value)
+    return request
 
 
 class BroadcasterTest(unittest.TestCase):
@@ -194,7 +212,22 @@ class BroadcasterTest(unittest.TestCase):
         self.assertTrue(self.first.wait_for(counted), self.first.diagnosis)
         self.assertEqual(len(self.first.committed), count)
 
-    def test_4_a_killed_broadcaster_comes_back_with_a_new_epoch(self):
+    def test_4_way_requests_reach_the_others_in_the_own_name_only(self):
+        before = self.first.refused()
+        for changes in ({"agent": "race2"}, {"behalf": ""}, {"radius": float("nan")}, {"speed": 0.0},
+                        {"way": [Point()] * 65}, {"way": [Point(float("inf"), 0.0, 0.0)]}):
+            self.first.way_requests.publish(way_request(**changes))
+        counted = lambda: self.first.refused() >= before + 6
+        self.assertTrue(self.first.wait_for(counted), self.first.diagnosis)
+        self.first.way_requests.publish(way_request())
+        self.assertTrue(self.second.wait_for(lambda: self.second.ways))
+        heard, = self.second.ways
+        self.assertEqual((heard.agent, heard.behalf, heard.stuck, heard.priority), ("race1", "race0", True, -3))
+        self.assertEqual([(point.x, point.y) for point in heard.way], [(1.5, 2.0), (3.0, -4.25)])
+        self.assertGreater(heard.epoch, 0)
+        self.assertFalse(self.first.ways)  # its own
+
+    def test_5_a_killed_broadcaster_comes_back_with_a_new_epoch(self):
         self.second.set_down((-20.0, -20.0))
         time.sleep(LEAD_S + 0.2)
         self.second.bind((-20.0, -20.0), (-15.0, -20.0))
