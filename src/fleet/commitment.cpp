@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "trajectory/separation.h"
+
 namespace mocha {
 namespace {
 
@@ -67,6 +69,8 @@ Commitment::Commitment(CommitmentSettings settings)
           "0 s or more");
   require(settings_.clocks.max_error_s >= 0.0, "max_clock_error", settings_.clocks.max_error_s,
           "0 s or more");
+  require(settings_.answer_period_s >= 0.0, "answer period", settings_.answer_period_s,
+          "0 s or more");
   require(settings_.resend_period_s > 0.0, "resend period", settings_.resend_period_s, "above 0 s");
 }
 
@@ -116,9 +120,11 @@ CommitmentActions Commitment::receive(const Promise& promise, double now) {
     ++impostors_;
     return actions;
   }
-  const bool news = peers_.receive(promise, now) == PeerTable::Verdict::kNews;
-  if (news && is_binding(promise.state)) report_breach(promise.agent, now, actions);
-  advance(now, actions);
+  if (peers_.receive(promise, now) == PeerTable::Verdict::kNews) {
+    if (is_binding(promise.state)) report_breach(promise.agent, now, actions);
+    heed(promise.agent, now, actions);
+  }
+  carry_on(now, actions);
   return actions;
 }
 
@@ -129,8 +135,13 @@ CommitmentActions Commitment::receive(const Beat& beat, double now) {
     ++impostors_;
     return actions;
   }
-  peers_.receive(beat, now);
-  advance(now, actions);
+  const PeerTable::Verdict verdict = peers_.receive(beat, now);
+  if (verdict == PeerTable::Verdict::kNews) {
+    heed(beat.agent, now, actions);
+  } else if (verdict == PeerTable::Verdict::kAlive) {
+    answer(beat.agent, peers_.peers().at(beat.agent), now);  // its clock may be known from now on
+  }
+  carry_on(now, actions);
   return actions;
 }
 
@@ -165,35 +176,56 @@ void Commitment::listen(double now) {
   listening_ = now < *listen_until_s_;
 }
 
-void Commitment::advance(double now, CommitmentActions& actions) {
-  peers_.prune(now);
-  binding_.prune(now);
-  std::string waits_for;
+/// Looks again at what the news of one peer can have changed: only its motions can be in the way
+/// now that were not before, and only its proposal waits for an answer.
+void Commitment::heed(const std::string& name, double now, CommitmentActions& actions) {
+  const Peer& peer = peers_.peers().at(name);
   if (pending_) {
-    const Obstacle found = obstacle(pending_->promise, now);
-    waits_for = found.waits_for;
+    const Obstacle found = obstacle_by(name, peer, claim_of(pending_->promise), now);
     if (found.refusal != Refusal::kNone) {
       drop_pending(CommitmentEvent::Kind::kRejected, found.refusal, found.conflict, actions);
     }
   }
+  answer(name, peer, now);
+}
+
+void Commitment::advance(double now, CommitmentActions& actions) {
+  peers_.prune(now);
   answer(now);
-  if (pending_) settle(now, waits_for, actions);
+  carry_on(now, actions);
+}
+
+void Commitment::carry_on(double now, CommitmentActions& actions) {
+  binding_.prune(now);
+  if (pending_) settle(now, actions);
+  if (!actions.events.empty()) answer(now);  // what was in the way of others may be no more
   keep_in_touch(now, actions);
 }
 
-void Commitment::settle(double now, const std::string& waits_for, CommitmentActions& actions) {
+void Commitment::settle(double now, CommitmentActions& actions) {
+  const bool late = now > pending_->promise.motion->start_time();
+  if (!late && now < pending_->since_s + settings_.delta_dc_s) return;
   Conflict missing;
-  missing.peer = waits_for.empty() ? unaware_peer(pending_->promise.id, now) : waits_for;
+  missing.peer = unaware_peer(pending_->promise.id, now);
+  const std::string unclocked = unclocked_peer(now);
+  if (!late && !(missing.peer.empty() && unclocked.empty())) return;
+  const Obstacle found = obstacle(pending_->promise, now);
+  if (found.refusal != Refusal::kNone) {
+    drop_pending(CommitmentEvent::Kind::kRejected, found.refusal, found.conflict, actions);
+    return;
+  }
+  if (!found.waits_for.empty()) missing.peer = found.waits_for;
+  if (!late && missing.peer.empty()) return bind_pending(actions);
+  if (!late) return;
   Refusal refusal = missing.peer.empty() ? Refusal::kTooLate : Refusal::kUnanswered;
-  if (const std::string unclocked = unclocked_peer(now); !unclocked.empty()) {
+  if (!unclocked.empty()) {
     missing.peer = unclocked;
     refusal = Refusal::kClock;
   }
-  if (now > pending_->promise.motion->start_time()) {
-    drop_pending(CommitmentEvent::Kind::kRejected, refusal, missing, actions);
-    return;
-  }
-  if (now < pending_->since_s + settings_.delta_dc_s || !missing.peer.empty()) return;
+  drop_pending(CommitmentEvent::Kind::kRejected, refusal, missing, actions);
+}
+
+void Commitment::bind_pending(CommitmentActions& actions) {
   Promise promise = pending_->promise;
   promise.state = PromiseState::kCommitted;
   last_sent_.state = promise.state;
@@ -218,27 +250,35 @@ void Commitment::drop_pending(CommitmentEvent::Kind kind, Refusal refusal, const
 }
 
 void Commitment::answer(double now) {
-  for (const auto& [name, peer] : peers_.peers()) {
-    const Promise* proposal = peer.unanswered();
-    if (proposal == nullptr || !peers_.clock_known(peer, now) || objects_to(peer, *proposal, now))
-      continue;
-    peers_.endorse(name, *proposal);
-    beat_due_ = true;
-  }
+  for (const auto& [name, peer] : peers_.peers()) answer(name, peer, now);
+}
+
+void Commitment::answer(const std::string& name, const Peer& peer, double now) {
+  const Promise* proposal = peer.unanswered();
+  if (proposal == nullptr || !peers_.clock_known(peer, now) || objects_to(peer, *proposal, now))
+    return;
+  peers_.endorse(name, *proposal);
+  answers_.push_back({name, proposal->id, proposal->state});
 }
 
 void Commitment::keep_in_touch(double now, CommitmentActions& actions) {
   const bool periodic = now >= next_beat_s_;
-  if (!periodic && !beat_due_) return;
-  Beat beat{settings_.agent, settings_.epoch, now, peers_.seen(now), peers_.echoes(now)};
+  const bool answers = !answers_.empty() && now >= next_answer_s_;
+  if (!periodic && !answers) return;
+  if (!answers_.empty()) next_answer_s_ = now + settings_.answer_period_s;
+  actions.beat =
+      periodic ? Beat{settings_.agent, settings_.epoch, now, peers_.seen(now), peers_.echoes(now)}
+               : Beat{settings_.agent, settings_.epoch, now, answers_, {}};
+  answers_.clear();
   if (!binding_.empty()) {
     const Promise& newest = binding_.newest();
-    beat.seen.push_back({newest.agent, newest.id, newest.state});
+    actions.beat->seen.push_back({newest.agent, newest.id, newest.state});
   }
-  if (sequence_ > 0 && !is_binding(last_sent_.state)) beat.seen.push_back(last_sent_);
-  actions.beat = std::move(beat);
-  beat_due_ = false;
-  if (!periodic) return;
+  if (sequence_ > 0 && !is_binding(last_sent_.state)) actions.beat->seen.push_back(last_sent_);
+  if (periodic) send_again(now, actions);
+}
+
+void Commitment::send_again(double now, CommitmentActions& actions) {
   next_beat_s_ = now + settings_.heartbeat_period_s;
   if (pending_ && pending_->since_s < now && !unaware_peer(pending_->promise.id, now).empty()) {
     actions.promises.push_back(pending_->promise);
@@ -246,7 +286,7 @@ void Commitment::keep_in_touch(double now, CommitmentActions& actions) {
   if (binding_.empty()) return;
   if (now < next_resend_s_ && unaware_peer(binding_.newest().id, now).empty()) return;
   next_resend_s_ = now + settings_.resend_period_s;
-  for (Claim& claim : binding_.claims()) actions.promises.push_back(std::move(claim.promise));
+  for (const Claim& claim : binding_.claims()) actions.promises.push_back(claim.promise);
 }
 
 void Commitment::report_breach(const std::string& name, double now,
@@ -277,16 +317,25 @@ Commitment::Obstacle Commitment::obstacle(const Promise& proposal, double now) c
   const Claim mine = claim_of(proposal);
   Obstacle found;
   for (const auto& [name, peer] : peers_.peers()) {
-    for (const Claim& theirs : peer.binding.claims()) {
-      const auto conflict = meeting(mine, peer, theirs, now);
-      if (conflict) return {Refusal::kPeerPromise, *conflict, {}};
-    }
-    for (const Promise& open : peer.open) {
-      const auto conflict = meeting(mine, peer, peer.claim_of_open(open), now);
-      if (!conflict) continue;
-      if (outranks(open, proposal)) return {Refusal::kPeerProposal, *conflict, {}};
-      found.waits_for = name;
-    }
+    Obstacle by_peer = obstacle_by(name, peer, mine, now);
+    if (by_peer.refusal != Refusal::kNone) return by_peer;
+    if (!by_peer.waits_for.empty()) found.waits_for = name;
+  }
+  return found;
+}
+
+Commitment::Obstacle Commitment::obstacle_by(const std::string& name, const Peer& peer,
+                                             const Claim& mine, double now) const {
+  for (const Claim& theirs : peer.binding.claims()) {
+    const auto conflict = meeting(mine, peer, theirs, now);
+    if (conflict) return {Refusal::kPeerPromise, *conflict, {}};
+  }
+  Obstacle found;
+  for (const Promise& open : peer.open) {
+    const auto conflict = meeting(mine, peer, peer.claim_of_open(open), now);
+    if (!conflict) continue;
+    if (outranks(open, mine.promise)) return {Refusal::kPeerProposal, *conflict, {}};
+    found.waits_for = name;
   }
   return found;
 }
@@ -302,12 +351,13 @@ bool Commitment::objects_to(const Peer& peer, const Promise& proposal, double no
 
 std::optional<Conflict> Commitment::meeting(const Claim& mine, const Peer& peer,
                                             const Claim& theirs, double now) const {
-  const Vector2 here =
-      binding_.empty() ? mine.promise.motion->at(now).pose.position : binding_.position(now);
-  const Vector2 there = peer.binding.empty() ? theirs.promise.motion->at(now).pose.position
-                                             : peer.binding.position(now);
   const double demanded = mine.promise.footprint_radius_m + theirs.promise.footprint_radius_m +
                           settings_.peer_clearance_m;
+  if (far_apart(*mine.promise.motion, *theirs.promise.motion, demanded)) return std::nullopt;
+  const Vector2 here =
+      binding_.empty() ? mine.promise.motion->position(now) : binding_.position(now);
+  const Vector2 there =
+      peer.binding.empty() ? theirs.promise.motion->position(now) : peer.binding.position(now);
   const double required = std::min(demanded, (here - there).norm() - kRounding_m);
   return first_conflict(mine, theirs, required, now);
 }

@@ -20,6 +20,9 @@ struct CommitmentSettings {
   double peer_clearance_m = 0.2;
   double heartbeat_period_s = 0.1;
   double resend_period_s = 1.0;
+  /// Endorsements that come up within this time of the last ones wait, and go together. Well below
+  /// delta_dc, so that nobody settles later than it would anyway.
+  double answer_period_s = 0.025;
   ClockRules clocks;
 };
 
@@ -79,20 +82,23 @@ struct CommitmentActions {
 /// motion will be then (5 cm). A binding promise is never displaced. Of two pending proposals that
 /// meet, the lower in rank (priority, then name) is withdrawn; the other waits for the news of
 /// that, or loses to it if it became binding first. A robot endorses a proposal that it has seen
-/// unless that meets its own binding promise or its own pending proposal of higher rank. Emergency
-/// motions bind at once.
+/// unless that meets its own binding promise or its own pending proposal of higher rank; it says so
+/// at once, or within answer_period of the last time, together with whatever else it endorses until
+/// then: a fleet of N robots that all plan anew sends N heartbeats more in that time, not N^2.
+/// Emergency motions bind at once.
 ///
 /// Why two motions a and b that meet never both settle while their robots A and B are in reach of
 /// each other, whatever is lost, late or out of order: suppose they did. When A endorsed b, A had
 /// not promised a, nor was a pending (A would have withdrawn a, or not endorsed b). So A proposed a
 /// after it endorsed b, hence after b was proposed. By the same argument b was proposed after a.
 /// Both robots decide alike because only the lower in rank gives way, and the rank is in the
-/// messages. Someone always wins, because waiting follows the rank, which has no cycles, and ends
-/// at the start of the motion. Why it also holds without endorsements (peers not yet known to be in
-/// reach) where messages take less than delta_dc: of two checks that overlap, one robot at least
-/// hears of the other's proposal before the end of its own check, and then yields or waits for the
-/// other's outcome; of two that do not, the later one starts after the earlier motion is binding,
-/// and hears so before it ends.
+/// messages. An endorsement that waits to be sent is one that the network delays. Someone always
+/// wins, because waiting follows the rank, which has no cycles, and ends at the start of the
+/// motion. Why it also holds without endorsements (peers not yet known to be in reach) where
+/// messages take less than delta_dc: of two checks that overlap, one robot at least hears of the
+/// other's proposal before the end of its own check, and then yields or waits for the other's
+/// outcome; of two that do not, the later one starts after the earlier motion is binding, and hears
+/// so before it ends.
 ///
 /// What a robot may assume: while two robots keep their binding promises, their centres stay radii
 /// plus clearance apart, less the tracking errors of both. So nobody who keeps its promise is hit
@@ -151,15 +157,22 @@ class Commitment {
   Promise promise_of(const Proposal& proposal, PromiseState state) const;
   Promise send(Promise promise, CommitmentActions& actions);
   void listen(double now);
+  void heed(const std::string& name, double now, CommitmentActions& actions);
   void advance(double now, CommitmentActions& actions);
-  void settle(double now, const std::string& waits_for, CommitmentActions& actions);
+  void carry_on(double now, CommitmentActions& actions);
+  void settle(double now, CommitmentActions& actions);
+  void bind_pending(CommitmentActions& actions);
   void drop_pending(CommitmentEvent::Kind kind, Refusal refusal, const Conflict& conflict,
                     CommitmentActions& actions);
   void answer(double now);
+  void answer(const std::string& name, const Peer& peer, double now);
   void keep_in_touch(double now, CommitmentActions& actions);
+  void send_again(double now, CommitmentActions& actions);
   void report_breach(const std::string& name, double now, CommitmentActions& actions) const;
 
   Obstacle obstacle(const Promise& proposal, double now) const;
+  Obstacle obstacle_by(const std::string& name, const Peer& peer, const Claim& mine,
+                       double now) const;
   Refusal refusal_by_itself(const Motion& motion, double now) const;
   bool objects_to(const Peer& peer, const Promise& proposal, double now) const;
   std::optional<Conflict> meeting(const Claim& mine, const Peer& peer, const Claim& theirs,
@@ -176,7 +189,8 @@ class Commitment {
   std::uint32_t sequence_ = 0;
   std::optional<double> listen_until_s_;
   bool listening_ = true;
-  bool beat_due_ = true;
+  std::vector<Seen> answers_;  // endorsed, not said yet
+  double next_answer_s_ = 0.0;
   double next_beat_s_ = 0.0;
   double next_resend_s_ = 0.0;
   int impostors_ = 0;

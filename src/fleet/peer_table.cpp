@@ -115,18 +115,29 @@ PeerTable::Verdict PeerTable::receive(const Beat& beat, double now) {
   Peer* peer = find(beat.agent, beat.epoch, now, refusal);
   if (peer == nullptr) return count(refusal);
   peer->last_beat_s = std::max(peer->last_beat_s, now);
-  read_clock(*peer, beat, now);
+  const bool reclocked = read_clock(*peer, beat, now);
   for (const Seen& line : beat.seen) {
     if (line.agent != own_name_) continue;
-    known_epoch_ = std::max(known_epoch_, line.id.epoch);
+    hear_of_own_epoch(line.id.epoch);
     if (line.id.epoch != own_epoch_) continue;
     if (!peer->of_us || !(line.id < peer->of_us->id)) peer->of_us = line;
   }
-  resolve(*peer, beat);
-  return Verdict::kNews;
+  const bool resolved = resolve(*peer, beat);
+  return reclocked || resolved ? Verdict::kNews : Verdict::kAlive;
 }
 
-void PeerTable::read_clock(Peer& peer, const Beat& beat, double now) {
+void PeerTable::hear_of_own_epoch(std::uint32_t epoch) {
+  constexpr std::uint32_t kHighest = std::numeric_limits<std::uint32_t>::max() - kMostStarts;
+  const bool likely =
+      epoch <= own_epoch_ || (epoch - own_epoch_ <= kMostStarts && epoch <= kHighest);
+  if (likely) {
+    known_epoch_ = std::max(known_epoch_, epoch);
+  } else {
+    ++unlikely_epochs_;
+  }
+}
+
+bool PeerTable::read_clock(Peer& peer, const Beat& beat, double now) {
   if (beat.stamp_s > peer.stamp_s) {
     peer.stamp_s = beat.stamp_s;
     peer.stamp_heard_s = now;
@@ -135,20 +146,21 @@ void PeerTable::read_clock(Peer& peer, const Beat& beat, double now) {
     if (echo.agent == own_name_) peer.clock.add(echo.stamp_s, echo.held_s, beat.stamp_s, now);
   }
   const auto reading = peer.clock.reading(now);
-  if (!reading) return;
+  if (!reading) return false;
   const bool agrees = std::abs(reading->offset_s) <= reading->uncertainty_s + clocks_.tolerance_s;
   const double ahead_s = agrees ? 0.0 : reading->offset_s;
   const double error_s = agrees ? 0.0 : reading->uncertainty_s;
   const double later_s = peer.clock_ahead_s - ahead_s;
   const double less_sure_s = error_s - peer.clock_error_s;
-  if (std::abs(later_s) < kSameClock_s && std::abs(less_sure_s) < kSameClock_s) return;
+  if (std::abs(later_s) < kSameClock_s && std::abs(less_sure_s) < kSameClock_s) return false;
   peer.clock_ahead_s = ahead_s;
   peer.clock_error_s = error_s;
   peer.binding.reclock(later_s, less_sure_s);
   for (Promise& open : peer.open) open = reclocked(open, later_s, less_sure_s);
+  return true;
 }
 
-void PeerTable::resolve(Peer& peer, const Beat& beat) {
+bool PeerTable::resolve(Peer& peer, const Beat& beat) {
   PromiseId bound{beat.epoch, 0};
   PromiseState bound_state = PromiseState::kCommitted;
   PromiseId latest = bound;
@@ -163,6 +175,7 @@ void PeerTable::resolve(Peer& peer, const Beat& beat) {
       latest_state = line.state;
     }
   }
+  const std::size_t before = peer.open.size();
   const bool newer = peer.binding.empty() || peer.binding.newest().id < bound;
   const auto is_bound = [&](const Promise& open) { return newer && open.id == bound; };
   const auto found = std::find_if(peer.open.begin(), peer.open.end(), is_bound);
@@ -177,6 +190,7 @@ void PeerTable::resolve(Peer& peer, const Beat& beat) {
         open.id < latest || (open.id == latest && latest_state == PromiseState::kWithdrawn);
     return open.id.epoch == beat.epoch && bound < open.id && past;
   });
+  return peer.open.size() < before;
 }
 
 void PeerTable::endorse(const std::string& name, const Promise& proposal) {

@@ -65,7 +65,13 @@ class PeerTable {
   /// So many peers are known at most: a network full of invented names takes no more memory.
   static constexpr std::size_t kMostPeers = 250;
 
-  enum class Verdict { kNews, kDuplicate, kOld, kCrowded };
+  enum class Verdict {
+    kNews,       ///< changes what the peer is taken to do
+    kAlive,      ///< a heartbeat that does not
+    kDuplicate,  ///< known already
+    kOld,        ///< something newer is known
+    kCrowded,    ///< there are too many peers
+  };
 
   /// `own_name`: whose entries in heartbeats are about us, in epoch `own_epoch`. Throws
   /// std::invalid_argument for a timeout that is not above 0.
@@ -93,7 +99,14 @@ class PeerTable {
   std::vector<Echo> echoes(double now) const;
 
   /// The highest epoch of ourselves that anybody knows of; above our own, nobody listens to us.
+  /// Never one that leaves us fewer than kMostStarts more.
   std::uint32_t known_epoch() const { return known_epoch_; }
+  /// How often a peer said that it knows an epoch of ourselves that we cannot have come to.
+  int unlikely_epochs() const { return unlikely_epochs_; }
+
+  /// Nobody starts a robot so often, were it every minute for a year: who says that it knows an
+  /// epoch farther above ours is wrong, or wants us to come to the end of all numbers.
+  static constexpr std::uint32_t kMostStarts = 1'000'000;
 
   int duplicates() const { return duplicates_; }
   int old_messages() const { return old_; }
@@ -102,18 +115,22 @@ class PeerTable {
  private:
   Verdict take(Peer& peer, const Promise& promise);
   void bind(Peer& peer, const Promise& promise);
-  void resolve(Peer& peer, const Beat& beat);
+  /// Whether the beat tells the fate of open proposals.
+  bool resolve(Peer& peer, const Beat& beat);
   /// The peer of this name in this epoch; none if the message is of a former epoch, or there are
   /// too many peers; then `refusal` says which.
   Peer* find(const std::string& name, std::uint32_t epoch, double now, Verdict& refusal);
   Verdict count(Verdict verdict);
-  void read_clock(Peer& peer, const Beat& beat, double now);
+  /// Whether the peer's promises are told by another clock from now on.
+  bool read_clock(Peer& peer, const Beat& beat, double now);
+  void hear_of_own_epoch(std::uint32_t epoch);
 
   std::string own_name_;
   std::uint32_t own_epoch_;
   double reach_timeout_s_;
   ClockRules clocks_;
   std::uint32_t known_epoch_ = 0;
+  int unlikely_epochs_ = 0;
   std::map<std::string, Peer> peers_;
   int duplicates_ = 0;
   int old_ = 0;

@@ -31,44 +31,43 @@ std::optional<Conflict> first_conflict(const Claim& mine, const Claim& theirs, d
 
 void PromiseChain::bind(Promise promise) {
   const double start = promise.motion->start_time();
-  while (!promises_.empty() && promises_.back().motion->start_time() >= start) {
-    promises_.pop_back();
-  }
-  promises_.push_back(std::move(promise));
+  while (!claims_.empty() && newest().motion->start_time() >= start) claims_.pop_back();
+  claims_.push_back({std::move(promise)});
+  join();
 }
 
 void PromiseChain::reclock(double later_s, double less_sure_s) {
-  for (Promise& promise : promises_) promise = reclocked(promise, later_s, less_sure_s);
+  for (Claim& claim : claims_) claim.promise = reclocked(claim.promise, later_s, less_sure_s);
+  join();
 }
 
 void PromiseChain::prune(double now) {
-  const auto later =
-      std::find_if(promises_.begin(), promises_.end(),
-                   [now](const Promise& promise) { return promise.motion->start_time() > now; });
-  if (later - promises_.begin() > 1) promises_.erase(promises_.begin(), later - 1);
+  const auto later = std::find_if(claims_.begin(), claims_.end(), [now](const Claim& claim) {
+    return claim.promise.motion->start_time() > now;
+  });
+  if (later - claims_.begin() <= 1) return;
+  claims_.erase(claims_.begin(), later - 1);
+  join();
 }
 
-std::vector<Claim> PromiseChain::claims() const {
-  std::vector<Claim> claims;
-  for (const Promise& promise : promises_) {
-    Claim claim;
-    claim.promise = promise;
-    if (!claims.empty()) {
-      claim.from_s = promise.motion->start_time();
-      claims.back().until_s = claim.from_s;
-    }
-    claims.push_back(std::move(claim));
+/// Each claim ends where the next one begins.
+void PromiseChain::join() {
+  constexpr double kForever_s = std::numeric_limits<double>::infinity();
+  double from_s = -kForever_s;
+  for (std::size_t i = 0; i < claims_.size(); ++i) {
+    const bool last = i + 1 == claims_.size();
+    claims_[i].from_s = from_s;
+    from_s = claims_[i].until_s = last ? kForever_s : claims_[i + 1].promise.motion->start_time();
   }
-  return claims;
 }
 
 std::shared_ptr<const Motion> PromiseChain::composed(double now) const {
-  if (promises_.size() == 1) return newest().motion;
+  if (claims_.size() == 1) return newest().motion;
   try {
-    const Motion& first = *promises_.front().motion;
+    const Motion& first = *claims_.front().promise.motion;
     const double begin = std::max(first.cut_time(now), first.start_time());
     std::vector<Phase> phases;
-    for (const Claim& claim : claims()) {
+    for (const Claim& claim : claims_) {
       const Motion& motion = *claim.promise.motion;
       const double from = std::max(begin, claim.from_s);
       const double until = std::min(claim.until_s, std::max(from, motion.end_time()));
@@ -84,11 +83,9 @@ std::shared_ptr<const Motion> PromiseChain::composed(double now) const {
 }
 
 Vector2 PromiseChain::position(double t) const {
-  const Promise* in_force = &promises_.front();
-  for (const Promise& promise : promises_) {
-    if (promise.motion->start_time() <= t) in_force = &promise;
-  }
-  return in_force->motion->at(t).pose.position;
+  const auto in_force = std::find_if(claims_.begin(), claims_.end() - 1,
+                                     [t](const Claim& claim) { return t < claim.until_s; });
+  return in_force->promise.motion->position(t);
 }
 
 }  // namespace mocha

@@ -47,11 +47,11 @@ class PromiseChain {
   /// Forgets what has been replaced by time `now`.
   void prune(double now);
 
-  bool empty() const { return promises_.empty(); }
+  bool empty() const { return claims_.empty(); }
   /// The promise bound last; the chain must not be empty.
-  const Promise& newest() const { return promises_.back(); }
+  const Promise& newest() const { return claims_.back().promise; }
   /// In order of time, without gaps; from the first one's start backward the robot stands there.
-  std::vector<Claim> claims() const;
+  const std::vector<Claim>& claims() const { return claims_; }
   /// Where the robot is at time t; the chain must not be empty.
   Vector2 position(double t) const;
   /// What the robot does from `now` on, as one motion; the chain must not be empty. Where the parts
@@ -60,7 +60,9 @@ class PromiseChain {
   std::shared_ptr<const Motion> composed(double now) const;
 
  private:
-  std::vector<Promise> promises_;  // by start, which is also by number
+  void join();
+
+  std::vector<Claim> claims_;  // by start, which is also by number
 };
 
 }  // namespace mocha

@@ -50,6 +50,12 @@ void diagnose_peers(const PeerTable& peers, double now_s, double delta_dc_s,
     if (in_reach)
       warn_of_clock(name, peer, peers.clock_known(peer, now_s), clock->delay_s, delta_dc_s, status);
   }
+  if (peers.unlikely_epochs() > 0) {
+    status.add("starts of this robot told that cannot be", peers.unlikely_epochs());
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        "peers say that this robot was started oftener than it can have been: "
+                        "somebody spoke in its name, and they do not hear it until started anew");
+  }
   status.add("duplicates", peers.duplicates());
   status.add("messages older than known", peers.old_messages());
   status.add("messages of too many peers", peers.crowded_out());

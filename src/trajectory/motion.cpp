@@ -74,11 +74,13 @@ bool finite(const MotionState& state) {
          state.velocity.allFinite() && state.acceleration.allFinite();
 }
 
-bool finite(const PlanarPath& path) {
+/// Whether a path is; `box` is made to hold it.
+bool finite(const PlanarPath& path, Eigen::AlignedBox2d& box) {
   for (int i = 0; i < path.pieces(); ++i) {
     const auto hull = piece_hull(path.piece(i), path.piece_duration(i));
     for (int j = 0; j < hull.position.cols(); ++j) {
       if (!(hull.position.col(j).norm() < kLargest)) return false;
+      box.extend(hull.position.col(j));
     }
     for (int j = 0; j < hull.acceleration.cols(); ++j) {
       if (!(hull.acceleration.col(j).norm() < kLargest)) return false;
@@ -136,19 +138,20 @@ Motion::Motion(double start_time_s, std::vector<Phase> phases)
     if (const auto* drive = std::get_if<DrivePhase>(&phase)) {
       require(drive->direction == 1 || drive->direction == -1,
               "a drive's direction is not +1 or -1");
-      require(finite(drive->path), "a drive is not finite, or beyond 1e12 m or m/s^2");
+      require(finite(drive->path, box_), "a drive is not finite, or beyond 1e12 m or m/s^2");
     }
     require(std::isfinite(duration) && duration >= 0.0, "a duration is negative or not finite");
-    require(finite(state_in(phase, 0.0)) && finite(state_in(phase, duration)),
-            "a phase is not finite");
+    const MotionState begin = state_in(phase, 0.0);
+    const MotionState end = state_in(phase, duration);
+    require(finite(begin) && finite(end), "a phase is not finite");
+    box_.extend(begin.pose.position).extend(end.pose.position);
     if (i > 0) {
       const MotionState before = state_in(phases_[i - 1], mocha::duration_s(phases_[i - 1]));
-      const MotionState after = state_in(phase, 0.0);
-      require((before.pose.position - after.pose.position).norm() <= 1e-3,
+      require((before.pose.position - begin.pose.position).norm() <= 1e-3,
               "jumps in position between phases");
-      require(std::abs(wrap_angle(before.pose.yaw_rad - after.pose.yaw_rad)) <= 0.01,
+      require(std::abs(wrap_angle(before.pose.yaw_rad - begin.pose.yaw_rad)) <= 0.01,
               "jumps in heading between phases");
-      require((before.velocity - after.velocity).norm() <= 0.01,
+      require((before.velocity - begin.velocity).norm() <= 0.01,
               "jumps in velocity between phases");
     }
     phase_starts_.push_back(t += duration);

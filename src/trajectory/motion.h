@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <variant>
 #include <vector>
 
@@ -70,6 +71,8 @@ class Motion {
   Vector2 velocity(double t) const;
   Pose end_pose() const;
   double length_m() const;
+  /// Holds every place that the motion comes to [m]; a little more than is needed.
+  const Eigen::AlignedBox2d& box() const { return box_; }
 
   /// The first time >= t at which another motion can take over: t itself while driving or standing,
   /// else the end of the turn in place that is under way.
@@ -94,6 +97,7 @@ class Motion {
   double start_time_s_ = 0.0;
   std::vector<Phase> phases_;
   std::vector<double> phase_starts_;  // absolute; one more than phases
+  Eigen::AlignedBox2d box_;
 };
 
 /// Heading of a drive phase at time t within it; continuous through points of rest at its ends.

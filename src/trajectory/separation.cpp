@@ -156,6 +156,10 @@ std::optional<double> first_time_closer_than(const Motion& a, const Motion& b, d
   return first;
 }
 
+bool far_apart(const Motion& a, const Motion& b, double distance_m) {
+  return a.box().exteriorDistance(b.box()) > distance_m + 2.0 * kSlack_m;
+}
+
 MotionBounds bounds(const Motion& motion) {
   MotionBounds bounds{0.0, 0.0};
   for (const Phase& phase : motion.phases()) {

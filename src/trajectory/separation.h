@@ -30,6 +30,10 @@ std::optional<double> first_time_closer_than(const Motion& a, const Motion& b, d
                                              double t0,
                                              double t1 = std::numeric_limits<double>::infinity());
 
+/// Whether the places of the two motions are at least this far apart at all times, told by their
+/// boxes: cheap, and no answer to the contrary.
+bool far_apart(const Motion& a, const Motion& b, double distance_m);
+
 /// Upper bounds over a whole motion, from control points.
 struct MotionBounds {
   double speed;         ///< [m/s]

@@ -64,7 +64,7 @@ CommitmentActions OnePhase::tick(double now) {
   CommitmentActions actions;
   if (binding_.empty() || now < next_resend_s_) return actions;
   next_resend_s_ = now + settings_.resend_period_s;
-  for (Claim& claim : binding_.claims()) actions.promises.push_back(std::move(claim.promise));
+  for (const Claim& claim : binding_.claims()) actions.promises.push_back(claim.promise);
   return actions;
 }
 

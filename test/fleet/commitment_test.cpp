@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
 #include "fleet/motions.h"
 #include "fleet/network.h"
 
@@ -246,6 +249,91 @@ TEST(Commitment, EndorsesAtLastWhenTheObstacleIsGone) {
   EXPECT_EQ(actions.beat->seen[0].agent, "z");
 }
 
+/// Of a peer that stands apart from all others.
+Promise apart(int number, std::uint32_t sequence) {
+  return of_peer("z" + std::to_string(number), {1, sequence}, PromiseState::kProposed,
+                 test::stand(kNow_s + 5.0, {10.0 * number, 50.0}));
+}
+
+bool endorses(const std::optional<Beat>& beat, const Promise& proposal) {
+  if (!beat) return false;
+  return std::any_of(beat->seen.begin(), beat->seen.end(), [&](const Seen& line) {
+    return line.agent == proposal.agent && line.id == proposal.id;
+  });
+}
+
+TEST(Commitment, AnswersTheFirstProposalAtOnceAndFurtherOnesTogether) {
+  Commitment robot = robot_in(State::kIdle);
+  for (int i = 1; i <= 3; ++i) robot.receive(beat_of("z" + std::to_string(i)), kNow_s);
+  const auto first = robot.receive(apart(1, 1), kNow_s + 0.01);
+  EXPECT_TRUE(endorses(first.beat, apart(1, 1)));
+  EXPECT_FALSE(robot.receive(apart(2, 1), kNow_s + 0.015).beat);
+  EXPECT_FALSE(robot.receive(apart(3, 1), kNow_s + 0.02).beat);
+  EXPECT_FALSE(robot.tick(kNow_s + 0.03).beat);
+  const auto further = robot.tick(kNow_s + 0.036);
+  EXPECT_TRUE(endorses(further.beat, apart(2, 1)));
+  EXPECT_TRUE(endorses(further.beat, apart(3, 1)));
+  EXPECT_FALSE(endorses(further.beat, apart(1, 1)));  // was said already
+  EXPECT_FALSE(robot.tick(kNow_s + 0.065).beat);      // nothing is left to say
+  const auto periodic = robot.tick(kNow_s + 0.11);
+  for (int i = 1; i <= 3; ++i) EXPECT_TRUE(endorses(periodic.beat, apart(i, 1)));
+}
+
+TEST(Commitment, AnswersEveryProposalOfALargeFleetInFewHeartbeats) {
+  constexpr int kPeers = 100;
+  constexpr int kSteps = 200;
+  constexpr double kStep_s = 0.005;
+  Commitment robot = robot_in(State::kIdle);
+  for (int i = 0; i < kPeers; ++i) robot.receive(beat_of("z" + std::to_string(i)), kNow_s);
+  std::mt19937 random(5);
+  std::vector<std::uint32_t> sequence(kPeers, 0);
+  std::vector<std::pair<double, Promise>> waiting;
+  int beats = 0;
+  int answered = 0;
+  const auto read = [&](const CommitmentActions& actions, double now) {
+    if (!actions.beat) return;
+    ++beats;
+    const auto done = std::stable_partition(waiting.begin(), waiting.end(), [&](const auto& each) {
+      return !endorses(actions.beat, each.second);
+    });
+    for (auto each = done; each != waiting.end(); ++each) {
+      ++answered;
+      EXPECT_LE(now - each->first, robot.settings().answer_period_s + kStep_s);
+    }
+    waiting.erase(done, waiting.end());
+  };
+  int proposals = 0;
+  for (int step = 1; step <= kSteps; ++step) {
+    const double now = kNow_s + kStep_s * step;
+    for (int k = 0; k < 5; ++k) {
+      const int peer = static_cast<int>(random() % kPeers);
+      const bool answers_are_out = std::none_of(waiting.begin(), waiting.end(), [&](auto& each) {
+        return each.second.agent == "z" + std::to_string(peer);
+      });
+      if (!answers_are_out) continue;  // it would replace the former one
+      const Promise proposal = apart(peer, ++sequence[peer]);
+      waiting.emplace_back(now, proposal);
+      ++proposals;
+      read(robot.receive(proposal, now), now);
+    }
+    read(robot.tick(now), now);
+  }
+  EXPECT_GT(proposals, 800);
+  EXPECT_GE(answered, proposals - 25);  // but those of the last moment
+  EXPECT_LE(beats, 40 + 10 + 2);        // in a second
+}
+
+TEST(Commitment, GivesWayAtOnceWhenAHeartbeatTellsOfAPromise) {
+  Commitment robot = robot_in(State::kProposing);
+  robot.receive(beat_of("z"), kNow_s);
+  robot.receive(of_peer("z", {1, 1}, PromiseState::kProposed, along_y(kNow_s + 1.0)), kNow_s);
+  ASSERT_EQ(robot.state(), State::kProposing);  // outranked, it may still be withdrawn
+  const auto actions =
+      robot.receive(beat_of("z", {{"z", {1, 1}, PromiseState::kCommitted}}), kNow_s + 0.01);
+  ASSERT_EQ(actions.events.size(), 1u);
+  EXPECT_EQ(actions.events[0].refusal, Refusal::kPeerPromise);
+}
+
 TEST(Commitment, ListsItsOwnNewestInEveryBeat) {
   Commitment robot = robot_in(State::kRevising);
   const auto beat = robot.tick(kNow_s + 0.01 + 0.1).beat;  // settled by now
@@ -326,6 +414,9 @@ TEST(Commitment, IgnoresItsOwnNameAndRefusesNonsense) {
 
   CommitmentSettings settings = test::settings("m");
   settings.delta_dc_s = -0.1;
+  EXPECT_THROW(Commitment{settings}, std::invalid_argument);
+  settings = test::settings("m");
+  settings.answer_period_s = -0.1;
   EXPECT_THROW(Commitment{settings}, std::invalid_argument);
   EXPECT_THROW(Commitment{test::settings("")}, std::invalid_argument);
 }

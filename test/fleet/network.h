@@ -64,6 +64,8 @@ class Network {
   int settled(int i) const {
     return static_cast<int>(events(i, CommitmentEvent::Kind::kSettled).size());
   }
+  /// Heartbeats of all so far.
+  int beats() const { return beats_; }
   /// How often a motion was settled that meets one already binding at another robot.
   int broken() const { return broken_; }
 
@@ -71,6 +73,7 @@ class Network {
   using Message = std::variant<Promise, Beat>;
 
   void apply(int i, const CommitmentActions& actions) {
+    beats_ += actions.beat.has_value();
     for (const Promise& promise : actions.promises) network_.broadcast(i, size(), promise, now_);
     if (actions.beat && heartbeats_) network_.broadcast(i, size(), *actions.beat, now_);
     for (const CommitmentEvent& event : actions.events) {
@@ -98,6 +101,7 @@ class Network {
   std::vector<Commitment> robots_;
   std::vector<std::pair<int, CommitmentEvent>> events_;
   int broken_ = 0;
+  int beats_ = 0;
 };
 
 inline CommitmentSettings settings(const std::string& agent, std::uint32_t epoch = 1) {

@@ -63,7 +63,9 @@ TEST_F(PeerTableTest, AnOlderProposalStaysUntilItsFateIsKnown) {
   EXPECT_EQ(peer().unanswered()->id.sequence, 2u);
 
   PeerTable replaced = table_;  // the first was replaced before it was binding
-  replaced.receive(beat(1, {{"a", {1, 2}, PromiseState::kProposed}}), 0.1);
+  const Beat tells = beat(1, {{"a", {1, 2}, PromiseState::kProposed}});
+  EXPECT_EQ(replaced.receive(tells, 0.1), Verdict::kNews);
+  EXPECT_EQ(replaced.receive(tells, 0.1), Verdict::kAlive);
   ASSERT_EQ(replaced.peers().at("a").open.size(), 1u);
   EXPECT_EQ(replaced.peers().at("a").open[0].id.sequence, 2u);
   EXPECT_TRUE(replaced.peers().at("a").binding.empty());
@@ -153,6 +155,26 @@ TEST_F(PeerTableTest, HearsOfALaterEpochOfItself) {
   EXPECT_EQ(table_.known_epoch(), 12u);
 }
 
+TEST_F(PeerTableTest, DoesNotBelieveInMoreStartsThanThereCanHaveBeen) {
+  const auto tell = [](PeerTable& table, std::uint32_t epoch) {
+    table.receive(beat(1, {{"me", {epoch, 0}, PromiseState::kProposed}}), 0.0);
+  };
+  constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+  tell(table_, kMost);
+  tell(table_, 3 + PeerTable::kMostStarts + 1);
+  EXPECT_EQ(table_.known_epoch(), 0u);
+  EXPECT_EQ(table_.unlikely_epochs(), 2);
+  tell(table_, 3 + PeerTable::kMostStarts);
+  EXPECT_EQ(table_.known_epoch(), 3 + PeerTable::kMostStarts);
+  // Not step by step to the end of the numbers, either.
+  PeerTable late("me", kMost - PeerTable::kMostStarts - 5, 1.0);
+  tell(late, kMost - PeerTable::kMostStarts + 1);
+  EXPECT_EQ(late.known_epoch(), 0u);
+  tell(late, kMost - PeerTable::kMostStarts);
+  EXPECT_EQ(late.known_epoch(), kMost - PeerTable::kMostStarts);
+  EXPECT_EQ(late.unlikely_epochs(), 1);
+}
+
 /// Its clock is ahead by 3 s, messages take 0.05 s either way.
 Beat echoed(double sent_s) { return {"a", 1, sent_s + 0.05 + 3.0, {}, {{"me", sent_s, 0.0}}}; }
 
@@ -160,7 +182,7 @@ TEST_F(PeerTableTest, TellsPromisesByItsOwnClock) {
   table_.receive(promise({1, 1}, PromiseState::kCommitted, 13.0), 8.0);
   table_.receive(promise({1, 2}, PromiseState::kProposed, 14.0), 8.0);
   EXPECT_FALSE(table_.clock_known(peer(), 8.0));
-  table_.receive(echoed(8.0), 8.1);
+  EXPECT_EQ(table_.receive(echoed(8.0), 8.1), Verdict::kNews);
   EXPECT_TRUE(table_.clock_known(peer(), 8.1));
   EXPECT_NEAR(peer().binding.newest().motion->start_time(), 10.0, 1e-9);  // heard before
   EXPECT_NEAR(peer().open.at(0).motion->start_time(), 11.0, 1e-9);
@@ -213,7 +235,7 @@ TEST(PeerTable, InventedNamesTakeNoMoreMemoryThanAFleet) {
     table.receive(Beat{"invented" + std::to_string(i), 1, 20.0, {}, {}}, 8.0);
   EXPECT_EQ(table.peers().size(), PeerTable::kMostPeers);
   EXPECT_EQ(table.crowded_out(), 750);
-  EXPECT_EQ(table.receive(Beat{"invented1", 1, 20.1, {}, {}}, 8.1), Verdict::kNews);
+  EXPECT_EQ(table.receive(Beat{"invented1", 1, 20.1, {}, {}}, 8.1), Verdict::kAlive);
 }
 
 TEST(PeerTable, RefusesABadTimeout) {

@@ -155,6 +155,21 @@ TEST(Races, RankDecidesBetweenProposalsOfTheSameMoment) {
   }
 }
 
+TEST(Races, AFleetThatPlansAnewAtOnceSettlesAsFastAsOneRobot) {
+  constexpr int kRobots = 30;
+  Network::Link link;
+  link.max_delay_s = 0.005;
+  Network network(1, link);
+  for (int i = 0; i < kRobots; ++i) network.add(test::settings("ugv" + std::to_string(i)));
+  network.run(1.2);
+  const int before = network.beats();
+  for (int i = 0; i < kRobots; ++i)
+    network.propose(i, test::stand(network.now() + 0.5, {10.0 * i, 0.0}));
+  network.run(network.robot(0).settings().delta_dc_s + 0.012, 0.002);
+  for (int i = 0; i < kRobots; ++i) EXPECT_EQ(network.settled(i), 1) << i;
+  EXPECT_LE(network.beats() - before, 4 * kRobots);  // not one for each of the others' proposals
+}
+
 TEST(Races, LateJoinerLearnsWhatIsPromisedBeforeItMayPropose) {
   Network::Link link;
   link.loss = 0.2;

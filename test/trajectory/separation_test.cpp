@@ -54,6 +54,25 @@ TEST(Separation, AgreesWithDenseSampling) {
   }
 }
 
+TEST(Separation, WhatIsFarApartByItsBoxesIs) {
+  std::mt19937 random(12);
+  int told = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Motion a = test::random_drive(random, 0.0, 4, 2.0);
+    const Motion b = test::random_drive(random, 1.5, 6, 6.0);
+    for (int i = 0; i <= 100; ++i) {
+      const double t = a.start_time() + 0.01 * i * (a.end_time() - a.start_time());
+      EXPECT_LE(a.box().exteriorDistance(a.position(t)), 1e-9);
+    }
+    if (!far_apart(a, b, 0.8)) continue;
+    ++told;
+    EXPECT_GT(closest_approach(a, b, 0.0, 1e3).distance_m, 0.8);
+  }
+  EXPECT_GT(told, 5);
+  EXPECT_TRUE(far_apart(test::stand(0.0, {0.0, 0.0}), test::stand(0.0, {0.81, 0.0}), 0.8));
+  EXPECT_FALSE(far_apart(test::stand(0.0, {0.0, 0.0}), test::stand(0.0, {0.8, 0.0}), 0.8));
+}
+
 TEST(Separation, FindsATouchBetweenSamples) {
   // Passes a standing robot at 15 m/s: within 0.3 m for 40 ms only, grazing by a millimetre.
   const Motion fast = test::drive(0.0, {{-30.0, 0.299}, {30.0, 0.299}}, 15.0);
