@@ -47,6 +47,8 @@ Violation check_separation(const Motion& motion, double own_radius_m,
     throw std::invalid_argument("check_separation: " + obstacle.name() +
                                 " never rests and no end of the check is given");
   }
+  const double apart_m = motion.box().exteriorDistance(obstacle.box());
+  if (apart_m > own_radius_m + clearance_m + kResolution_m) return {};
   const auto distance_m = [&](double t) {
     const MovingObstacle::Disc disc = obstacle.at(t);
     return (motion.position(t) - disc.centre).norm() - own_radius_m - disc.radius_m;

@@ -43,6 +43,11 @@ void require(bool condition, const std::string& name, const char* what) {
 
 }  // namespace
 
+Eigen::AlignedBox2d MovingObstacle::box() const {
+  const Vector2 everywhere = Vector2::Constant(std::numeric_limits<double>::infinity());
+  return {-everywhere, everywhere};
+}
+
 PeerObstacle::PeerObstacle(std::string name, std::shared_ptr<const Motion> motion, double radius_m)
     : name_(std::move(name)), motion_(std::move(motion)), radius_m_(radius_m), max_speed_(0.0) {
   require(motion_ != nullptr && !motion_->empty(), name_, "has no motion");
@@ -56,8 +61,7 @@ PeerObstacle::PeerObstacle(std::string name, std::shared_ptr<const Motion> motio
 }
 
 MovingObstacle::Disc PeerObstacle::at(double t) const {
-  const MotionState state = motion_->at(t);
-  return {state.pose.position, state.velocity, radius_m_, 0.0};
+  return {motion_->position(t), motion_->velocity(t), radius_m_, 0.0};
 }
 
 double PeerObstacle::max_closing_speed(double t) const {
@@ -90,6 +94,11 @@ double PeerObstacle::chord_error_m(double from_s, double until_s) const {
 }
 
 double PeerObstacle::rest_time() const { return motion_->end_time(); }
+
+Eigen::AlignedBox2d PeerObstacle::box() const {
+  const Vector2 radius_m = Vector2::Constant(radius_m_);
+  return {motion_->box().min() - radius_m, motion_->box().max() + radius_m};
+}
 
 PredictedDisc::PredictedDisc(std::string name, double t0, const Vector2& centre,
                              const Vector2& velocity, double radius_m, double radius_rate,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <limits>
 #include <memory>
 #include <string>
@@ -30,6 +31,8 @@ class MovingObstacle {
   virtual double chord_error_m(double from_s, double until_s) const = 0;
   /// From this time on it stands still (infinity if never).
   virtual double rest_time() const = 0;
+  /// Holds all that the disc ever covers [m]: the whole plane where nothing less is known.
+  virtual Eigen::AlignedBox2d box() const;
   virtual const std::string& name() const = 0;
 };
 
@@ -49,6 +52,7 @@ class PeerObstacle : public MovingObstacle {
   double max_closing_speed(double t) const override;
   double chord_error_m(double from_s, double until_s) const override;
   double rest_time() const override;
+  Eigen::AlignedBox2d box() const override;
   const std::string& name() const override { return name_; }
   const Motion& motion() const { return *motion_; }
 
