@@ -1,6 +1,6 @@
 // What planning, talking and remembering cost an agent as the fleet grows, at constant density.
-// Prints JSON. Arguments: simulated time [s], reach of messages
-// [m], seed, number of agents.
+// Prints JSON. Arguments: simulated time [s], reach of messages [m] (inf: all hear all), seed,
+// number of agents.
 
 #include <malloc.h>
 

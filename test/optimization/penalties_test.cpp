@@ -5,6 +5,7 @@
 #include <memory>
 #include <random>
 
+#include "fleet/motions.h"
 #include "optimization/dynamics_penalty.h"
 #include "optimization/moving_penalty.h"
 #include "optimization/obstacle_penalty.h"
@@ -249,6 +250,25 @@ TEST(MovingPenalty, HasTheValuesOfHandWhileTheRadiusGrows) {  // (33)
       EXPECT_NEAR(value_of(penalty, sample), expected(distance_m, time_s), 1e-9);
     }
   }
+}
+
+TEST(MovingPenalty, PassesOverNoPeerThatIsNear) {
+  const auto motion = test::shared(test::drive(100.0, {{0.0, 0.0}, {3.0, 2.0}, {4.0, 0.0}}, 1.0));
+  const auto peer = std::make_shared<PeerObstacle>("peer", motion, 0.3);
+  const MovingPenalty penalty(10.0, 100.0, {{peer, 0.7, kForever}});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-3.0, 7.0);
+  int near = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vector2 place(uniform(random), uniform(random));
+    const double time_s = uniform(random);
+    const double distance_m = (place - motion->position(100.0 + time_s)).norm();
+    const double lack = std::max(0.0, 1.0 - distance_m * distance_m);
+    const double value = value_of(penalty, sample_at(place, kZero, kZero, time_s));
+    EXPECT_NEAR(value, 10.0 * lack * lack * lack, 1e-9);
+    near += lack > 0.0;
+  }
+  EXPECT_GT(near, 30);
 }
 
 TEST(MovingPenalty, CountsOnlyUntilItsTime) {
