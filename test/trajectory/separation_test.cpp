@@ -58,8 +58,8 @@ TEST(Separation, WhatIsFarApartByItsBoxesIs) {
   std::mt19937 random(12);
   int told = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    const Motion a = test::random_drive(random, 0.0, 4, 2.0);
-    const Motion b = test::random_drive(random, 1.5, 6, 6.0);
+    const Motion a = test::random_drive(random, 0.0, 3, 1.0);
+    const Motion b = test::random_drive(random, 1.5, 2, 5.0);
     for (int i = 0; i <= 100; ++i) {
       const double t = a.start_time() + 0.01 * i * (a.end_time() - a.start_time());
       EXPECT_LE(a.box().exteriorDistance(a.position(t)), 1e-9);
