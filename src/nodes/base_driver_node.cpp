@@ -69,7 +69,7 @@ class BaseDriverNode {
   }
 
   /// Between the steps: what the base says is not to wait for the next one.
-  void listen() { listen(ros::Time::now()); }
+  void listen() { listen(loop_.now()); }
 
   void stop() {
     for (int i = 0; i < 3; ++i) {
@@ -80,7 +80,7 @@ class BaseDriverNode {
 
  private:
   void on_command(const geometry_msgs::Twist& twist) {
-    const ros::Time now = ros::Time::now();
+    const ros::Time now = loop_.now();
     if (watchdog_.take(now.toSec(), {twist.linear.x, twist.angular.z})) {
       drive(now);
     } else {
@@ -106,6 +106,7 @@ class BaseDriverNode {
   }
 
   void listen(ros::Time now) {
+    if (now.isZero()) return;  // a simulated clock that has not begun
     const std::vector<BaseFeedback> feedback = base_.poll(now.toSec());
     if (!feedback.empty()) publish(feedback.back());
     const bool connected = base_.connected(now.toSec());
@@ -133,14 +134,18 @@ class BaseDriverNode {
   void publish(const BaseFeedback& feedback) {
     feedback_ = feedback;
     odometry_.publish(odometry_message(feedback, robot_));
-    transforms_.sendTransform(odometry_transform(feedback, robot_));
+    // tf takes one transform a time; a simulated clock may stand between two lines of feedback.
+    if (feedback.stamp_s != transformed_s_) {
+      transforms_.sendTransform(odometry_transform(feedback, robot_));
+      transformed_s_ = feedback.stamp_s;
+    }
     if (feedback.imu) imu_.publish(imu_message(feedback, robot_));
     if (feedback.battery_v) battery_.publish(battery_message(feedback));
   }
 
   void diagnose_base(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
-    const double now_s = ros::Time::now().toSec();
+    const double now_s = loop_.now().toSec();
     if (!base_.connected(now_s)) {
       status.summary(DiagnosticStatus::ERROR, "the base is lost: " + base_.fault(now_s));
     } else if (stopped_) {
@@ -180,6 +185,7 @@ class BaseDriverNode {
   ros::Time driven_;
   std::optional<UnicycleState> command_;  // that was driven last
   std::optional<BaseFeedback> feedback_;
+  std::optional<double> transformed_s_;  // stamp of the newest transform
   diagnostic_updater::Updater diagnostics_;
   tf2_ros::TransformBroadcaster transforms_;
   ros::Publisher odometry_;

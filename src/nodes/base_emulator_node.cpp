@@ -146,7 +146,7 @@ class BaseEmulatorNode {
   void listen() {
     const std::string bytes = terminal_.read();
     if (bytes.empty()) return;
-    const double now_s = ros::Time::now().toSec();
+    const double now_s = loop_->now().toSec();
     firmware_.receive(now_s, bytes);
     drive(now_s);
   }
@@ -158,7 +158,7 @@ class BaseEmulatorNode {
   }
 
   bool on_restart(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-    firmware_.restart(ros::Time::now().toSec());
+    firmware_.restart(loop_->now().toSec());
     response.success = true;
     response.message = "restarted";
     return true;
