@@ -125,6 +125,11 @@ class BaseDriverTest(unittest.TestCase):
         if os.path.islink(LINE):
             os.unlink(LINE)
 
+    def setUp(self):
+        self.line.damage = None
+        if self.line.end is None:
+            self.line.plug()
+
     def wait(self, condition, timeout_s, what):
         deadline = time.monotonic() + timeout_s
         while time.monotonic() < deadline:
