@@ -30,6 +30,8 @@ LIBRARIES = {
     "CGAL": (r"CGAL/", r"topology/apollonius_roadmap\.cpp"),
     "LCM": (r"(mocha_)?lcm/", r"fleet/wire_format\.|nodes/lcm_channel\."),
     "libsodium": (r"sodium", r"fleet/fleet_key\.cpp"),
+    "Boost.Asio": (r"boost/asio", r"base/serial_port\."),
+    "nlohmann-json": (r"nlohmann/", r"base/waveshare_protocol\.cpp|simulation/base_emulator\."),
 }
 NOT_IN_CORE = {
     "reads a clock": r"_clock::now|\bgettimeofday\b|\bclock_gettime\b|\btime\(\s*(nullptr|NULL|0)\s*\)|ros::(Wall)?Time",
@@ -132,6 +134,8 @@ class Architecture(unittest.TestCase):
             ("src/ros/a.h", "#include <octomap/OcTree.h>", "OctoMap has no business"),
             ("src/topology/apollonius_roadmap.h", "#include <CGAL/Apollonius_graph_2.h>", "CGAL has no business"),
             ("src/fleet/commitment.h", "#include <lcm/lcm-cpp.hpp>", "LCM has no business"),
+            ("src/base/a.h", "#include <boost/asio/serial_port.hpp>", "Boost.Asio has no business"),
+            ("src/ros/a.h", "#include <nlohmann/json.hpp>", "nlohmann-json has no business"),
             ("src/world/a.cpp", "auto t = std::chrono::steady_clock::now();", "reads a clock"),
             ("src/safety/a.cpp", 'std::cout << "proved";', "prints"),
             ("src/safety/a.cpp", 'printf("proved");', "prints"),

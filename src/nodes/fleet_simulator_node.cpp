@@ -104,6 +104,7 @@ class FleetSimulatorNode {
   FleetSimulatorNode(ros::NodeHandle& node, const ParameterTable& values)
       : step_(values.number("step")),
         publish_map_to_odom_(values.flag("publish_map_to_odom")),
+        emulated_bases_(values.flag("emulated_bases")),
         simulator_(load_fleet(values), kStart.toSec(), values.integer("seed")),
         pace_(values.number("rate")),
         lockstep_(node, lockstep_roster(simulator_.world(), values.text("lockstep_nodes")),
@@ -144,16 +145,28 @@ class FleetSimulatorNode {
     ros::Publisher odometry;
     ros::Publisher scan;
     ros::Subscriber commands;
+    ros::Subscriber believed;                ///< odometry of the driver of an emulated base
+    nav_msgs::OdometryConstPtr believed_in;  ///< the newest
   };
 
   void connect(ros::NodeHandle& node, std::size_t robot) {
     const std::string root = "/" + simulator_.robots()[robot].setup.name;
+    const std::string base = root + (emulated_bases_ ? "/wheels" : "");
     const boost::function<void(const geometry_msgs::TwistConstPtr&)> on_command =
         [this, robot](const geometry_msgs::TwistConstPtr& twist) { command(robot, *twist); };
-    channels_.push_back({node.advertise<nav_msgs::Odometry>(root + "/odom", 50),
+    channels_.push_back({node.advertise<nav_msgs::Odometry>(base + "/odom", 50),
                          node.advertise<sensor_msgs::LaserScan>(root + "/scan", 20),
-                         node.subscribe<geometry_msgs::Twist>(root + "/cmd_vel", 1, on_command,
-                                                              ros::VoidPtr(), at_once())});
+                         node.subscribe<geometry_msgs::Twist>(base + "/cmd_vel", 1, on_command,
+                                                              ros::VoidPtr(), at_once()),
+                         {},
+                         {}});
+    if (!emulated_bases_) return;
+    const boost::function<void(const nav_msgs::OdometryConstPtr&)> on_odometry =
+        [this, robot](const nav_msgs::OdometryConstPtr& odometry) {
+          channels_[robot].believed_in = odometry;
+        };
+    channels_.back().believed = node.subscribe<nav_msgs::Odometry>(root + "/odom", 5, on_odometry,
+                                                                   ros::VoidPtr(), at_once());
   }
 
   void command(std::size_t robot, const geometry_msgs::Twist& twist) {
@@ -170,8 +183,13 @@ class FleetSimulatorNode {
     std::vector<geometry_msgs::TransformStamped> transforms;
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       const SimulatedRobot& robot = simulator_.robots()[i];
-      transforms.push_back(odom_to_base(robot, now_));
-      if (publish_map_to_odom_) transforms.push_back(map_to_odom(robot, now_));
+      const auto& believed = channels_[i].believed_in;
+      if (!emulated_bases_) transforms.push_back(odom_to_base(robot, now_));
+      if (publish_map_to_odom_ && !emulated_bases_) {
+        transforms.push_back(map_to_odom(robot, now_));
+      } else if (publish_map_to_odom_ && believed) {
+        transforms.push_back(map_to_odom(robot, *believed, now_));
+      }
       channels_[i].odometry.publish(odometry_message(robot, now_));
     }
     transforms_.sendTransform(transforms);
@@ -211,6 +229,7 @@ class FleetSimulatorNode {
 
   ros::Duration step_;
   bool publish_map_to_odom_;
+  bool emulated_bases_;
   WorldSimulator simulator_;
   Pace pace_;
   Lockstep lockstep_;

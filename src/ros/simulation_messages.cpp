@@ -92,6 +92,13 @@ geometry_msgs::TransformStamped map_to_odom(const SimulatedRobot& robot, ros::Ti
                    frame_between(robot.vehicle.pose(), robot.odometry.pose()));
 }
 
+geometry_msgs::TransformStamped map_to_odom(const SimulatedRobot& robot,
+                                            const nav_msgs::Odometry& odometry, ros::Time stamp) {
+  const Pose then = robot.past.at(odometry.header.stamp.toSec());
+  return transform(stamp, "map", odometry.header.frame_id,
+                   frame_between(then, from_message(odometry.pose.pose)));
+}
+
 geometry_msgs::TransformStamped base_to_laser(const SimulatedRobot& robot) {
   const std::string& name = robot.setup.name;
   const LidarModel& lidar = robot.setup.model.lidar;

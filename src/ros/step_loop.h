@@ -20,6 +20,9 @@ class StepLoop {
   StepLoop(ros::NodeHandle& node, const std::string& robot, double period_s,
            std::function<void(ros::Time)> step);
 
+  /// The time: in simulation that of the newest step, which ros::Time::now() may not have heard of.
+  ros::Time now() const { return ros::Time::isSimTime() ? last_ : ros::Time::now(); }
+
  private:
   void on_clock(const rosgraph_msgs::Clock& clock);
 

@@ -13,14 +13,6 @@ constexpr double kSettledSpeed = 1e-6;  // [m/s] from here on a wheel turns exac
 
 }  // namespace
 
-Pose advanced(const Pose& pose, const Arc& arc) {
-  const double half = 0.5 * arc.turn_rad;
-  const double chord = arc.length_m * (std::abs(half) < 1e-6 ? 1.0 : std::sin(half) / half);
-  const double towards = pose.yaw_rad + half;
-  return {pose.position + chord * Vector2(std::cos(towards), std::sin(towards)),
-          wrap_angle(pose.yaw_rad + arc.turn_rad)};
-}
-
 Vehicle::Vehicle(const RobotModel& model, const Pose& start)
     : max_wheel_speed_(model.limits.max_wheel_speed),
       max_wheel_acceleration_(model.max_wheel_acceleration),

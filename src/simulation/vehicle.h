@@ -1,5 +1,6 @@
 #pragma once
 
+#include "trajectory/arc.h"
 #include "world/robot_model.h"
 
 namespace mocha {
@@ -9,15 +10,6 @@ struct Twist {
   double speed = 0.0;
   double yaw_rate = 0.0;
 };
-
-/// The driven part of one step: arc length [m] and turn [rad].
-struct Arc {
-  double length_m = 0.0;
-  double turn_rad = 0.0;
-};
-
-/// The pose at the end of an arc of constant curvature.
-Pose advanced(const Pose& pose, const Arc& arc);
 
 /// A differential drive: commands become wheel speeds, which follow with a first-order lag within
 /// the wheels' limits. Nothing stops it but its wheels: obstacles do not push back.

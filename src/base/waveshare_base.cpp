@@ -1,0 +1,121 @@
+#include "base/waveshare_base.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+namespace mocha {
+namespace {
+
+constexpr double kSetupPeriod_s = 1.0;
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+WaveshareBase::WaveshareBase(const Options& options)
+    : options_(options),
+      port_(options.device, options.baud),
+      odometry_(options.odometry),
+      heard_s_(kNever),
+      stamp_s_(kNever) {}
+
+std::vector<BaseFeedback> WaveshareBase::poll(double now_s) {
+  if (port_.poll(now_s)) {
+    opened_s_ = now_s;
+    decoder_.restart();
+    send("\n");  // ends half a line that somebody else may have left
+    send_setup(now_s);
+  }
+  const bool set_back = now_s < setup_s_;
+  if (now_s - setup_s_ >= kSetupPeriod_s || set_back) send_setup(now_s);
+
+  const std::vector<WaveshareFeedback> lines = decoder_.take(port_.read());
+  std::vector<BaseFeedback> result;
+  // Of several that waited here, the former ones are older.
+  double age_s = 1e-3 * options_.settings.feedback_interval_ms * static_cast<double>(lines.size());
+  for (const WaveshareFeedback& line : lines) {
+    age_s -= 1e-3 * options_.settings.feedback_interval_ms;
+    const double stamp_s = now_s - options_.feedback_delay_s - age_s;
+    stamp_s_ = set_back ? stamp_s : std::max(stamp_s, stamp_s_);
+    result.push_back(feedback(stamp_s_, line));
+    heard_s_ = now_s;
+  }
+  return result;
+}
+
+BaseFeedback WaveshareBase::feedback(double stamp_s, const WaveshareFeedback& line) {
+  odometry_.add(stamp_s, line.speeds, line.left_cm, line.right_cm);
+  const double track = options_.odometry.track_m;
+  const double variance = options_.wheel_speed_noise * options_.wheel_speed_noise;
+  BaseFeedback result;
+  result.stamp_s = stamp_s;
+  result.pose = odometry_.pose();
+  result.pose_covariance = odometry_.covariance();
+  result.twist = from_wheel_speeds(line.speeds, track);
+  result.speed_variance = 0.5 * variance;
+  result.yaw_rate_variance = 2.0 * variance / (track * track);
+  result.battery_v = line.battery_v;
+  if (line.imu) {
+    const auto& [a, r] = *line.imu;
+    result.imu = ImuReading{options_.acceleration_scale * Eigen::Vector3d(a[0], a[1], a[2]),
+                            options_.gyro_scale * Eigen::Vector3d(r[0], r[1], r[2])};
+  }
+  return result;
+}
+
+bool WaveshareBase::connected(double now_s) const {
+  const double silent_s = now_s - heard_s_;
+  return port_.is_open() && silent_s >= 0.0 && silent_s <= options_.feedback_timeout_s;
+}
+
+void WaveshareBase::drive(const UnicycleState& command) {
+  const UnicycleState wanted = stop_.value_or(false) ? UnicycleState{0.0, 0.0} : command;
+  if (port_.is_open()) send(waveshare_drive(wheel_speeds(wanted, options_.odometry.track_m)));
+}
+
+void WaveshareBase::set_emergency_stop(bool stopped) {
+  stop_ = stopped;
+  send_stop();
+}
+
+void WaveshareBase::send_setup(double now_s) {
+  setup_s_ = now_s;
+  if (!port_.is_open()) return;
+  for (const std::string& line : waveshare_setup(options_.settings)) send(line);
+  send_stop();
+}
+
+void WaveshareBase::send_stop() {
+  if (!stop_ || !port_.is_open()) return;
+  send(*stop_ ? waveshare_emergency_stop() : waveshare_emergency_reset());
+  if (*stop_) drive({0.0, 0.0});
+}
+
+void WaveshareBase::send(const std::string& line) {
+  if (!port_.write(line)) ++unsent_;
+}
+
+std::string WaveshareBase::fault(double now_s) const {
+  if (!port_.is_open()) return port_.fault();
+  if (connected(now_s)) return "";
+  char text[64];
+  std::snprintf(text, sizeof(text), ": no feedback for %.1f s",
+                now_s - std::max(heard_s_, opened_s_));
+  return options_.device + text;
+}
+
+std::vector<std::pair<std::string, std::string>> WaveshareBase::details() const {
+  const WaveshareDecoder::Counts counts = decoder_.counts();
+  return {{"device", options_.device},
+          {"lines of feedback", std::to_string(counts.feedback)},
+          {"lines of other kinds", std::to_string(counts.other)},
+          {"lines refused: garbage", std::to_string(counts.garbage)},
+          {"lines refused: implausible", std::to_string(counts.implausible)},
+          {"lines refused: without end", std::to_string(counts.overlong)},
+          {"last refused line", decoder_.last_refusal()},
+          {"lines not sent", std::to_string(unsent_)},
+          {"port lost", std::to_string(port_.losses())},
+          {"base restarted", std::to_string(odometry_.restarts())}};
+}
+
+}  // namespace mocha

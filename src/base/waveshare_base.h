@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/base_interface.h"
+#include "base/serial_port.h"
+#include "base/waveshare_protocol.h"
+#include "base/wheel_odometry.h"
+
+namespace mocha {
+
+/// A robot of the Waveshare UGV family on a serial line.
+///
+/// Its settings, the heartbeat first of all, are sent when a connection begins and once a second
+/// after: a base that restarted meanwhile (a weak battery, its reset button) has forgotten them and
+/// would go on for 3 s without commands. Its firmware does not hold an emergency stop, whatever it
+/// says: it is held here.
+class WaveshareBase : public BaseInterface {
+ public:
+  struct Options {
+    std::string device = "/dev/ttyAMA0";
+    int baud = 115200;
+    WaveshareSettings settings;
+    WheelOdometry::Options odometry;
+    double feedback_timeout_s = 0.3;  ///< without feedback so long, the base is not driven
+    double feedback_delay_s = 0.0;    ///< from the reading of its sensors to its arrival here
+    double acceleration_scale = 1.0;  ///< [m/s^2] per count of the sensor
+    double gyro_scale = 1.0;          ///< [rad/s] per count
+    double wheel_speed_noise = 0.0;   ///< [m/s] standard deviation of a reported speed
+  };
+
+  explicit WaveshareBase(const Options& options);
+
+  std::vector<BaseFeedback> poll(double now_s) override;
+  bool connected(double now_s) const override;
+  void drive(const UnicycleState& command) override;
+  void set_emergency_stop(bool stopped) override;
+  std::string fault(double now_s) const override;
+  std::vector<std::pair<std::string, std::string>> details() const override;
+
+ private:
+  void send(const std::string& line);
+  void send_setup(double now_s);
+  void send_stop();
+  BaseFeedback feedback(double stamp_s, const WaveshareFeedback& line);
+
+  Options options_;
+  SerialPort port_;
+  WaveshareDecoder decoder_;
+  WheelOdometry odometry_;
+  std::optional<bool> stop_;  // what was asked for last: an emergency stop, or its end
+  double opened_s_ = 0.0;
+  double setup_s_ = 0.0;  // when the settings were sent last
+  double heard_s_;        // when feedback came last
+  double stamp_s_;        // of the newest feedback
+  long unsent_ = 0;
+};
+
+}  // namespace mocha

@@ -1,0 +1,224 @@
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/Twist.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <std_srvs/SetBool.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <optional>
+#include <string>
+
+#include "base/command_watchdog.h"
+#include "base/waveshare_base.h"
+#include "control/command_limiter.h"
+#include "ros/base_messages.h"
+#include "ros/parameters.h"
+#include "ros/robot_identity.h"
+#include "ros/step_loop.h"
+#include "ros/transport.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kPeriod_s = 0.02;
+constexpr double kLongestStep_s = 0.1;  // that the ramp takes at once
+const ros::WallDuration kListenPeriod(0.005);
+
+WaveshareBase::Options base_options(const ParameterTable& values, const RobotModel& model) {
+  WaveshareBase::Options options;
+  options.device = values.text("port");
+  options.baud = values.integer("baud");
+  options.settings = {values.integer("robot_type"), values.integer("heartbeat"),
+                      values.integer("feedback_interval")};
+  options.odometry = {model.limits.track_m, model.limits.max_wheel_speed,
+                      model.odometry_noise_distance, model.odometry_noise_yaw};
+  options.feedback_timeout_s = values.number("feedback_timeout");
+  options.feedback_delay_s = values.number("feedback_delay");
+  options.acceleration_scale = values.number("acceleration_scale");
+  options.gyro_scale = values.number("gyro_scale");
+  options.wheel_speed_noise = values.number("wheel_speed_noise");
+  return options;
+}
+
+/// Velocity commands out to the base, its odometry and sensors in.
+///
+/// The base stands unless somebody has commanded a velocity a short while ago and the base answers.
+/// Who stops commanding has it slowed down by the ramp; who dies with this node, by the firmware's
+/// heartbeat.
+class BaseDriverNode {
+ public:
+  BaseDriverNode(ros::NodeHandle& node, const ParameterTable& values)
+      : robot_(robot_identity()),
+        model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        low_battery_v_(values.number("low_battery")),
+        base_(base_options(values, model_)),
+        watchdog_(model_.command_age_limit_s),
+        limiter_(model_),
+        odometry_(node.advertise<nav_msgs::Odometry>("odom", 50)),
+        imu_(node.advertise<sensor_msgs::Imu>("imu", 50)),
+        battery_(node.advertise<sensor_msgs::BatteryState>("battery", 5)),
+        commands_(node.subscribe("cmd_vel", 1, &BaseDriverNode::on_command, this, at_once())),
+        emergency_stop_(node.advertiseService("emergency_stop", &BaseDriverNode::on_stop, this)),
+        loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
+    diagnostics_.setHardwareID(robot_.name);
+    diagnostics_.add("base", this, &BaseDriverNode::diagnose_base);
+    diagnostics_.add("battery", this, &BaseDriverNode::diagnose_battery);
+  }
+
+  /// Between the steps: what the base says is not to wait for the next one.
+  void listen() { listen(loop_.now()); }
+
+  void stop() {
+    for (int i = 0; i < 3; ++i) {
+      base_.drive({0.0, 0.0});
+      ros::WallDuration(kPeriod_s).sleep();
+    }
+  }
+
+ private:
+  void on_command(const geometry_msgs::Twist& twist) {
+    const ros::Time now = loop_.now();
+    if (watchdog_.take(now.toSec(), {twist.linear.x, twist.angular.z})) {
+      drive(now);
+    } else {
+      ROS_WARN_THROTTLE(1.0, "Refused a command that is not finite");
+    }
+  }
+
+  bool on_stop(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+    stopped_ = request.data;
+    base_.set_emergency_stop(stopped_);
+    limiter_ = CommandLimiter(model_);
+    response.success = true;
+    response.message = stopped_ ? "stopped" : "released";
+    ROS_WARN("Emergency stop: %s", response.message.c_str());
+    return true;
+  }
+
+  void step(ros::Time now) {
+    listen(now);
+    const double since_s = (now - driven_).toSec();
+    if (since_s < 0.0 || since_s >= kPeriod_s - 1e-6) drive(now);
+    diagnostics_.update();
+  }
+
+  void listen(ros::Time now) {
+    if (now.isZero()) return;  // a simulated clock that has not begun
+    const std::vector<BaseFeedback> feedback = base_.poll(now.toSec());
+    if (!feedback.empty()) publish(feedback.back());
+    const bool connected = base_.connected(now.toSec());
+    if (connected == connected_) return;
+    connected_ = connected;
+    if (connected) {
+      ROS_INFO("The base answers on its serial line");
+    } else {
+      ROS_ERROR("The base is lost: %s", base_.fault(now.toSec()).c_str());
+    }
+  }
+
+  void drive(ros::Time now) {
+    const double dt_s = std::clamp((now - driven_).toSec(), 0.0, kLongestStep_s);
+    driven_ = now;
+    command_ = watchdog_.command(now.toSec());
+    if (!base_.connected(now.toSec()) || stopped_) {
+      limiter_ = CommandLimiter(model_);  // whatever it did, it stands when it goes on
+      base_.drive({0.0, 0.0});
+      return;
+    }
+    base_.drive(limiter_.limit(command_.value_or(UnicycleState{0.0, 0.0}), dt_s));
+  }
+
+  void publish(const BaseFeedback& feedback) {
+    feedback_ = feedback;
+    odometry_.publish(odometry_message(feedback, robot_));
+    // tf takes one transform a time; a simulated clock may stand between two lines of feedback.
+    if (feedback.stamp_s != transformed_s_) {
+      transforms_.sendTransform(odometry_transform(feedback, robot_));
+      transformed_s_ = feedback.stamp_s;
+    }
+    if (feedback.imu) imu_.publish(imu_message(feedback, robot_));
+    if (feedback.battery_v) battery_.publish(battery_message(feedback));
+  }
+
+  void diagnose_base(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    const double now_s = loop_.now().toSec();
+    if (!base_.connected(now_s)) {
+      status.summary(DiagnosticStatus::ERROR, "the base is lost: " + base_.fault(now_s));
+    } else if (stopped_) {
+      status.summary(DiagnosticStatus::WARN, "emergency stop");
+    } else if (!command_) {
+      status.summaryf(DiagnosticStatus::OK, "stands: no command on %s for %.2f s",
+                      commands_.getTopic().c_str(), model_.command_age_limit_s);
+    } else {
+      status.summary(DiagnosticStatus::OK, "drives");
+    }
+    status.addf("speed sent (m/s)", "%.3f", limiter_.last().speed);
+    status.addf("yaw rate sent (rad/s)", "%.3f", limiter_.last().yaw_rate);
+    status.add("refused commands", watchdog_.refused());
+    for (const auto& [name, value] : base_.details()) status.add(name, value);
+  }
+
+  void diagnose_battery(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    if (!feedback_ || !feedback_->battery_v) {
+      status.summary(DiagnosticStatus::WARN, "not measured yet");
+      return;
+    }
+    const double voltage = *feedback_->battery_v;
+    const bool low = voltage < low_battery_v_;
+    status.summaryf(low ? DiagnosticStatus::WARN : DiagnosticStatus::OK, "%.2f V%s", voltage,
+                    low ? ": low" : "");
+  }
+
+  RobotIdentity robot_;
+  RobotModel model_;
+  double low_battery_v_;
+  WaveshareBase base_;
+  CommandWatchdog watchdog_;
+  CommandLimiter limiter_;
+  bool connected_ = false;
+  bool stopped_ = false;
+  ros::Time driven_;
+  std::optional<UnicycleState> command_;  // that was driven last
+  std::optional<BaseFeedback> feedback_;
+  std::optional<double> transformed_s_;  // stamp of the newest transform
+  diagnostic_updater::Updater diagnostics_;
+  tf2_ros::TransformBroadcaster transforms_;
+  ros::Publisher odometry_;
+  ros::Publisher imu_;
+  ros::Publisher battery_;
+  ros::Subscriber commands_;
+  ros::ServiceServer emergency_stop_;
+  StepLoop loop_;
+};
+
+std::atomic<bool> asked_to_stop{false};
+
+void ask_to_stop(int) { asked_to_stop = true; }
+
+}  // namespace
+}  // namespace mocha
+
+int main(int argc, char** argv) {
+  // Own handlers: the base is to be told before the line closes.
+  ros::init(argc, argv, "base_driver", ros::init_options::NoSigintHandler);
+  std::signal(SIGINT, mocha::ask_to_stop);
+  std::signal(SIGTERM, mocha::ask_to_stop);
+  ros::NodeHandle node;
+  try {
+    mocha::BaseDriverNode driver(node, mocha::read_parameters(ros::NodeHandle("~"), "base_driver"));
+    while (ros::ok() && !mocha::asked_to_stop) {
+      ros::getGlobalCallbackQueue()->callAvailable(mocha::kListenPeriod);
+      driver.listen();
+    }
+    driver.stop();
+  } catch (const std::exception& error) {
+    ROS_FATAL("base_driver: %s", error.what());
+    return 1;
+  }
+  return 0;
+}

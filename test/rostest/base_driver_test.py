@@ -1,0 +1,354 @@
+#!/usr/bin/python3
+"""Drives the emulated base through base_driver and a serial line, and breaks one thing after another: each time the vehicle
+has to stop within its limits, and to go on when the cause is gone. What the vehicle does is the emulator's truth, not
+what the driver believes."""
+
+import json
+import math
+import os
+import random
+import signal
+import sys
+import threading
+import time
+import unittest
+import xmlrpc.client
+
+import rosgraph
+import rosnode
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import BatteryState, Imu
+from std_srvs.srv import SetBool, Trigger
+from tf2_msgs.msg import TFMessage
+
+from serial_line import SerialLine
+
+BASE = "/tmp/mocha_base_driver_test_base"
+LINE = "/tmp/mocha_base_driver_test_line"
+SPEED = 0.4
+HEARTBEAT_S = 0.3
+COMMAND_AGE_S = 0.3
+FEEDBACK_TIMEOUT_S = 0.3
+# From the order to stand: the ramp of 2 m/s^2, the wheels' lag of 0.1 s, and this machine, which others use, too.
+BRAKING_S = SPEED / 2.0 + 0.5
+SCHEDULING_S = 0.3
+STANDING = 0.02
+
+
+class Watch:
+    """The newest messages, by topic."""
+
+    def __init__(self):
+        self.lock = threading.Lock()
+        self.newest = {}
+        self.count = {}
+        self.diagnosis = {}
+        for topic, kind in [("/ugv1/base_emulator/truth", Odometry), ("/ugv1/odom", Odometry), ("/ugv1/imu", Imu),
+                            ("/ugv1/battery", BatteryState), ("/tf", TFMessage)]:
+            rospy.Subscriber(topic, kind, self.on, callback_args=topic, tcp_nodelay=True)
+        rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics)
+
+    def on(self, message, topic):
+        with self.lock:
+            self.newest[topic] = message
+            self.count[topic] = self.count.get(topic, 0) + 1
+
+    def on_diagnostics(self, array):
+        for status in array.status:
+            self.diagnosis[status.name] = status
+
+    def truth(self):
+        return self.newest["/ugv1/base_emulator/truth"]
+
+    def speed(self):
+        twist = self.truth().twist.twist
+        return abs(twist.linear.x) + 0.1 * abs(twist.angular.z)
+
+    def odometry(self):
+        return self.newest["/ugv1/odom"]
+
+    def base(self):
+        """What diagnostics say of the base: message and values."""
+        for name, status in self.diagnosis.items():
+            if name.endswith("base_driver: base"):
+                return status.message, {value.key: value.value for value in status.values}
+        return "", {}
+
+
+class Commander:
+    """Publishes velocities at 50 Hz, unless it is told to be silent."""
+
+    def __init__(self):
+        self.publisher = rospy.Publisher("/ugv1/cmd_vel", Twist, queue_size=1, tcp_nodelay=True)
+        self.twist = None
+        threading.Thread(target=self.run, daemon=True).start()
+
+    def run(self):
+        while True:
+            twist = self.twist
+            if twist is not None:
+                self.publisher.publish(twist)
+            time.sleep(0.02)
+
+    def drive(self, speed, yaw_rate=0.0):
+        twist = Twist()
+        twist.linear.x, twist.angular.z = speed, yaw_rate
+        self.twist = twist
+
+    def be_silent(self):
+        self.twist = None
+
+
+def pid_of(node):
+    uri = rosnode.get_api_uri(rosgraph.Master("/base_driver_test"), node, skip_cache=True)
+    return xmlrpc.client.ServerProxy(uri).getPid("/base_driver_test")[2]
+
+
+class BaseDriverTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        deadline = time.monotonic() + 30.0
+        while not os.path.exists(BASE):
+            assert time.monotonic() < deadline, "no emulator"
+            time.sleep(0.05)
+        cls.line = SerialLine(BASE, LINE)
+        cls.watch = Watch()
+        cls.commander = Commander()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.commander.be_silent()
+        if os.path.islink(LINE):
+            os.unlink(LINE)
+
+    def setUp(self):
+        self.line.damage = None
+        if self.line.end is None:
+            self.line.plug()
+
+    def wait(self, condition, timeout_s, what):
+        deadline = time.monotonic() + timeout_s
+        while time.monotonic() < deadline:
+            if condition():
+                return
+            time.sleep(0.01)
+        self.fail(f"not within {timeout_s:.2f} s: {what}; base: {self.watch.base()}")
+
+    def drive(self, timeout_s=15.0):
+        """Until the vehicle really drives, and the driver says so, too."""
+        self.commander.drive(SPEED)
+        self.wait(lambda: "/ugv1/base_emulator/truth" in self.watch.newest and self.watch.speed() > 0.9 * SPEED, timeout_s,
+                  "the vehicle drives")
+        self.wait(lambda: self.watch.odometry().twist.twist.linear.x > 0.8 * SPEED, 2.0, "odometry says so")
+
+    def stands_within(self, limit_s):
+        self.wait(lambda: self.watch.speed() < STANDING, limit_s + BRAKING_S + SCHEDULING_S, "the vehicle stands")
+
+    def stays_standing(self, duration_s):
+        deadline = time.monotonic() + duration_s
+        while time.monotonic() < deadline:
+            self.assertLess(self.watch.speed(), STANDING)
+            time.sleep(0.02)
+
+    def test_01_stands_without_a_command_and_answers(self):
+        self.wait(lambda: "/ugv1/odom" in self.watch.newest, 20.0, "odometry")
+        self.stays_standing(0.5)
+        odometry = self.watch.odometry()
+        self.assertEqual(odometry.header.frame_id, "ugv1/odom")
+        self.assertEqual(odometry.child_frame_id, "ugv1/base_link")
+        self.assertLess(abs(odometry.header.stamp.to_sec() - time.time()), 0.3)
+        for place in (0, 7, 35):
+            self.assertGreater(odometry.pose.covariance[place], 0.0)
+            self.assertGreater(odometry.twist.covariance[place], 0.0)
+        self.assertAlmostEqual(self.watch.newest["/ugv1/imu"].linear_acceleration.z, 9.81, delta=0.05)
+        self.assertAlmostEqual(self.watch.newest["/ugv1/battery"].voltage, 11.85, delta=0.01)
+        transforms = [t for t in self.watch.newest["/tf"].transforms if t.child_frame_id == "ugv1/base_link"]
+        self.assertEqual(transforms[0].header.frame_id, "ugv1/odom")
+
+    def test_02_drives_and_knows_how_far(self):
+        self.drive()
+        self.commander.drive(0.3, 0.6)
+        time.sleep(4.0)
+        rate = self.watch.newest["/ugv1/imu"].angular_velocity.z
+        self.assertAlmostEqual(rate, 0.6, delta=0.05)
+        self.commander.drive(0.0)
+        self.stands_within(0.0)
+        time.sleep(0.2)
+        truth, odometry = self.watch.truth().pose.pose, self.watch.odometry().pose.pose
+        distance = math.hypot(truth.position.x - odometry.position.x, truth.position.y - odometry.position.y)
+        self.assertGreater(math.hypot(truth.position.x, truth.position.y), 0.5)
+        self.assertLess(distance, 0.05)
+        yaw = [2.0 * math.atan2(p.orientation.z, p.orientation.w) for p in (truth, odometry)]
+        self.assertLess(abs(math.remainder(yaw[0] - yaw[1], 2.0 * math.pi)), 0.06)
+
+    def test_03_only_wheel_speeds_are_sent_and_ramped(self):
+        sent = [json.loads(line) for line in bytes(self.line.from_computer).split(b"\n")[1:-1] if line]
+        self.assertNotIn(13, {line["T"] for line in sent})
+        self.assertEqual(sent[0], {"T": 136, "cmd": 300}, "the heartbeat comes first")
+        left = [line["L"] for line in sent if line["T"] == 1]
+        self.assertGreater(max(left), 0.3)
+        self.assertLess(max(abs(b - a) for a, b in zip(left, left[1:])), 2.0 * 0.1 + 1e-3, "no step beyond the ramp")
+        small = sorted(abs(b - a) for a, b in zip(left, left[1:]))[int(0.98 * len(left)) - 2]
+        self.assertLess(small, 2.0 * 0.06)
+
+    def test_04_stops_when_commands_stay_away(self):
+        self.drive()
+        self.commander.be_silent()
+        self.stands_within(COMMAND_AGE_S)
+        self.stays_standing(0.5)
+        self.drive()
+
+    def test_05_refuses_commands_that_are_not_finite(self):
+        self.drive()
+        refused = lambda: int(self.watch.base()[1].get("refused commands", 0))  # noqa: E731
+        before = refused()
+        self.commander.drive(float("nan"))
+        self.stands_within(COMMAND_AGE_S)
+        self.wait(lambda: refused() > before, 3.0, "refused commands are counted")
+        self.drive()
+
+    def test_06_a_pulled_port_stops_it_and_it_goes_on_when_plugged_in(self):
+        self.drive()
+        self.line.pull()
+        self.stands_within(HEARTBEAT_S)
+        self.wait(lambda: "lost" in self.watch.base()[0], 3.0, "diagnostics say so")
+        time.sleep(1.0)
+        self.stays_standing(0.5)
+        self.line.plug()
+        self.drive(timeout_s=5.0)
+        self.assertGreaterEqual(int(self.watch.base()[1]["port lost"]), 1)
+
+    def test_07_garbage_is_counted_and_it_drives_on(self):
+        self.drive()
+        garbage = lambda: int(self.watch.base()[1].get("lines refused: garbage", 0))  # noqa: E731
+        before = garbage()
+        noise = random.Random(1)
+        end = time.monotonic() + 2.0
+        while time.monotonic() < end:
+            self.line.inject(bytes(noise.randrange(256) for _ in range(noise.randrange(1, 60))) + b"\n")
+            self.assertGreater(self.watch.speed(), 0.5 * SPEED)
+            time.sleep(0.02)
+        self.wait(lambda: garbage() > before + 20, 3.0, "garbage is counted")
+        self.drive()
+
+    def test_08_nothing_but_garbage_stops_it(self):
+        self.drive()
+        noise = random.Random(2)
+        self.line.damage = lambda said: bytes(noise.randrange(256) for _ in said)
+        self.stands_within(FEEDBACK_TIMEOUT_S)
+        self.wait(lambda: "no feedback" in self.watch.base()[0], 3.0, "diagnostics say so")
+        self.line.damage = None
+        self.drive(timeout_s=5.0)
+
+    def test_09_half_lines_are_counted_and_the_whole_ones_used(self):
+        self.drive()
+        garbage = lambda: int(self.watch.base()[1].get("lines refused: garbage", 0))  # noqa: E731
+        before = garbage()
+        cut = random.Random(3)
+
+        def lose_some(said):
+            return b"" if cut.random() < 0.1 else said[:cut.randrange(len(said))] if cut.random() < 0.2 else said
+
+        self.line.damage = lose_some
+        end = time.monotonic() + 3.0
+        while time.monotonic() < end:
+            self.assertGreater(self.watch.speed(), 0.5 * SPEED)
+            time.sleep(0.02)
+        self.line.damage = None
+        self.wait(lambda: garbage() > before + 5, 3.0, "half lines are counted")
+        self.drive()
+
+    def test_10_nothing_but_half_lines_stops_it(self):
+        self.drive()
+        self.line.damage = lambda said: said[:len(said) // 2] + b"\n"
+        self.stands_within(FEEDBACK_TIMEOUT_S)
+        self.line.damage = None
+        self.drive(timeout_s=5.0)
+
+    def test_11_a_line_without_end_does_not_hurt(self):
+        self.drive()
+        self.line.damage = lambda said: said.replace(b"\n", b"x")
+        self.stands_within(FEEDBACK_TIMEOUT_S)
+        self.line.damage = None
+        self.drive(timeout_s=5.0)
+        self.wait(lambda: int(self.watch.base()[1]["lines refused: without end"]) >= 1, 3.0, "counted")
+
+    def test_12_a_frozen_base_is_noticed_and_does_not_run_off_when_it_thaws(self):
+        self.drive()
+        pid = pid_of("/ugv1/base_emulator")
+        os.kill(pid, signal.SIGSTOP)
+        try:
+            self.wait(lambda: "no feedback" in self.watch.base()[0], FEEDBACK_TIMEOUT_S + 3.0, "noticed")
+            self.commander.be_silent()
+            time.sleep(1.0)
+        finally:
+            os.kill(pid, signal.SIGCONT)
+        self.stands_within(HEARTBEAT_S)
+        self.stays_standing(1.0)
+        self.drive(timeout_s=5.0)
+
+    def test_13_a_frozen_base_goes_on_by_itself_when_commands_go_on(self):
+        self.drive()
+        pid = pid_of("/ugv1/base_emulator")
+        os.kill(pid, signal.SIGSTOP)
+        try:
+            time.sleep(1.0)
+        finally:
+            os.kill(pid, signal.SIGCONT)
+        self.drive(timeout_s=5.0)
+
+    def test_14_a_killed_driver_is_stopped_by_the_heartbeat(self):
+        self.drive()
+        os.kill(pid_of("/ugv1/base_driver"), signal.SIGKILL)
+        self.stands_within(HEARTBEAT_S)  # within its respawn delay
+        self.drive(timeout_s=20.0)
+
+    def test_15_a_frozen_driver_is_stopped_by_the_heartbeat(self):
+        self.drive()
+        pid = pid_of("/ugv1/base_driver")
+        os.kill(pid, signal.SIGSTOP)
+        try:
+            self.stands_within(HEARTBEAT_S)
+            self.stays_standing(1.0)
+        finally:
+            os.kill(pid, signal.SIGCONT)
+        self.drive(timeout_s=5.0)
+
+    def test_16_a_driver_that_is_told_to_end_stops_the_base_itself(self):
+        self.drive()
+        mark = len(self.line.from_computer)
+        os.kill(pid_of("/ugv1/base_driver"), signal.SIGTERM)
+        self.stands_within(0.0)
+        last = bytes(self.line.from_computer[mark:]).split(b"\n")[-2]
+        self.assertEqual(json.loads(last), {"T": 1, "L": 0.0, "R": 0.0})
+        self.drive(timeout_s=20.0)
+
+    def test_17_a_base_that_restarts_gets_its_heartbeat_again(self):
+        self.drive()
+        before = self.watch.odometry().pose.pose.position
+        rospy.ServiceProxy("/ugv1/base_emulator/restart", Trigger)()
+        time.sleep(1.5)
+        after = self.watch.odometry().pose.pose.position
+        self.assertLess(math.hypot(after.x - before.x, after.y - before.y), 1.5, "odometry does not jump")
+        self.drive()
+        os.kill(pid_of("/ugv1/base_driver"), signal.SIGKILL)
+        self.stands_within(HEARTBEAT_S)
+        self.drive(timeout_s=20.0)
+
+    def test_18_an_emergency_stop_holds_until_its_reset(self):
+        self.drive()
+        service = rospy.ServiceProxy("/ugv1/emergency_stop", SetBool)
+        self.assertTrue(service(True).success)
+        self.stands_within(0.0)
+        self.stays_standing(1.0)
+        self.assertTrue(service(False).success)
+        self.drive()
+
+
+if __name__ == "__main__":
+    rospy.init_node("base_driver_test")
+    rostest.rosrun("mocha_ugv", "base_driver", BaseDriverTest, sys.argv)
