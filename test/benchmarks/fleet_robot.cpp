@@ -237,12 +237,6 @@ std::vector<FleetRobot::Bytes> FleetRobot::pursue(double now_s) {
                                           [this](const auto&) {
                                             return PlanningScene{agent_.map->terrain, others_};
                                           }});
-  const double tt = now_s - 1.7e9;
-  if (std::getenv("DBG") && tt > std::atof(std::getenv("DBG")) && tt < std::atof(std::getenv("DBG")) + 4) {
-    if (output.report) std::fprintf(stderr, "%.2f %s: %d %s\n", tt, name_.c_str(), (int)output.report->reason, output.report->message.c_str());
-    if (output.planned) std::fprintf(stderr, "%.2f %s: planned to %.2f %.2f: %d %s\n", tt, name_.c_str(), output.planned->goal.position.x(), output.planned->goal.position.y(), (int)output.planned->result.reason, output.planned->result.message.c_str());
-    if (output.request) { std::fprintf(stderr, "%.2f %s: ASKS %d %s:", tt, name_.c_str(), output.request->rank.stuck, output.request->rank.agent.c_str()); for (auto& p : output.request->way) std::fprintf(stderr, " (%.1f,%.1f)", p.x(), p.y()); std::fprintf(stderr, "\n"); }
-  }
   reached_ = reached_ || output.ending == Pursuit::Ending::kReached;
   if (!output.plan.empty()) replanner_.set_plan(output.plan);
   if (!output.request) return {};
