@@ -145,7 +145,7 @@ TEST(TrajectoryTracker, StandingRobotDoesNotSetOffUnderAnExpiredLease) {
 }
 
 TEST(TrajectoryTracker, ExpiredLeaseStopsATurn) {
-  const Motion motion(0.0, {TurnPhase{{}, 6.0, 8.0}, straight({{}, 6.0}, 1, 1.0, 4.0)});
+  const Motion motion(0.0, {TurnPhase{{}, 6.0, 8.0}, straight({{0.0, 0.0}, 6.0}, 1, 1.0, 4.0)});
   ClosedLoop loop(rover(), {}, 1);
   loop.tracker.offer({1, 1}, motion, 4.0);
   const auto samples = loop.run(14.0);
