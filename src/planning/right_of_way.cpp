@@ -1,11 +1,13 @@
 #include "planning/right_of_way.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
 #include "planning/front_end.h"
 #include "planning/peer_discs.h"
+#include "world/obstacle.h"
 
 namespace mocha {
 namespace {
@@ -67,9 +69,10 @@ void RightOfWay::hear(const WayRequest& request, double now_s) {
     it = now_s < it->second.until_s ? std::next(it) : heard_.erase(it);
   if (request.way.empty()) {
     heard_.erase(request.agent);
-  } else if (request.agent != own_.agent && heard_.size() < kMostHeard) {
-    heard_[request.agent] = {request, now_s + kLapse_s};
+    return;
   }
+  const bool has_room = heard_.size() < kMostHeard || heard_.count(request.agent) > 0;
+  if (request.agent != own_.agent && has_room) heard_[request.agent] = {request, now_s + kLapse_s};
 }
 
 std::vector<const WayRequest*> RightOfWay::above(double now_s) const {

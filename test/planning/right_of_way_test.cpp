@@ -181,6 +181,14 @@ TEST_F(RightOfWayTest, AsksForTheWayOnTheMapWhoeverStandsThere) {
   EXPECT_TRUE(right_.is_near(way, scene_, kNow_s, 1.0));
 }
 
+TEST_F(RightOfWayTest, AFloodOfNamesDoesNotSilenceWhoWasHeardBefore) {
+  right_.hear(asked("ugv2", {{50.0, 0.0}, {60.0, 0.0}}), kNow_s);
+  for (int i = 0; i < 2000; ++i)
+    right_.hear(asked("a" + std::to_string(i), {{50.0, 0.0}, {60.0, 0.0}}), kNow_s);
+  right_.hear(asked("ugv2", through()), kNow_s + 1.0);
+  EXPECT_TRUE(right_.in_way_of(Vector2(2.0, 0.0), kNow_s + 1.0));
+}
+
 TEST_F(RightOfWayTest, AFloodOfNamesTakesNoMoreMemory) {
   for (int i = 0; i < 2000; ++i)
     right_.hear(asked("a" + std::to_string(i), {{50.0, 0.0}, {60.0, 0.0}}), kNow_s);
