@@ -21,6 +21,9 @@ target_sources(test_planning PRIVATE test/benchmarks/replan_scene.cpp test/bench
   test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp test/benchmarks/one_phase.cpp
   test/benchmarks/benchmark_world.cpp)
 
+# Simulated drives for the localiser.
+target_link_libraries(test_perception mocha_simulation)
+
 file(GLOB rostests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/rostest/*.test)
 foreach(test ${rostests})
   add_rostest(${test})
