@@ -1,5 +1,7 @@
 #include "perception/scan_hits.h"
 
+#include <algorithm>
+
 #include "trajectory/frame_change.h"
 
 namespace mocha {
@@ -17,6 +19,14 @@ ScanHits hits_of(const std::vector<Beam>& beams, const Pose& base, double spacin
     if (beam.kind != BeamEnd::kHit || !is_usable(beam)) continue;
     const Vector2 hit = seen(beam.end);
     if (scan.hits.empty() || (hit - scan.hits.back()).norm() >= spacing_m) scan.hits.push_back(hit);
+  }
+  return scan;
+}
+
+ScanHits deepened(ScanHits scan, double depth_m) {
+  for (Vector2& hit : scan.hits) {
+    const Vector2 ray = hit - scan.sensor;
+    hit += depth_m / std::max(ray.norm(), depth_m) * ray;
   }
   return scan;
 }

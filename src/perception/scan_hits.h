@@ -19,6 +19,9 @@ struct ScanHits {
 /// hits closer together than `spacing_m` one is kept, so that near walls do not outweigh far ones.
 ScanHits hits_of(const std::vector<Beam>& beams, const Pose& base, double spacing_m);
 
+/// The hits `depth_m` farther away from the sensor.
+ScanHits deepened(ScanHits scan, double depth_m);
+
 /// Every n-th hit, so that at most `most` are left.
 ScanHits thinned(const ScanHits& scan, std::size_t most);
 

@@ -40,7 +40,7 @@ ScanLocalizerOptions ScanLocalizerOptions::from(const ParameterTable& values,
                                                 const RobotModel& model) {
   ScanLocalizerOptions options;
   options.hits = values.integer("hits");
-  options.hit_spacing_m = values.number("hit_spacing");
+  options.wall_depth_m = values.number("wall_depth");
   options.matcher.hit_noise_m = values.number("hit_noise");
   options.matcher.hit_reach_m = values.number("hit_reach");
   options.matcher.independent_hits = values.integer("independent_hits");
@@ -91,7 +91,7 @@ const Localization& ScanLocalizer::add(const ScanHits& scan, const Pose& odometr
   const double dt_s = time_s_ ? scan.time_s - *time_s_ : 0.0;
   time_s_ = scan.time_s;
   predict(odometry, dt_s);
-  const ScanHits thin = thinned(scan, options_.hits);
+  const ScanHits thin = deepened(thinned(scan, options_.hits), options_.wall_depth_m);
   if (walls_ && static_cast<int>(thin.hits.size()) >= options_.least_hits) {
     fit(thin, dt_s);
     drop_hopeless(scan.time_s);

@@ -15,7 +15,7 @@ namespace mocha {
 struct ScanLocalizerOptions {
   ScanMatcherOptions matcher;
   PlaceSearchOptions search;
-  double hit_spacing_m = 0.05;
+  double wall_depth_m = 0.03;      ///< middle of a mapped wall behind its surface
   std::size_t hits = 180;          ///< of a scan, at most
   double tolerance_m = 0.1;        ///< a hit that near to a wall of the map is explained by it
   int least_hits = 30;             ///< explained or not; fewer say nothing about the place
