@@ -40,7 +40,8 @@ ScanLocalizerOptions ScanLocalizerOptions::from(const ParameterTable& values,
                                                 const RobotModel& model) {
   ScanLocalizerOptions options;
   options.hits = values.integer("hits");
-  options.wall_depth_m = values.number("wall_depth");
+  // The faces of a map that is only being made are not worn yet.
+  options.wall_depth_m = values.flag("mapping") ? 0.0 : values.number("wall_depth");
   options.matcher.hit_noise_m = values.number("hit_noise");
   options.matcher.hit_reach_m = values.number("hit_reach");
   options.matcher.independent_hits = values.integer("independent_hits");
