@@ -44,6 +44,11 @@ class LaunchFiles(unittest.TestCase):
             unexplained = [argument.get("name") for argument in arguments(path) if not argument.get("doc")]
             self.assertEqual(unexplained, [], path.name)
 
+    def test_roslaunch_finds_the_one_that_is_meant(self):
+        """By its name alone it looks through the whole checkout, and refuses what is there twice."""
+        everywhere = [path.name for path in ROOT.rglob("*.launch") if "_build" not in path.parts]
+        self.assertEqual([path.name for path in FILES if everywhere.count(path.name) > 1], [])
+
     def test_can_be_loaded_whatever_the_switches_say(self):
         for path in FILES:
             for given in switches(path):
