@@ -1,6 +1,6 @@
 # The layering, what stands around the nodes, one gtest binary a folder (test/NAME/*_test.cpp), every rostest below test/rostest, and every test on separate hosts
 # below test/netns.
-foreach(name architecture launch_files robot_description)
+foreach(name architecture install_robot launch_files robot_description)
   add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/${name}_test.py)
 endforeach()
 
