@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import tempfile
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 import roslaunch.config
 import roslaunch.xmlloader
@@ -80,7 +81,14 @@ class InstallRobot(unittest.TestCase):
         self.assertEqual((values["/ugv5/scan_localizer/map_file"], values["/ugv5/global_planner/priority"]), (map_file, -2))
         broadcaster = "/ugv5/trajectory_broadcaster/"
         self.assertEqual((values[broadcaster + "fleet_key"], values[broadcaster + "lcm_url"]), (key, ""))
-        self.assertLessEqual({"vendor_lidar", "lidar_frame"}, {node.name for node in config.nodes})
+        nodes = {node.name: node for node in config.nodes}
+        self.assertLessEqual({"vendor_lidar", "lidar_frame"}, set(nodes))
+        self.assertIn(["/ugv5/scan", "/scan"], nodes["perception"].remap_args)
+
+    def test_service_says_all_that_the_launch_file_asks(self):
+        asked = {argument.get("name") for argument in ElementTree.parse(ROOT / "launch/robot.launch").findall("arg")}
+        self.install("--robot", "ugv3")
+        self.assertEqual(set(re.findall(r'"(\w+):=', self.read(UNIT))), asked - {"rviz"})
 
     def test_defaults_are_those_of_the_launch_file(self):
         self.install("--robot", "ugv3")
