@@ -188,7 +188,7 @@ class InstallRobot(unittest.TestCase):
                 (["--robot", "ugv3", "--port", "ttyS0"], "must be a device"),
                 (["--robot", "ugv3", "--robot-type", "4"], "must be 1, 2 or 3"),
                 (["--robot", "ugv3", "--map", "nowhere.bt"], "nowhere.bt: there is no such file"),
-                (["--robot", "ugv3", "--map", self.write("map.yaml")], "needs a .bt file"),
+                (["--robot", "ugv3", "--map", self.write("map.pgm")], "must be a .bt, .ot or .yaml file"),
                 (["--robot", "ugv3", "--map", self.write("a b.bt")], "characters that cannot be written"),
                 (["--robot", "ugv3", "--key", open_key], "others than its owner may read it"),
                 (["--robot", "ugv3", "--lcm-url", "tcp://x"], "must be topics, or like udpm://"),

@@ -81,7 +81,6 @@ class RobotLaunch(unittest.TestCase):
     def test_what_is_started(self):
         self.assertEqual(self.started(), {"base_driver", "scan_localizer"})
         self.assertEqual(self.started("base:=false", "localizer:=false"), set())
-        self.assertEqual(self.started("mapping:=true"), {"base_driver", "map_is_odometry"})
         self.assertEqual(self.started("lidar_frame:=laser_link"), {"base_driver", "scan_localizer", "lidar_frame"})
         self.assertEqual(self.started("lidar_frame:=ugv3/laser", "rviz:=true"), {"base_driver", "scan_localizer", "rviz"})
         vendor = ROOT / "test/rostest/vendor_lidar.launch"
@@ -90,7 +89,9 @@ class RobotLaunch(unittest.TestCase):
     def test_the_map_is_for_localiser_and_perception_and_not_for_mapping(self):
         known = load(self.FILE, ["map_file:=/flat.bt"]).params
         self.assertEqual([known[f"/ugv3/{node}/map_file"].value for node in ("perception", "scan_localizer")], 2 * ["/flat.bt"])
-        self.assertEqual(load(self.FILE, ["map_file:=/flat.bt", "mapping:=true"]).params["/ugv3/perception/map_file"].value, "")
+        mapping = load(self.FILE, ["map_file:=/flat.bt", "mapping:=true"]).params
+        self.assertEqual([mapping[f"/ugv3/{node}/map_file"].value for node in ("perception", "scan_localizer")], 2 * [""])
+        self.assertEqual([params["/ugv3/scan_localizer/mapping"].value for params in (known, mapping)], [False, True])
 
     def test_scans_come_from_the_lidars_topic(self):
         config = load(self.FILE, ["lidar_topic:=/scan"])
