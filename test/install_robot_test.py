@@ -117,6 +117,9 @@ class InstallRobot(unittest.TestCase):
         self.install("--priority", "5", "--clock", "")
         self.assertEqual((self.settings()["ROBOT"], self.settings()["PRIORITY"]), ("ugv3", "5"))
         self.assertEqual(set(files) - self.files(), {CLOCK})
+        self.write(SETTINGS, self.read(SETTINGS) + "ROS_HOSTNAME=ugv3.local\n")
+        self.install()
+        self.assertEqual(self.settings()["ROS_HOSTNAME"], "ugv3.local")
 
     def test_multicast_route(self):
         self.install("--robot", "ugv3", "--interface", "wlan1")
