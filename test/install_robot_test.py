@@ -20,6 +20,7 @@ USER = "daemon" if getpass.getuser() == "root" else getpass.getuser()
 UNIT = "etc/systemd/system/mocha_ugv.service"
 SETTINGS = "etc/mocha_ugv/robot.env"
 CLOCK = "etc/chrony/conf.d/mocha_ugv.conf"
+NAMED = ("--robot", "ugv3", "--mapping", "true")
 ROUTE = "etc/NetworkManager/dispatcher.d/50-mocha_ugv"
 BOOT = "boot/firmware/config.txt"
 
@@ -87,13 +88,13 @@ class InstallRobot(unittest.TestCase):
 
     def test_service_says_all_that_the_launch_file_asks(self):
         asked = {argument.get("name") for argument in ElementTree.parse(ROOT / "launch/robot.launch").findall("arg")}
-        self.install("--robot", "ugv3")
+        self.install(*NAMED)
         self.assertEqual(set(re.findall(r'"(\w+):=', self.read(UNIT))), asked - {"rviz"})
 
     def test_defaults_are_those_of_the_launch_file(self):
-        self.install("--robot", "ugv3")
+        self.install(*NAMED)
         given = roslaunch.config.ROSLaunchConfig()
-        roslaunch.xmlloader.XmlLoader().load(str(ROOT / "launch/robot.launch"), given, argv=["robot:=ugv3"], verbose=False)
+        roslaunch.xmlloader.XmlLoader().load(str(ROOT / "launch/robot.launch"), given, argv=["robot:=ugv3", "mapping:=true"], verbose=False)
         installed = self.launched()
         self.assertEqual({name: value.value for name, value in installed.params.items()},
                          {name: value.value for name, value in given.params.items()})
@@ -102,7 +103,7 @@ class InstallRobot(unittest.TestCase):
     def test_service_is_sound(self):
         if not shutil.which("systemd-analyze"):
             self.skipTest("no systemd-analyze")
-        self.install("--robot", "ugv3")
+        self.install(*NAMED)
         self.write("unit/mocha_ugv.service", self.read(UNIT).replace("/opt/mocha_ugv/env.sh", "/usr/bin/env"))
         verdict = subprocess.run(["systemd-analyze", "verify", "--man=no", self.root / "unit/mocha_ugv.service"], text=True,
                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
@@ -110,9 +111,9 @@ class InstallRobot(unittest.TestCase):
         self.assertIn(f"User={USER}\n", self.read(UNIT))
 
     def test_run_again_it_changes_what_is_named(self):
-        self.install("--robot", "ugv3", "--priority", "4", "--clock", "ugv1.local")
+        self.install(*NAMED, "--priority", "4", "--clock", "ugv1.local")
         files = {path: self.read(path) for path in self.files()}
-        self.install("--robot", "ugv3")
+        self.install(*NAMED)
         self.assertEqual({path: self.read(path) for path in self.files()}, files)
         self.install("--priority", "5", "--clock", "")
         self.assertEqual((self.settings()["ROBOT"], self.settings()["PRIORITY"]), ("ugv3", "5"))
@@ -122,7 +123,7 @@ class InstallRobot(unittest.TestCase):
         self.assertEqual(self.settings()["ROS_HOSTNAME"], "ugv3.local")
 
     def test_multicast_route(self):
-        self.install("--robot", "ugv3", "--interface", "wlan1")
+        self.install(*NAMED, "--interface", "wlan1")
         self.assertTrue(os.access(self.root / ROUTE, os.X_OK))
         for arguments, routed in ((["wlan1", "up"], True), (["wlan1", "down"], False), (["eth0", "up"], False)):
             script = self.read(ROUTE).replace("/etc/", f"{self.root}/etc/").replace("ip route", "echo route")
@@ -130,7 +131,7 @@ class InstallRobot(unittest.TestCase):
             self.assertEqual(output, "route replace 224.0.0.0/4 dev wlan1\n" if routed else "")
 
     def test_clock(self):
-        self.install("--robot", "ugv3")
+        self.install(*NAMED)
         self.assertNotIn(CLOCK, self.files())
         self.install("--clock", "ugv1.local")
         self.assertIn("server ugv1.local iburst", self.read(CLOCK))
@@ -140,7 +141,7 @@ class InstallRobot(unittest.TestCase):
     def test_serial_line(self):
         self.write("proc/device-tree/model", "Raspberry Pi 4 Model B Rev 1.4\0")
         self.write(BOOT, "[cm4]\notg_mode=1\n")
-        self.assertIn("raspi-config nonint do_serial_cons 1", self.install("--robot", "ugv3"))
+        self.assertIn("raspi-config nonint do_serial_cons 1", self.install(*NAMED))
         self.assertEqual(self.settings()["PORT"], "/dev/serial0")
         self.assertEqual(self.read(BOOT), "[cm4]\notg_mode=1\n\n[all]\ndtoverlay=disable-bt\n")
         self.install()
@@ -149,18 +150,18 @@ class InstallRobot(unittest.TestCase):
     def test_serial_line_of_a_raspberry_pi_5(self):
         self.write("proc/device-tree/model", "Raspberry Pi 5 Model B Rev 1.0\0")
         self.write(BOOT)
-        self.assertIn("raspi-config nonint do_serial_hw 0", self.install("--robot", "ugv3"))
+        self.assertIn("raspi-config nonint do_serial_hw 0", self.install(*NAMED))
         self.assertEqual((self.settings()["PORT"], self.read(BOOT)), ("/dev/ttyAMA0", ""))
 
     def test_serial_line_of_others_is_left_alone(self):
-        self.assertNotIn("raspi-config", self.install("--robot", "ugv3"))
+        self.assertNotIn("raspi-config", self.install(*NAMED))
         self.write("proc/device-tree/model", "Raspberry Pi 4 Model B Rev 1.4\0")
         self.assertNotIn("raspi-config", self.install("--base", "false"))
 
     # --- what it does not write ---
 
     def test_dry_run_writes_nothing(self):
-        said = self.install("--robot", "ugv3", "--dry-run")
+        said = self.install(*NAMED, "--dry-run")
         self.assertEqual(self.files(), set())
         for word in (SETTINGS, UNIT, ROUTE, "ROBOT=ugv3", "scripts/build --robot /opt/mocha_ugv", "systemctl enable mocha_ugv"):
             self.assertIn(word, said)
@@ -169,7 +170,7 @@ class InstallRobot(unittest.TestCase):
         self.write(BOOT, "arm_64bit=1\n")
         self.write("opt/other/file")
         before = self.files()
-        self.install("--robot", "ugv3", "--clock", "self")
+        self.install(*NAMED, "--clock", "self")
         self.write("opt/mocha_ugv/env.sh")
         self.install("--uninstall", "--dry-run")
         self.assertIn("opt/mocha_ugv/env.sh", self.files())
@@ -184,28 +185,29 @@ class InstallRobot(unittest.TestCase):
                 ([], "--robot is missing"),
                 (["--robot", "3ugv"], "a name of letters, digits and _"),
                 (["--robot"], "--robot needs a value"),
-                (["--robot", "ugv3", "--model", "tank"], "there is no config/robots/tank.yaml"),
-                (["--robot", "ugv3", "--model", "../robots/rover"], "there is no config/robots/"),
-                (["--robot", "ugv3", "--priority", "high"], 'priority "high": must be a whole number'),
-                (["--robot", "ugv3", "--base", "no"], "must be true or false"),
-                (["--robot", "ugv3", "--port", "ttyS0"], "must be a device"),
-                (["--robot", "ugv3", "--robot-type", "4"], "must be 1, 2 or 3"),
-                (["--robot", "ugv3", "--map", "nowhere.bt"], "nowhere.bt: there is no such file"),
-                (["--robot", "ugv3", "--map", self.write("map.pgm")], "must be a .bt, .ot or .yaml file"),
-                (["--robot", "ugv3", "--map", self.write("a b.bt")], "characters that cannot be written"),
-                (["--robot", "ugv3", "--key", open_key], "others than its owner may read it"),
-                (["--robot", "ugv3", "--lcm-url", "tcp://x"], "must be topics, or like udpm://"),
-                (["--robot", "ugv3", "--prefix", "/usr/local"], "ends in /mocha_ugv"),
-                (["--robot", "ugv3", "--user", "no_such_user"], "there is no such user"),
-                (["--robot", "ugv3", "--user", "root"], "is not to run as root"),
-                (["--robot", "ugv3", "--speed", "9"], "unknown option --speed"),
+                (["--robot", "ugv3"], "no map to localise in"),
+                ([*NAMED, "--model", "tank"], "there is no config/robots/tank.yaml"),
+                ([*NAMED, "--model", "../robots/rover"], "there is no config/robots/"),
+                ([*NAMED, "--priority", "high"], 'priority "high": must be a whole number'),
+                ([*NAMED, "--base", "no"], "must be true or false"),
+                ([*NAMED, "--port", "ttyS0"], "must be a device"),
+                ([*NAMED, "--robot-type", "4"], "must be 1, 2 or 3"),
+                ([*NAMED, "--map", "nowhere.bt"], "nowhere.bt: there is no such file"),
+                ([*NAMED, "--map", self.write("map.pgm")], "must be a .bt, .ot or .yaml file"),
+                ([*NAMED, "--map", self.write("a b.bt")], "characters that cannot be written"),
+                ([*NAMED, "--key", open_key], "others than its owner may read it"),
+                ([*NAMED, "--lcm-url", "tcp://x"], "must be topics, or like udpm://"),
+                ([*NAMED, "--prefix", "/usr/local"], "ends in /mocha_ugv"),
+                ([*NAMED, "--user", "no_such_user"], "there is no such user"),
+                ([*NAMED, "--user", "root"], "is not to run as root"),
+                ([*NAMED, "--speed", "9"], "unknown option --speed"),
                 (["ugv3"], "unexpected argument ugv3")]:
             with self.subTest(arguments=arguments):
                 before = self.files()
                 self.assertIn(complaint, self.install(*arguments, expect=2))
                 self.assertEqual(self.files(), before)
         if os.geteuid() == 0:
-            self.assertIn("does not belong to daemon", self.install("--robot", "ugv3", "--key", foreign_key, expect=2))
+            self.assertIn("does not belong to daemon", self.install(*NAMED, "--key", foreign_key, expect=2))
 
 
 if __name__ == "__main__":
