@@ -4,6 +4,8 @@ foreach(name architecture install_robot launch_files robot_description)
   add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/${name}_test.py)
 endforeach()
 
+add_test(NAME install_space COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/install_space_test.py ${CMAKE_BINARY_DIR})
+
 set(core_folders config trajectory world camouflage safety perception fleet control base simulation topology
     optimization planning ros)
 foreach(folder ${core_folders})
