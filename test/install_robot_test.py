@@ -160,6 +160,12 @@ class InstallRobot(unittest.TestCase):
 
     # --- what it does not write ---
 
+    def test_workspace_of_the_lidars_driver_is_entered_before_the_build(self):
+        self.write("lidar_ws/devel/setup.bash")
+        said = self.install(*NAMED, "--workspace", "lidar_ws/devel")
+        self.assertRegex(said, f"(?s)would run: . {self.root}/lidar_ws/devel/setup.bash\n.*scripts/build")
+        self.assertEqual(said, self.install())
+
     def test_dry_run_writes_nothing(self):
         said = self.install(*NAMED, "--dry-run")
         self.assertEqual(self.files(), set())
@@ -195,6 +201,7 @@ class InstallRobot(unittest.TestCase):
                 ([*NAMED, "--map", "nowhere.bt"], "nowhere.bt: there is no such file"),
                 ([*NAMED, "--map", self.write("map.pgm")], "must be a .bt, .ot or .yaml file"),
                 ([*NAMED, "--map", self.write("a b.bt")], "characters that cannot be written"),
+                ([*NAMED, "--workspace", "/nowhere"], "there is no /nowhere/setup.bash"),
                 ([*NAMED, "--key", open_key], "others than its owner may read it"),
                 ([*NAMED, "--lcm-url", "tcp://x"], "must be topics, or like udpm://"),
                 ([*NAMED, "--prefix", "/usr/local"], "ends in /mocha_ugv"),
