@@ -1,6 +1,10 @@
-# The layering, one gtest binary a folder (test/NAME/*_test.cpp), every rostest below test/rostest, and every test on separate hosts
+# The layering, what stands around the nodes, one gtest binary a folder (test/NAME/*_test.cpp), every rostest below test/rostest, and every test on separate hosts
 # below test/netns.
-add_test(NAME architecture COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/architecture_test.py)
+foreach(name architecture install_robot launch_files robot_description)
+  add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/${name}_test.py)
+endforeach()
+
+add_test(NAME install_space COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/install_space_test.py ${CMAKE_BINARY_DIR})
 
 set(core_folders config trajectory world camouflage safety perception fleet control base simulation topology
     optimization planning ros)
