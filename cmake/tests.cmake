@@ -53,6 +53,9 @@ add_dependencies(fuzz_datagrams mocha_lcm_types)
 add_dependencies(tests fuzz_datagrams)
 add_test(NAME fuzz_datagrams COMMAND fuzz_datagrams 1000000 1)
 
+# Two robots as they are on the floor: through serial lines, finding out where they are for themselves.
+add_test(NAME drive_corridor_rovers COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/drive_test.py corridor_rovers
+  --emulated-bases --map ${PROJECT_SOURCE_DIR}/config/maps/corridor.bt)
 # Fleets that have to agree on who goes first, through the whole stack.
 foreach(world two_swap five four_corners narrow_corridor passing_place ten_through_a_door)
   add_test(NAME drive_${world} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/drive_test.py ${world})
