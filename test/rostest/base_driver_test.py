@@ -12,10 +12,7 @@ import sys
 import threading
 import time
 import unittest
-import xmlrpc.client
 
-import rosgraph
-import rosnode
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -25,6 +22,7 @@ from sensor_msgs.msg import BatteryState, Imu
 from std_srvs.srv import SetBool, Trigger
 from tf2_msgs.msg import TFMessage
 
+from node_process import pid_of
 from serial_line import SerialLine
 
 BASE = "/tmp/mocha_base_driver_test_base"
@@ -101,11 +99,6 @@ class Commander:
 
     def be_silent(self):
         self.twist = None
-
-
-def pid_of(node):
-    uri = rosnode.get_api_uri(rosgraph.Master("/base_driver_test"), node, skip_cache=True)
-    return xmlrpc.client.ServerProxy(uri).getPid("/base_driver_test")[2]
 
 
 class BaseDriverTest(unittest.TestCase):
