@@ -11,7 +11,8 @@ RECORDED = ["/clock", "/tf", "/tf_static", "/fleet_simulator/ground_truth", "/fl
             "/fleet_simulator/world", "/fleet/promises", "/diagnostics"]
 RECORDED_PER_ROBOT = ["scan", "odom", "cmd_vel", "map", "global_trajectory", "proposed_trajectory",
                       "committed_trajectory", "settlement", "candidates", "planner_status", "replanner_status",
-                      "tracking_error", "fleet/trajectories", "predicted_obstacles", "local_trajectory", "local_markers"]
+                      "tracking_error", "fleet/trajectories", "predicted_obstacles", "local_trajectory", "local_markers",
+                      "move_base/goal", "localization", "localized_pose"]
 
 
 def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, lcm_url="", emulated_bases=False, map_file="",

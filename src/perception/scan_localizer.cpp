@@ -166,15 +166,22 @@ bool ScanLocalizer::wants_search(double time_s) const {
 void ScanLocalizer::search(const ScanHits& scan) {
   searched_s_ = scan.time_s;
   if (!search_) search_.emplace(*walls_, options_.search);
-  const double needed = expected_ ? options_.good_quality : options_.sure_quality;
-  if (expected_) add_place(scan, *expected_, needed);
   const PlaceSearch::Result result = search_->find(scan);
   searched_in_vain_ = !result.complete;
-  for (const PlaceSearch::Place& found : result.places) {
-    if (expected_ ? !is_within(*expected_, found.pose) : !result.complete) continue;
-    add_place(scan, {found.pose, diagonal(kFoundSigma_m, kFoundSigma_rad)}, needed);
+  const auto add_found = [&](const PlaceSearch::Place& found, double needed_quality) {
+    add_place(scan, {found.pose, diagonal(kFoundSigma_m, kFoundSigma_rad)}, needed_quality);
+  };
+  if (expected_) {
+    add_place(scan, *expected_, options_.good_quality);
+    for (const PlaceSearch::Place& found : result.places) {
+      if (is_within(*expected_, found.pose)) add_found(found, options_.good_quality);
+    }
+    expected_.reset();
+    drop_hopeless(scan.time_s);
+    if (!places_.empty()) return;
   }
-  expected_.reset();
+  if (!result.complete) return;
+  for (const PlaceSearch::Place& found : result.places) add_found(found, options_.sure_quality);
   drop_hopeless(scan.time_s);
 }
 

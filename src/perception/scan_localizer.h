@@ -68,8 +68,8 @@ class ScanLocalizer {
   void begin(const Pose& base);
 
   /// Somebody says where the robot is at the next scan, more or less: what was believed is
-  /// forgotten, and only places within three standard deviations of it are looked at. Where none
-  /// explains the scan, the whole map is searched from the next search on.
+  /// forgotten, and places within three standard deviations of it come first. Only where none of
+  /// them explains the scan, others count as well.
   void expect(const PoseEstimate& base);
 
   /// Takes the next scan, and the pose of base_link in the odometry frame at its time. Nothing is

@@ -16,12 +16,13 @@ import rosgraph
 import rospkg
 import rospy
 import rostest
-import yaml
 from geometry_msgs.msg import PoseStamped
 from mocha_ugv.msg import PlannerStatus
 from mocha_ugv.srv import PlanTrajectory
 from nav_msgs.msg import OccupancyGrid
 from rosgraph_msgs.msg import Clock
+
+from world_shapes import distance_to_circles, distance_to_surfaces, load_shapes, occupied_places
 
 ROOT = rospkg.RosPack().get_path("mocha_ugv")
 WORLD = os.path.join(ROOT, "config/worlds/corridor.yaml")
@@ -37,29 +38,6 @@ def record(out):
     return subprocess.run(["/usr/bin/python3", "-m", "mocha_scripts.demo", "--headless", "--rate", "0", "--world", WORLD,
                            "--limit", str(RECORDED_S), "--out", out],
                           env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120.0)
-
-
-def occupied_places(grid):
-    cells = np.array(grid.data, dtype=np.int8).reshape(grid.info.height, grid.info.width)
-    rows, columns = np.nonzero(cells >= 50)
-    origin = np.array((grid.info.origin.position.x, grid.info.origin.position.y))
-    return origin + (np.column_stack((columns, rows)) + 0.5) * grid.info.resolution
-
-
-def distance_to_circles(places, circles):
-    """To the nearest rim, for every place."""
-    offsets = places[:, None, :] - circles[None, :, :2]
-    return np.abs(np.linalg.norm(offsets, axis=2) - circles[None, :, 2]).min(axis=1)
-
-
-def distance_to_walls(places, polygons):
-    nearest = np.full(len(places), np.inf)
-    for polygon in polygons:
-        for begin, end in zip(polygon, polygon[1:] + polygon[:1]):
-            begin, along = np.array(begin), np.array(end) - np.array(begin)
-            share = np.clip((places - begin) @ along / (along @ along), 0.0, 1.0)
-            nearest = np.minimum(nearest, np.linalg.norm(places - begin - share[:, None] * along, axis=1))
-    return nearest
 
 
 class ReplayTest(unittest.TestCase):
@@ -126,11 +104,9 @@ class ReplayTest(unittest.TestCase):
 
     def test_3_the_map_is_as_the_world_is(self):
         self.replay.wait(60.0)  # ends with the bag
-        with open(WORLD) as file:
-            world = yaml.safe_load(file)
-        circles = np.array(world["circles"])
+        circles, polygons = load_shapes(WORLD)
         places = occupied_places(self.map)
-        error = np.minimum(distance_to_circles(places, circles), distance_to_walls(places, world["polygons"]))
+        error = distance_to_surfaces(places, circles, polygons)
         self.assertGreater(len(places), 500)
         self.assertGreater(np.mean(error < NEAR_M), 0.99, "%d cells are occupied by nothing" % np.sum(error >= NEAR_M))
         for circle in circles[circles[:, 0] < SEEN_X_M]:
