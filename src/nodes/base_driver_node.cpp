@@ -1,13 +1,10 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <geometry_msgs/Twist.h>
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <std_srvs/SetBool.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <optional>
 #include <string>
 
@@ -17,6 +14,7 @@
 #include "ros/base_messages.h"
 #include "ros/parameters.h"
 #include "ros/robot_identity.h"
+#include "ros/run_stopping_node.h"
 #include "ros/step_loop.h"
 #include "ros/transport.h"
 
@@ -196,29 +194,11 @@ class BaseDriverNode {
   StepLoop loop_;
 };
 
-std::atomic<bool> asked_to_stop{false};
-
-void ask_to_stop(int) { asked_to_stop = true; }
-
 }  // namespace
 }  // namespace mocha
 
 int main(int argc, char** argv) {
-  // Own handlers: the base is to be told before the line closes.
-  ros::init(argc, argv, "base_driver", ros::init_options::NoSigintHandler);
-  std::signal(SIGINT, mocha::ask_to_stop);
-  std::signal(SIGTERM, mocha::ask_to_stop);
-  ros::NodeHandle node;
-  try {
-    mocha::BaseDriverNode driver(node, mocha::read_parameters(ros::NodeHandle("~"), "base_driver"));
-    while (ros::ok() && !mocha::asked_to_stop) {
-      ros::getGlobalCallbackQueue()->callAvailable(mocha::kListenPeriod);
-      driver.listen();
-    }
-    driver.stop();
-  } catch (const std::exception& error) {
-    ROS_FATAL("base_driver: %s", error.what());
-    return 1;
-  }
-  return 0;
+  using Node = mocha::BaseDriverNode;
+  return mocha::run_stopping_node<Node>(argc, argv, "base_driver", mocha::kListenPeriod,
+                                        [](Node& driver) { driver.listen(); });
 }

@@ -3,12 +3,9 @@
 #include <geometry_msgs/Vector3Stamped.h>
 #include <mocha_ugv/Lease.h>
 #include <mocha_ugv/Trajectory.h>
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <stdexcept>
 #include <string>
 
@@ -18,6 +15,7 @@
 #include "ros/parameters.h"
 #include "ros/pose_source.h"
 #include "ros/robot_identity.h"
+#include "ros/run_stopping_node.h"
 #include "ros/step_loop.h"
 #include "ros/transport.h"
 
@@ -197,29 +195,11 @@ class TrajectoryTrackerNode {
   StepLoop loop_;
 };
 
-std::atomic<bool> asked_to_stop{false};
-
-void ask_to_stop(int) { asked_to_stop = true; }
-
 }  // namespace
 }  // namespace mocha
 
 int main(int argc, char** argv) {
-  // Own handlers: the last command has to leave before the connections close.
-  ros::init(argc, argv, "trajectory_tracker", ros::init_options::NoSigintHandler);
-  std::signal(SIGINT, mocha::ask_to_stop);
-  std::signal(SIGTERM, mocha::ask_to_stop);
-  ros::NodeHandle node;
-  try {
-    mocha::TrajectoryTrackerNode tracker(
-        node, mocha::read_parameters(ros::NodeHandle("~"), "trajectory_tracker"));
-    while (ros::ok() && !mocha::asked_to_stop) {
-      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
-    }
-    tracker.stop();
-  } catch (const std::exception& error) {
-    ROS_FATAL("trajectory_tracker: %s", error.what());
-    return 1;
-  }
-  return 0;
+  using Node = mocha::TrajectoryTrackerNode;
+  return mocha::run_stopping_node<Node>(argc, argv, "trajectory_tracker", ros::WallDuration(0.02),
+                                        [](Node&) {});
 }
