@@ -21,7 +21,7 @@ constexpr std::size_t kSizeAt = kSealAt + FleetKey::kSealBytes;
 constexpr std::size_t kFrame = kSizeAt + 2;
 constexpr std::size_t kMostBody = kMostDatagramBytes - kLcmHeader - kFrame;
 
-enum class Kind : std::uint8_t { kPromise = 1, kBeat = 2, kWayRequest = 3 };
+enum class Kind : std::uint8_t { kPromise = 1, kBeat = 2, kWayRequest = 3, kFleetStops = 4 };
 
 PromiseState get_state(ByteReader& in) {
   const auto state = in.get<std::uint8_t>();
@@ -144,6 +144,36 @@ WayRequest get_request(ByteReader& in, std::string agent, std::uint32_t epoch) {
   return request;
 }
 
+void put_stops(ByteWriter& out, const FleetStops& message, std::uint32_t number) {
+  put_head(out, Kind::kFleetStops, message.agent, message.epoch, number);
+  out.put(count_of(message.stops.size(), "emergency stops"));
+  for (const FleetStop& stop : message.stops) {
+    put_name(out, stop.agent);
+    out.put(stop.ordered);
+    out.put(stop.released);
+    put_number<std::int64_t>(out, stop.since_s, kTimes, "the time of an emergency stop");
+    out.put_text(stop.reason);
+  }
+}
+
+FleetStops get_stops(ByteReader& in, std::string agent, std::uint32_t epoch) {
+  FleetStops message;
+  message.agent = std::move(agent);
+  message.epoch = epoch;
+  const std::size_t stops = in.get<std::uint8_t>();
+  for (std::size_t i = 0; i < stops; ++i) {
+    FleetStop stop;
+    stop.agent = get_name(in);
+    stop.ordered = in.get<std::uint64_t>();
+    stop.released = in.get<std::uint64_t>();
+    stop.since_s = get_time(in);
+    stop.reason = in.get_text();
+    message.stops.push_back(std::move(stop));
+  }
+  validate(message);
+  return message;
+}
+
 ByteWriter body_of(const Datagram& datagram) {
   ByteWriter body;
   if (const auto* promise = std::get_if<Promise>(&datagram.message)) {
@@ -152,6 +182,9 @@ ByteWriter body_of(const Datagram& datagram) {
   } else if (const auto* request = std::get_if<WayRequest>(&datagram.message)) {
     validate(*request);
     put_request(body, *request, datagram.number);
+  } else if (const auto* stops = std::get_if<FleetStops>(&datagram.message)) {
+    validate(*stops);
+    put_stops(body, *stops, datagram.number);
   } else {
     put_beat(body, std::get<Beat>(datagram.message), datagram.number);
   }
@@ -160,7 +193,7 @@ ByteWriter body_of(const Datagram& datagram) {
 
 Datagram from_body(ByteReader in) {
   const auto kind = static_cast<Kind>(in.get<std::uint8_t>());
-  require_said(kind >= Kind::kPromise && kind <= Kind::kWayRequest, "is of no known kind");
+  require_said(kind >= Kind::kPromise && kind <= Kind::kFleetStops, "is of no known kind");
   std::string agent = get_name(in);
   const auto epoch = in.get<std::uint32_t>();
   Datagram datagram;
@@ -169,6 +202,8 @@ Datagram from_body(ByteReader in) {
     datagram.message = get_promise(in, std::move(agent), epoch);
   } else if (kind == Kind::kWayRequest) {
     datagram.message = get_request(in, std::move(agent), epoch);
+  } else if (kind == Kind::kFleetStops) {
+    datagram.message = get_stops(in, std::move(agent), epoch);
   } else {
     datagram.message = get_beat(in, std::move(agent), epoch);
   }
