@@ -11,6 +11,7 @@
 
 #include "control/trajectory_tracker.h"
 #include "ros/conversions.h"
+#include "ros/emergency_stop_listener.h"
 #include "ros/live_parameters.h"
 #include "ros/parameters.h"
 #include "ros/pose_source.h"
@@ -55,6 +56,7 @@ class TrajectoryTrackerNode {
         max_lease_(values.number("max_lease")),
         tracker_(tracker_parameters(values),
                  load_robot_model(config_path(""), values.text("robot_model"))),
+        stop_(node),
         pose_(node, robot_, values.number("max_pose_age"), values.number("max_transform_age")),
         commands_(node.advertise<geometry_msgs::Twist>("cmd_vel", 1)),
         errors_(node.advertise<geometry_msgs::Vector3Stamped>("tracking_error", 10)),
@@ -113,6 +115,7 @@ class TrajectoryTrackerNode {
     reading_ = pose_.read(now);
     const TrackerMode before = tracker_.mode();
     const int refused_before = tracker_.refused();
+    tracker_.set_stopped(stop_.stopped(), stop_.reason());
     command_ = tracker_.step(now.toSec(), reading_.state);
     now_ = now;
     publish();
@@ -143,7 +146,8 @@ class TrajectoryTrackerNode {
     using diagnostic_msgs::DiagnosticStatus;
     const TrackerMode mode = tracker_.mode();
     const std::string why = mode == TrackerMode::kStale ? reading_.missing : tracker_.stop_reason();
-    const bool failed = mode == TrackerMode::kErrorBraking || mode == TrackerMode::kStale;
+    const bool failed = mode == TrackerMode::kErrorBraking || mode == TrackerMode::kStale ||
+                        mode == TrackerMode::kEmergency;
     const bool idle_without_pose = mode == TrackerMode::kIdle && !reading_.state;
     if (failed) {
       status.summary(DiagnosticStatus::ERROR, std::string(to_text(mode)) + ": " + why);
@@ -180,6 +184,7 @@ class TrajectoryTrackerNode {
   double initial_lease_;
   double max_lease_;
   TrajectoryTracker tracker_;
+  EmergencyStopListener stop_;
   PoseSource pose_;
   PoseReading reading_;
   UnicycleState command_ = {0.0, 0.0};
