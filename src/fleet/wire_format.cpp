@@ -10,6 +10,7 @@
 #include "fleet/byte_codec.h"
 #include "fleet/message_fields.h"
 #include "fleet/motion_codec.h"
+#include "fleet/stop_codec.h"
 
 namespace mocha {
 namespace {
@@ -144,36 +145,6 @@ WayRequest get_request(ByteReader& in, std::string agent, std::uint32_t epoch) {
   return request;
 }
 
-void put_stops(ByteWriter& out, const FleetStops& message, std::uint32_t number) {
-  put_head(out, Kind::kFleetStops, message.agent, message.epoch, number);
-  out.put(count_of(message.stops.size(), "emergency stops"));
-  for (const FleetStop& stop : message.stops) {
-    put_name(out, stop.agent);
-    out.put(stop.ordered);
-    out.put(stop.released);
-    put_number<std::int64_t>(out, stop.since_s, kTimes, "the time of an emergency stop");
-    out.put_text(stop.reason);
-  }
-}
-
-FleetStops get_stops(ByteReader& in, std::string agent, std::uint32_t epoch) {
-  FleetStops message;
-  message.agent = std::move(agent);
-  message.epoch = epoch;
-  const std::size_t stops = in.get<std::uint8_t>();
-  for (std::size_t i = 0; i < stops; ++i) {
-    FleetStop stop;
-    stop.agent = get_name(in);
-    stop.ordered = in.get<std::uint64_t>();
-    stop.released = in.get<std::uint64_t>();
-    stop.since_s = get_time(in);
-    stop.reason = in.get_text();
-    message.stops.push_back(std::move(stop));
-  }
-  validate(message);
-  return message;
-}
-
 ByteWriter body_of(const Datagram& datagram) {
   ByteWriter body;
   if (const auto* promise = std::get_if<Promise>(&datagram.message)) {
@@ -184,7 +155,8 @@ ByteWriter body_of(const Datagram& datagram) {
     put_request(body, *request, datagram.number);
   } else if (const auto* stops = std::get_if<FleetStops>(&datagram.message)) {
     validate(*stops);
-    put_stops(body, *stops, datagram.number);
+    put_head(body, Kind::kFleetStops, stops->agent, stops->epoch, datagram.number);
+    put_stops(body, stops->stops);
   } else {
     put_beat(body, std::get<Beat>(datagram.message), datagram.number);
   }
@@ -203,7 +175,9 @@ Datagram from_body(ByteReader in) {
   } else if (kind == Kind::kWayRequest) {
     datagram.message = get_request(in, std::move(agent), epoch);
   } else if (kind == Kind::kFleetStops) {
-    datagram.message = get_stops(in, std::move(agent), epoch);
+    FleetStops stops{std::move(agent), epoch, get_stops(in)};
+    validate(stops);
+    datagram.message = std::move(stops);
   } else {
     datagram.message = get_beat(in, std::move(agent), epoch);
   }

@@ -10,7 +10,7 @@
 namespace mocha {
 namespace {
 
-const ros::Duration kKeepAgain(1.0);
+const ros::Duration kKeepAgain(1.0);  // after trouble, or what others say: they may say a lot
 
 }  // namespace
 
@@ -37,12 +37,14 @@ void EmergencyStopControls::on_robot(const Order& order) {
   if (!order.getMessage()->data) return;
   stop_.stop_robot(ros::Time::now().toSec(), "told by " + order.getPublisherName());
   tell();
+  keep();
 }
 
 void EmergencyStopControls::on_fleet(const Order& order) {
   if (!order.getMessage()->data) return;
   stop_.stop_fleet(ros::Time::now().toSec(), "told by " + order.getPublisherName());
   tell();
+  keep();
 }
 
 bool EmergencyStopControls::on_robot_call(Call& call) {
@@ -67,6 +69,7 @@ bool EmergencyStopControls::on_fleet_call(Call& call) {
 /// Success is that what was asked for is done; the words say what holds all the same.
 bool EmergencyStopControls::answer(Call& call) {
   tell();
+  keep();
   const bool reset = !call.getRequest().data;
   call.getResponse().success = true;
   call.getResponse().message = (reset && stop_.stopped() ? "still holds: " : "") + message_;
@@ -81,15 +84,14 @@ void EmergencyStopControls::hear(const FleetStops& message, ros::Time now) {
 
 void EmergencyStopControls::step(ros::Time now) {
   for (const FleetStops& message : stop_.tick(now.toSec())) handlers_.say(message);
-  if (kept_ != stop_.changes() && now >= keep_again_) keep();
+  if (now >= keep_again_) keep();
 }
 
 void EmergencyStopControls::tell() {
   if (told_ == stop_.changes()) return;
   publish();
-  step(ros::Time::now());
   handlers_.changed();
-  keep();
+  step(ros::Time::now());
 }
 
 void EmergencyStopControls::publish() {
@@ -106,12 +108,13 @@ void EmergencyStopControls::publish() {
 }
 
 void EmergencyStopControls::keep() {
+  if (kept_ == stop_.changes()) return;
+  keep_again_ = ros::Time::now() + kKeepAgain;
   try {
     save_stops(file_, stop_.record());
     kept_ = stop_.changes();
     trouble_.clear();
   } catch (const std::exception& error) {
-    keep_again_ = ros::Time::now() + kKeepAgain;
     trouble_ = error.what();
     ROS_ERROR_THROTTLE(10.0, "%s: %s", robot_.name.c_str(), trouble_.c_str());
   }

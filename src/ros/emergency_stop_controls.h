@@ -45,9 +45,10 @@ class EmergencyStopControls {
   bool on_robot_call(Call& call);
   bool on_fleet_call(Call& call);
   bool answer(Call& call);
-  /// Tells everybody what has changed, then keeps it.
+  /// Tells everybody what has changed.
   void tell();
   void publish();
+  /// Writes to the file what has changed.
   void keep();
 
   const RobotIdentity robot_;

@@ -2,6 +2,8 @@
 """Emergency stops of a robot and of the fleet, at full speed: within one control period, whoever else is dead, and until the reset."""
 
 import math
+import os
+import shutil
 import sys
 import time
 import unittest
@@ -278,6 +280,19 @@ class EmergencyStopTest(unittest.TestCase):
         self.assertIn((STORE % "ugv1") + " cannot be read", self.first.state.message)
         self.first.call(False)
         self.check_reset(self.first)
+
+    def test_9_what_cannot_be_kept_is_said_and_tried_again(self):
+        store = STORE % "ugv1"
+        os.remove(store)
+        os.makedirs(store + "/in_the_way")
+        self.assertIn("BUT: emergency stops are not kept over a restart: " + store, self.first.call(True).message)
+        since = self.first.now
+        self.run_for(2.0)
+        self.assertTrue(self.first.said("trajectory_broadcaster: emergency stop: .*not kept over a restart", since))
+        shutil.rmtree(store)
+        self.run_for(2.0)
+        with open(store) as file:
+            self.assertIn("robot 1", file.read())
 
 
 if __name__ == "__main__":
