@@ -250,6 +250,7 @@ TEST(TrajectoryTracker, WhileStoppedAndAfterTheResetNothingOldIsDriven) {
   loop.tracker.offer({1, 3}, Motion(12.0, {straight(here, 1, 1.0, 4.0)}), 0.0);  // no lease yet
   loop.run(6.5);
   loop.tracker.set_stopped(false, "");
+  loop.run(7.0);
   loop.tracker.renew({1, 3}, kForever);
   loop.run(17.0);
   EXPECT_LT((loop.robot.pose().position - here.position).norm(), 1e-6);

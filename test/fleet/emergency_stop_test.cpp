@@ -203,6 +203,14 @@ TEST(EmergencyStop, RecordingsPlayedAgainReleaseNothing) {
   }
 }
 
+TEST(EmergencyStop, OfEachNumberTheLargerOneCounts) {
+  EmergencyStop robot("ugv1", 1, {});
+  robot.receive(said("ugv3", {{"ugv2", 5, 5, 0.0, ""}}), 0.0);
+  robot.receive(said("ugv3", {{"ugv2", 6, 4, 0.0, ""}}), 0.0);
+  EXPECT_EQ(robot.record().fleet.at("ugv2").ordered, 6U);
+  EXPECT_EQ(robot.record().fleet.at("ugv2").released, 5U);
+}
+
 TEST(EmergencyStop, AllOrdersOfMessagesLeadToTheSame) {
   Fleet fleet(4, {0.0, 0.3, 0.3});
   std::mt19937 random(3);
@@ -219,7 +227,14 @@ TEST(EmergencyStop, AllOrdersOfMessagesLeadToTheSame) {
   for (int i = 0; i < 20; ++i) {
     std::shuffle(messages.begin(), messages.end(), random);
     EmergencyStop listener("listener", 1, {});
-    for (const FleetStops& message : messages) listener.receive(message, 0.0);
+    for (const FleetStops& message : messages) {
+      const auto before = listener.record().fleet;
+      listener.receive(message, 0.0);
+      for (const auto& [agent, stop] : before) {
+        EXPECT_GE(listener.record().fleet.at(agent).ordered, stop.ordered);
+        EXPECT_GE(listener.record().fleet.at(agent).released, stop.released);
+      }
+    }
     fleet.run(3.0);
     for (const auto& [agent, stop] : fleet.robot(0).record().fleet) {
       EXPECT_EQ(listener.record().fleet.at(agent).ordered, stop.ordered);

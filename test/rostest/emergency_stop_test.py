@@ -14,6 +14,7 @@ from geometry_msgs.msg import Twist
 from mocha_ugv.msg import EmergencyStopState, FleetTrajectories
 from std_msgs.msg import Bool
 from std_srvs.srv import SetBool
+from visualization_msgs.msg import MarkerArray
 
 from simulated_robot import SimulatedRobot, pose
 
@@ -35,9 +36,11 @@ class Robot(SimulatedRobot):
         self.command = Twist()
         self.state = None
         self.peers = {}
+        self.labels = []  # in rviz
         rospy.Subscriber("/%s/cmd_vel" % name, Twist, self.on_command, tcp_nodelay=True)
         rospy.Subscriber("/%s/emergency_stop_state" % name, EmergencyStopState, self.on_state)
         rospy.Subscriber("/%s/fleet/trajectories" % name, FleetTrajectories, self.on_fleet)
+        rospy.Subscriber("/%s/motion_markers" % name, MarkerArray, self.on_markers)
         self.topics = {scope: rospy.Publisher("/%s/%semergency_stop" % (name, scope), Bool, queue_size=1) for scope in ("", "fleet/")}
 
     def on_command(self, twist):
@@ -48,6 +51,9 @@ class Robot(SimulatedRobot):
 
     def on_fleet(self, message):
         self.peers = {trajectory.agent: trajectory for trajectory in message.trajectories}
+
+    def on_markers(self, drawing):
+        self.labels = [marker.text for marker in drawing.markers if marker.text]
 
     def call(self, stop, scope=""):
         """The answer of the service."""
@@ -165,6 +171,7 @@ class EmergencyStopTest(unittest.TestCase):
         self.assertEqual(self.second.outcome()[0], "SUCCEEDED")
         self.assertEqual((self.first.state.robot, self.first.state.fleet, self.first.state.by), (True, False, ["ugv1"]))
         self.assertIn("called by " + rospy.get_name(), self.first.state.message)
+        self.assertIn("ugv1: EMERGENCY STOP", self.first.labels)
         # Its team-mate knows where it stands.
         promise = self.second.peers["ugv1"].phases[-1]
         self.assertLess(math.dist((promise.x[-1], promise.y[-1]), self.first.place()), 0.06)
@@ -178,6 +185,7 @@ class EmergencyStopTest(unittest.TestCase):
         self.check_stopped(self.first)
         self.assertEqual(self.first.call(False).message, "no emergency stop")
         self.check_reset(self.first)
+        self.assertIn("ugv1", self.first.labels)
 
     def test_2_a_robot_by_topic(self):
         self.drive_to_speed(self.second)
