@@ -14,7 +14,7 @@ ros::Time ros_time(double t) {
 }
 
 std::string since(double t) {
-  return " since " + boost::posix_time::to_simple_string(ros_time(t).toBoost());
+  return " since " + boost::posix_time::to_simple_string(ros_time(t).toBoost()) + " UTC";
 }
 
 std::string reset_by(const std::string& service) {

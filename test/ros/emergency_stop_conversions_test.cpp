@@ -41,9 +41,10 @@ TEST(EmergencyStopConversions, TheStateSaysWhoSinceWhenAndHowToReset) {
   auto state = state_of(stop, "ugv1", kStamp);
   EXPECT_TRUE(state.stopped && state.robot && !state.fleet);
   EXPECT_EQ(state.by, std::vector<std::string>{"ugv1"});
-  EXPECT_EQ(state.message,
-            "emergency stop of ugv1 since 2023-Nov-14 22:13:20.250000: told by /joystick; to reset "
-            "it: rosservice call /emergency_stop false");
+  EXPECT_EQ(
+      state.message,
+      "emergency stop of ugv1 since 2023-Nov-14 22:13:20.250000 UTC: told by /joystick; to reset "
+      "it: rosservice call /emergency_stop false");
 
   stop.receive({"ugv2", 1, {{"ugv2", 1, 0, kStamp.toSec(), "called by /rviz"}}}, 0.0);
   state = state_of(stop, "ugv1", kStamp);
