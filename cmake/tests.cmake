@@ -1,6 +1,10 @@
-# The layering, one gtest binary a folder (test/NAME/*_test.cpp), every rostest below test/rostest, and every test on separate hosts
+# The layering, what stands around the nodes, one gtest binary a folder (test/NAME/*_test.cpp), every rostest below test/rostest, and every test on separate hosts
 # below test/netns.
-add_test(NAME architecture COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/architecture_test.py)
+foreach(name architecture install_robot launch_files robot_description)
+  add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/${name}_test.py)
+endforeach()
+
+add_test(NAME install_space COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/install_space_test.py ${CMAKE_BINARY_DIR})
 
 set(core_folders config trajectory world camouflage safety perception fleet control base simulation topology
     optimization planning ros)
@@ -20,6 +24,9 @@ endforeach()
 target_sources(test_planning PRIVATE test/benchmarks/replan_scene.cpp test/benchmarks/space_time_solver.cpp
   test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp test/benchmarks/one_phase.cpp
   test/benchmarks/benchmark_world.cpp)
+
+# Simulated drives for the localiser.
+target_link_libraries(test_perception mocha_simulation)
 
 file(GLOB rostests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/rostest/*.test)
 foreach(test ${rostests})
@@ -46,6 +53,9 @@ add_dependencies(fuzz_datagrams mocha_lcm_types)
 add_dependencies(tests fuzz_datagrams)
 add_test(NAME fuzz_datagrams COMMAND fuzz_datagrams 1000000 1)
 
+# Two robots as they are on the floor: through serial lines, finding out where they are for themselves.
+add_test(NAME drive_corridor_rovers COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/drive_test.py corridor_rovers
+  --emulated-bases --map ${PROJECT_SOURCE_DIR}/config/maps/corridor.bt)
 # Fleets that have to agree on who goes first, through the whole stack.
 foreach(world two_swap five four_corners narrow_corridor passing_place ten_through_a_door)
   add_test(NAME drive_${world} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/drive_test.py ${world})

@@ -28,6 +28,7 @@ LIBRARIES = {
             r"|xmlrpcpp|\w+_msgs|std_srvs|mocha_ugv)/|XmlRpc", r"(ros|nodes)/"),
     "OctoMap": (r"octomap", r"perception/"),
     "CGAL": (r"CGAL/", r"topology/apollonius_roadmap\.cpp"),
+    "Ceres": (r"ceres/", r"perception/scan_matcher\.cpp"),
     "LCM": (r"(mocha_)?lcm/", r"fleet/wire_format\.|nodes/lcm_channel\."),
     "libsodium": (r"sodium", r"fleet/fleet_key\.cpp"),
     "Boost.Asio": (r"boost/asio", r"base/serial_port\."),

@@ -2,7 +2,7 @@
 """Drives the robots of a world through the whole stack, as scripts/demo does: all arrive, without contact, and the centres of no two
 robots ever come closer than the paper's safety distance.
 
-    drive_test.py WORLD     (a file in config/worlds, without .yaml)"""
+    drive_test.py WORLD [OPTION ...]     (a file in config/worlds, without .yaml, and options of scripts/demo)"""
 import json
 import os
 import pathlib
@@ -27,12 +27,12 @@ def faults(results):
         yield f"two robots came as close as {results['min_separation_m']:.3f} m"
 
 
-def main(world):
+def main(world, options):
     with tempfile.TemporaryDirectory() as out:
         table = os.path.join(out, "table.json")
         environment = dict(os.environ, ROS_HOME=out, PYTHONPATH=f"{ROOT}/scripts:{os.environ.get('PYTHONPATH', '')}")
         demo = subprocess.run(["/usr/bin/python3", "-m", "mocha_scripts.demo", "--headless", "--rate", "0", "--no-plots",
-                               "--world", str(ROOT / f"config/worlds/{world}.yaml"), "--limit", str(LIMIT_S), "--json", table, "--out", out],
+                               "--world", str(ROOT / f"config/worlds/{world}.yaml"), "--limit", str(LIMIT_S), "--json", table, "--out", out, *options],
                               env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=600.0)
         print(demo.stdout)
         with open(table) as file:
@@ -43,4 +43,4 @@ def main(world):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(sys.argv[1], sys.argv[2:]))

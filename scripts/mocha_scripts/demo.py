@@ -20,6 +20,10 @@ def parse(arguments):
     parser.add_argument("--seed", type=int, default=1, help="of sensor noise and odometry drift (default 1)")
     parser.add_argument("--lcm", metavar="URL", nargs="?", const=LCM_URL, default="",
                         help=f"robots hear each other over LCM instead of topics (default URL {LCM_URL}: this host only)")
+    parser.add_argument("--emulated-bases", action="store_true",
+                        help="drive through base drivers, serial lines and emulated bases instead of directly")
+    parser.add_argument("--map", metavar="FILE", default="",
+                        help="robots find out where they are for themselves, in this map of the world (.bt); without, they are told the truth")
     parser.add_argument("--limit", type=float, default=180.0, metavar="SECONDS",
                         help="simulated seconds allowed (default 180)")
     parser.add_argument("--json", metavar="FILE", help="write the results of the table there")
@@ -76,7 +80,8 @@ def main(arguments):
     print(f"demo: {' and '.join(names)} drive through {shown(options.world)} (log: {shown(options.out)}/drive.log)\n"
           "demo: simulated time, and how far each robot has driven", flush=True)
     results, why = drive.drive(options.world, names, options.out, rate=options.rate, seed=options.seed, rviz=show,
-                               record=not options.no_plots, limit_s=options.limit, lcm_url=options.lcm, progress=Progress())
+                               record=not options.no_plots, limit_s=options.limit, lcm_url=options.lcm,
+                               emulated_bases=options.emulated_bases, map_file=options.map, progress=Progress())
     print(f"demo: {why}\n\n" + referee.table(results) + "\n", flush=True)
     if options.json:
         with open(options.json, "w") as file:

@@ -14,14 +14,17 @@ RECORDED_PER_ROBOT = ["scan", "odom", "cmd_vel", "map", "global_trajectory", "pr
                       "tracking_error", "fleet/trajectories", "predicted_obstacles", "local_trajectory", "local_markers"]
 
 
-def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, lcm_url="", limit_s=180.0, stop_at_contact=False,
-          progress=lambda referee: None):
+def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, lcm_url="", emulated_bases=False, map_file="",
+          limit_s=180.0, stop_at_contact=False, progress=lambda referee: None):
     """Drives the fleet of a world file. Returns (results, why): `why` says what ended the drive.
 
-    The limit is in simulated seconds. Logs, and the rosbag `drive.bag`, go to the directory `out`."""
+    With a `map_file` the robots localise themselves in it. The limit is in simulated seconds. Logs, and the rosbag `drive.bag`, go
+    to the directory `out`."""
     os.makedirs(out, exist_ok=True)
     arguments = {"world": os.path.abspath(world), "rate": rate, "seed": seed, "rviz": str(rviz).lower(),
-                 "lcm_url": lcm_url}
+                 "lcm_url": lcm_url, "emulated_bases": str(emulated_bases).lower(), "localizer": str(bool(map_file)).lower()}
+    if map_file:
+        arguments["map_file"] = os.path.abspath(map_file)
     with Session("fleet_sim.launch", arguments, os.path.join(out, "drive.log")) as session:
         if not _wait_for_launch(session):
             return {"robots": [], "min_separation_m": None}, session.last_words()

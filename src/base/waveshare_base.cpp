@@ -8,6 +8,7 @@ namespace mocha {
 namespace {
 
 constexpr double kSetupPeriod_s = 1.0;
+constexpr double kGyroSigma = 0.02;  // [rad/s] of one reading
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -43,8 +44,18 @@ std::vector<BaseFeedback> WaveshareBase::poll(double now_s) {
   return result;
 }
 
+/// Nothing without a gyroscope: where it is missing or broken, the firmware sends zeros.
+std::optional<double> WaveshareBase::gyro_yaw_rate(const WaveshareFeedback& line) const {
+  if (!options_.use_gyro || !line.imu) return std::nullopt;
+  const auto& rates = line.imu->rate;
+  if (std::all_of(rates.begin(), rates.end(), [](double rate) { return rate == 0.0; }))
+    return std::nullopt;
+  return options_.gyro_scale * rates[2];
+}
+
 BaseFeedback WaveshareBase::feedback(double stamp_s, const WaveshareFeedback& line) {
-  odometry_.add(stamp_s, line.speeds, line.left_cm, line.right_cm);
+  const std::optional<double> yaw_rate = gyro_yaw_rate(line);
+  odometry_.add(stamp_s, {line.speeds, line.left_cm, line.right_cm, yaw_rate});
   const double track = options_.odometry.track_m;
   const double variance = options_.wheel_speed_noise * options_.wheel_speed_noise;
   BaseFeedback result;
@@ -54,6 +65,10 @@ BaseFeedback WaveshareBase::feedback(double stamp_s, const WaveshareFeedback& li
   result.twist = from_wheel_speeds(line.speeds, track);
   result.speed_variance = 0.5 * variance;
   result.yaw_rate_variance = 2.0 * variance / (track * track);
+  if (const auto turning = odometry_.gyro_yaw_rate()) {
+    result.twist.yaw_rate = *turning;
+    result.yaw_rate_variance = kGyroSigma * kGyroSigma;
+  }
   result.battery_v = line.battery_v;
   if (line.imu) {
     const auto& [a, r] = *line.imu;

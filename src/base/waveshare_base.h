@@ -27,6 +27,7 @@ class WaveshareBase : public BaseInterface {
     double feedback_delay_s = 0.0;    ///< from the reading of its sensors to its arrival here
     double acceleration_scale = 1.0;  ///< [m/s^2] per count of the sensor
     double gyro_scale = 1.0;          ///< [rad/s] per count
+    bool use_gyro = true;             ///< for the heading
     double wheel_speed_noise = 0.0;   ///< [m/s] standard deviation of a reported speed
   };
 
@@ -43,6 +44,7 @@ class WaveshareBase : public BaseInterface {
   void send(const std::string& line);
   void send_setup(double now_s);
   void send_stop();
+  std::optional<double> gyro_yaw_rate(const WaveshareFeedback& line) const;
   BaseFeedback feedback(double stamp_s, const WaveshareFeedback& line);
 
   Options options_;

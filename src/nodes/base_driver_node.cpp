@@ -32,11 +32,13 @@ WaveshareBase::Options base_options(const ParameterTable& values, const RobotMod
   options.settings = {values.integer("robot_type"), values.integer("heartbeat"),
                       values.integer("feedback_interval")};
   options.odometry = {model.limits.track_m, model.limits.max_wheel_speed,
-                      model.odometry_noise_distance, model.odometry_noise_yaw};
+                      model.odometry_noise_distance, model.odometry_noise_yaw,
+                      values.number("gyro_noise")};
   options.feedback_timeout_s = values.number("feedback_timeout");
   options.feedback_delay_s = values.number("feedback_delay");
   options.acceleration_scale = values.number("acceleration_scale");
   options.gyro_scale = values.number("gyro_scale");
+  options.use_gyro = values.flag("use_gyro");
   options.wheel_speed_noise = values.number("wheel_speed_noise");
   return options;
 }

@@ -3,29 +3,16 @@
 #include <limits>
 
 #include "ros/conversions.h"
+#include "ros/covariances.h"
 
 namespace mocha {
 namespace {
-
-constexpr double kUnknown = 1e6;  // variance of what a plane does not tell: height, roll, pitch
 
 template <typename Vector>
 void put(const Eigen::Vector3d& from, Vector& to) {
   to.x = from.x();
   to.y = from.y();
   to.z = from.z();
-}
-
-/// Of x, y, z and the rotations about them, from that of x, y and yaw.
-template <typename Covariance>
-void put_covariance(const Eigen::Matrix3d& planar, Covariance& covariance) {
-  constexpr int kPlace[] = {0, 1, 5};
-  covariance.fill(0.0);
-  for (const int other : {2, 3, 4}) covariance[7 * other] = kUnknown;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column)
-      covariance[6 * kPlace[row] + kPlace[column]] = planar(row, column);
-  }
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "ros/pose_source.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include "ros/conversions.h"
 #include "ros/transport.h"
+#include "trajectory/frame_change.h"
 
 namespace mocha {
 namespace {
@@ -24,12 +24,6 @@ bool well_formed(const nav_msgs::Odometry& odometry) {
   return pose.position.allFinite() && std::isfinite(pose.yaw_rad) && std::abs(norm - 1.0) < 0.1 &&
          std::isfinite(odometry.twist.twist.linear.x) &&
          std::isfinite(odometry.twist.twist.angular.z) && !odometry.header.frame_id.empty();
-}
-
-/// `pose` in the parent frame, where its own frame stands at `frame`.
-Pose compose(const Pose& frame, const Pose& pose) {
-  return {frame.position + Eigen::Rotation2Dd(frame.yaw_rad) * pose.position,
-          wrap_angle(frame.yaw_rad + pose.yaw_rad)};
 }
 
 }  // namespace
@@ -85,7 +79,7 @@ PoseReading OdometryPose::read(const tf2::BufferCore& transforms, double now_s) 
   odom_origin.position.y = map_to_odom.transform.translation.y;
   odom_origin.orientation = map_to_odom.transform.rotation;
   reading.state = in_odom_;
-  reading.state->pose = compose(from_message(odom_origin), in_odom_.pose);
+  reading.state->pose = composed(from_message(odom_origin), in_odom_.pose);
   return reading;
 }
 

@@ -13,6 +13,8 @@ constexpr double kTimeSlack_s = 1e-9;    // sums of steps are not exact
 constexpr double kMostWheelSpeed = 2.0;  // [m/s]
 constexpr std::size_t kLongestLine = 4096;
 constexpr double kAccelerometer = 8192.0 / 9.80665;     // counts per m/s^2, range of 4 g
+constexpr double kGyroBias = 0.012;                     // [rad/s]
+constexpr double kGyroNoise = 0.004;                    // [rad/s]
 constexpr double kGyro = 16.4 * 180.0 / 3.14159265359;  // counts per rad/s, range of 2000 deg/s
 constexpr int kBattery_cv = 1185;                       // [V / 100]
 constexpr double kTracks_m[] = {0.125, 0.172, 0.141};   // RaspRover, UGV Rover, UGV Beast
@@ -136,7 +138,12 @@ std::string BaseEmulator::send(double now_s) {
   return text;
 }
 
-std::string BaseEmulator::feedback() const {
+int BaseEmulator::gyro_counts(double rate) {
+  std::normal_distribution<double> noise(0.0, kGyroNoise);
+  return counts(kGyro * (rate + kGyroBias + noise(random_)));
+}
+
+std::string BaseEmulator::feedback() {
   const nlohmann::ordered_json line = {
       {"T", 1001},
       {"L", speeds_.left},
@@ -144,9 +151,9 @@ std::string BaseEmulator::feedback() const {
       {"ax", counts(kAccelerometer * acceleration_)},
       {"ay", counts(kAccelerometer * 0.5 * (speeds_.left + speeds_.right) * yaw_rate_)},
       {"az", counts(kAccelerometer * 9.80665)},
-      {"gx", 0},
-      {"gy", 0},
-      {"gz", counts(kGyro * yaw_rate_)},
+      {"gx", gyro_counts(0.0)},
+      {"gy", gyro_counts(0.0)},
+      {"gz", gyro_counts(yaw_rate_)},
       {"mx", 0},
       {"my", 0},
       {"mz", 0},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <random>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,8 @@ namespace mocha {
 ///   T 13 commands after that is never stopped.
 /// - T 13 does not refresh the heartbeat.
 /// - Odometers count whole centimetres, cut towards zero, and begin again at every start.
+///
+/// Its gyroscope has a bias and noise, as such sensors have.
 ///
 /// Commands are echoed until T 143 says otherwise. What is no JSON is ignored without a word.
 /// Firmware of 2024 and later does not hold an emergency stop (T 0) until its reset (T 999);
@@ -50,7 +53,8 @@ class BaseEmulator {
   void obey_drive(double now_s, const nlohmann::json& command);
   void obey_velocity(const nlohmann::json& command);
   void turn_wheels(const WheelSpeeds& speeds);
-  std::string feedback() const;
+  std::string feedback();
+  int gyro_counts(double rate);
 
   bool holds_stop_;
   std::string partial_;
@@ -70,6 +74,7 @@ class BaseEmulator {
   double right_m_ = 0.0;
   double acceleration_ = 0.0;
   double yaw_rate_ = 0.0;
+  std::mt19937 random_{1};
 };
 
 }  // namespace mocha

@@ -5,68 +5,16 @@
 #include <limits>
 #include <stdexcept>
 
+#include "world/distance_transform.h"
+
 namespace mocha {
 namespace {
-
-constexpr float kFar =
-    1e12f;  // squared cells; stands for "no site", finite so that the envelope's algebra holds
-
-/// Squared distances along one line to parabolas f(q) + (x - q)^2 (Felzenszwalb and Huttenlocher
-/// 2012), in place.
-class LineTransform {
- public:
-  explicit LineTransform(int longest) : value_(longest), vertex_(longest), boundary_(longest + 1) {}
-
-  void run(float* line, int count, std::ptrdiff_t stride) {
-    for (int i = 0; i < count; ++i) value_[i] = line[i * stride];
-    int last = -1;
-    for (int q = 0; q < count; ++q) {
-      if (value_[q] >= kFar) continue;
-      double start = -std::numeric_limits<double>::infinity();
-      while (last >= 0) {
-        start = intersection(vertex_[last], q);
-        if (start > boundary_[last]) break;
-        --last;
-        start = -std::numeric_limits<double>::infinity();
-      }
-      vertex_[++last] = q;
-      boundary_[last] = start;
-    }
-    if (last < 0) return;
-    int k = 0;
-    for (int x = 0; x < count; ++x) {
-      while (k < last && boundary_[k + 1] < x) ++k;
-      const float offset = static_cast<float>(x - vertex_[k]);
-      line[x * stride] = offset * offset + value_[vertex_[k]];
-    }
-  }
-
- private:
-  double intersection(int p, int q) const {
-    const double fp = static_cast<double>(value_[p]) + static_cast<double>(p) * p;
-    const double fq = static_cast<double>(value_[q]) + static_cast<double>(q) * q;
-    return (fq - fp) / (2.0 * (q - p));
-  }
-
-  std::vector<float> value_;
-  std::vector<int> vertex_;
-  std::vector<double> boundary_;
-};
-
-/// Distances [cells] from every corner to the nearest site; `squared` holds 0 at sites and kFar
-/// elsewhere.
-void distance_transform(std::vector<float>& squared, int columns, int rows) {
-  LineTransform line(std::max(columns, rows));
-  for (int y = 0; y < rows; ++y)
-    line.run(&squared[static_cast<std::size_t>(y) * columns], columns, 1);
-  for (int x = 0; x < columns; ++x) line.run(&squared[x], rows, columns);
-}
 
 /// Marks the corners of all cells that are (or are not) solid as sites.
 std::vector<float> corner_sites(const OccupancyGrid& grid, const std::vector<bool>& solid,
                                 bool wanted) {
   const int columns = grid.width + 1;
-  std::vector<float> sites(static_cast<std::size_t>(columns) * (grid.height + 1), kFar);
+  std::vector<float> sites(static_cast<std::size_t>(columns) * (grid.height + 1), kNoSite);
   for (int y = 0; y < grid.height; ++y) {
     for (int x = 0; x < grid.width; ++x) {
       if (solid[static_cast<std::size_t>(y) * grid.width + x] != wanted) continue;
@@ -117,7 +65,7 @@ DistanceField::DistanceField(const OccupancyGrid& grid, Solid solid)
     distance_transform(inside, columns_, rows_);
   }
   distance_m_.resize(outside.size());
-  const float scale = static_cast<float>(resolution_m_);
+  const auto scale = static_cast<float>(resolution_m_);
   for (std::size_t i = 0; i < outside.size(); ++i) {
     distance_m_[i] = scale * (outside[i] > 0.0f ? std::sqrt(outside[i]) : -std::sqrt(inside[i]));
   }

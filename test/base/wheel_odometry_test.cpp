@@ -98,12 +98,13 @@ Pose drive(WheelOdometry& odometry, double speed, double yaw_rate, double durati
   const WheelSpeeds wheels = wheel_speeds({speed, yaw_rate}, kTrack_m);
   Pose truth;
   WheelSpeeds rolled{0.0, 0.0};
-  odometry.add(0.0, wheels, 0, 0);
+  odometry.add(0.0, {wheels, 0, 0, std::nullopt});
   const int steps = static_cast<int>(std::lround(duration_s / kInterval_s));
   for (int i = 1; i <= steps; ++i) {
     truth = advanced(truth, {speed * kInterval_s, yaw_rate * kInterval_s});
     rolled = {rolled.left + wheels.left * kInterval_s, rolled.right + wheels.right * kInterval_s};
-    odometry.add(kInterval_s * i, wheels, odometer_cm(rolled.left), odometer_cm(rolled.right));
+    odometry.add(kInterval_s * i,
+                 {wheels, odometer_cm(rolled.left), odometer_cm(rolled.right), std::nullopt});
   }
   return truth;
 }
@@ -142,9 +143,89 @@ TEST(WheelOdometry, AHeadingInDoubtMakesThePlaceAcrossDoubtful) {
   drive(odometry, 0.0, 1.0, 2.0 * 3.14159);
   const double before = odometry.covariance()(1, 1);
   double t = 100.0;
-  odometry.add(t, {0.0, 0.0}, -54, 54);
-  for (int cm = 1; cm <= 400; ++cm) odometry.add(t += kInterval_s, {0.4, 0.4}, -54 + cm, 54 + cm);
+  odometry.add(t, {{0.0, 0.0}, -54, 54, std::nullopt});
+  for (int cm = 1; cm <= 400; ++cm)
+    odometry.add(t += kInterval_s, {{0.4, 0.4}, -54 + cm, 54 + cm, std::nullopt});
   EXPECT_GT(odometry.covariance()(1, 1), before + 0.01);
+}
+
+/// A base that turns on the spot with wheels that skid: they roll for half as much again as the
+/// base turns. Its gyroscope has a bias.
+class SkiddingBase {
+ public:
+  explicit SkiddingBase(WheelOdometry& odometry) : odometry_(odometry) {}
+
+  void turn(double yaw_rate, double duration_s) {
+    for (double t = 0.0; t < duration_s - 1e-9; t += kInterval_s) {
+      yaw_rad += yaw_rate * kInterval_s;
+      const double rim = 1.5 * yaw_rate * 0.5 * kTrack_m;
+      rolled_m_ += rim * kInterval_s;
+      odometry_.add(stamp_s_ += kInterval_s,
+                    {{-rim, rim},
+                     odometer_cm(-rolled_m_),
+                     odometer_cm(rolled_m_),
+                     yaw_rate + bias + 0.004 * std::normal_distribution<double>()(random_)});
+    }
+  }
+
+  double bias = 0.03;
+  double yaw_rad = 0.0;
+
+ private:
+  WheelOdometry& odometry_;
+  double stamp_s_ = 0.0;
+  double rolled_m_ = 0.0;
+  std::mt19937 random_{9};
+};
+
+WheelOdometry odometry_with_gyro() { return WheelOdometry({kTrack_m, 2.0, 0.02, 0.05, 0.003}); }
+
+TEST(WheelOdometry, AGyroscopeTellsHowFarSkiddingWheelsTurn) {
+  WheelOdometry odometry = odometry_with_gyro();
+  SkiddingBase base(odometry);
+  base.turn(0.0, 3.0);
+  const double before = odometry.covariance()(2, 2);
+  for (int i = 0; i < 10; ++i) {
+    base.turn(i % 3 == 0 ? -1.0 : 1.2, 2.0);
+    base.turn(0.0, 2.0);
+  }
+  EXPECT_NEAR(wrap_angle(odometry.pose().yaw_rad - base.yaw_rad), 0.0, 0.05);
+  const double sigma = std::sqrt(odometry.covariance()(2, 2) - before);
+  EXPECT_GT(sigma, 0.005);
+  EXPECT_LT(sigma, 0.03);
+}
+
+TEST(WheelOdometry, TheBiasIsFollowed) {
+  WheelOdometry odometry = odometry_with_gyro();
+  SkiddingBase base(odometry);
+  for (int minute = 0; minute < 10; ++minute) {
+    base.bias = 0.02 + 0.002 * minute;
+    base.turn(0.0, 40.0);
+    base.turn(0.5, 20.0);
+  }
+  EXPECT_NEAR(wrap_angle(odometry.pose().yaw_rad - base.yaw_rad), 0.0, 0.1);
+  ASSERT_TRUE(odometry.gyro_yaw_rate());
+  EXPECT_NEAR(*odometry.gyro_yaw_rate(), 0.5, 0.03);
+}
+
+TEST(WheelOdometry, BeforeTheBiasIsKnownTheWheelsTellTheHeading) {
+  WheelOdometry odometry = odometry_with_gyro();
+  SkiddingBase base(odometry);
+  base.turn(0.8, 3.0);
+  EXPECT_FALSE(odometry.gyro_yaw_rate());
+  EXPECT_NEAR(odometry.pose().yaw_rad, wrap_angle(1.5 * base.yaw_rad), 0.15);
+}
+
+TEST(WheelOdometry, WhoTurnsAStandingRobotByHandTeachesNoBias) {
+  WheelOdometry odometry = odometry_with_gyro();
+  SkiddingBase base(odometry);
+  base.turn(0.0, 3.0);
+  for (int i = 0; i < 200; ++i) {
+    odometry.add(10.0 + kInterval_s * i, {{0.0, 0.0}, 0, 0, 1.5});
+  }
+  odometry.add(20.0, {{0.0, 0.0}, 0, 0, 0.03});
+  ASSERT_TRUE(odometry.gyro_yaw_rate());
+  EXPECT_NEAR(*odometry.gyro_yaw_rate(), 0.0, 0.003);
 }
 
 }  // namespace

@@ -162,7 +162,7 @@ class SeparateFleet:
     def boot(self, name):
         """Starts a robot's stack, and its end of the adapter."""
         key = ["fleet_key:=" + self._keys[name]] if name in self._keys else []
-        self._popen(name, ["roslaunch", os.path.join(ROOT, "test/netns/robot.launch"), "robot:=" + name,
+        self._popen(name, ["roslaunch", os.path.join(ROOT, "test/netns/stack_alone.launch"), "robot:=" + name,
                            f"delta_dc:={DELTA_DC_S}", "lcm_url:=" + LCM_URL, *key])
         self.attach(name)
 

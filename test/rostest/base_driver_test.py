@@ -12,10 +12,7 @@ import sys
 import threading
 import time
 import unittest
-import xmlrpc.client
 
-import rosgraph
-import rosnode
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -27,6 +24,7 @@ from std_msgs.msg import Bool
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
+from node_process import pid_of
 from serial_line import SerialLine
 
 BASE = "/tmp/mocha_base_driver_test_base"
@@ -103,11 +101,6 @@ class Commander:
 
     def be_silent(self):
         self.twist = None
-
-
-def pid_of(node):
-    uri = rosnode.get_api_uri(rosgraph.Master("/base_driver_test"), node, skip_cache=True)
-    return xmlrpc.client.ServerProxy(uri).getPid("/base_driver_test")[2]
 
 
 class BaseDriverTest(unittest.TestCase):

@@ -8,10 +8,7 @@ import sys
 import threading
 import time
 import unittest
-import xmlrpc.client
 
-import rosgraph
-import rosnode
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -20,6 +17,8 @@ from mocha_ugv.msg import Lease, MotionPhase, StepAck, Trajectory
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from tf2_msgs.msg import TFMessage
+
+from node_process import pid_of
 
 STEP_S = 0.02
 LAG_S = 0.05
@@ -153,11 +152,6 @@ class TrackerTest(unittest.TestCase):
         self.assertGreater(self.base.speed, 0.6)
         return x
 
-    @staticmethod
-    def pid_of_node():
-        uri = rosnode.get_api_uri(rosgraph.Master("/tracker_test"), NODE)
-        return xmlrpc.client.ServerProxy(uri).getPid("/tracker_test")[2]
-
     def test_1_without_a_motion_it_commands_zero(self):
         self.assertEqual(self.run_for(0.5), 0.0)
 
@@ -207,7 +201,7 @@ class TrackerTest(unittest.TestCase):
 
     def test_6_a_respawned_tracker_waits_for_a_new_motion(self):
         self.drive_to_half(40)
-        os.kill(self.pid_of_node(), signal.SIGINT)
+        os.kill(pid_of(NODE), signal.SIGINT)
         deadline = time.monotonic() + 30.0
         while self.trajectories.get_num_connections() > 0 and time.monotonic() < deadline:
             time.sleep(0.05)

@@ -93,7 +93,7 @@ TEST(BaseEmulator, SendsFeedbackAtItsInterval) {
   EXPECT_EQ(line["odl"], 19);  // cut, not rounded
   EXPECT_EQ(line["odr"], -19);
   EXPECT_EQ(line["az"], 8192);
-  EXPECT_NEAR(line["gz"], 16.4 * 57.2958, 1.0);
+  EXPECT_NEAR(line["gz"], 16.4 * 57.2958 * (1.0 + 0.012), 5.0 * 16.4 * 57.2958 * 0.004);
   base.receive(1.0, "{\"T\":131,\"cmd\":0}\n");
   EXPECT_EQ(base.send(2.0), "");
 }

@@ -1,0 +1,241 @@
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <mocha_ugv/Localization.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/ros.h>
+#include <sensor_msgs/LaserScan.h>
+#include <std_srvs/Empty.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <algorithm>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "perception/saved_map.h"
+#include "perception/scan_localizer.h"
+#include "ros/conversions.h"
+#include "ros/localization_messages.h"
+#include "ros/parameters.h"
+#include "ros/robot_identity.h"
+#include "ros/run_node.h"
+#include "ros/scan_queue.h"
+#include "ros/sensor_conversions.h"
+#include "ros/step_loop.h"
+#include "ros/transport.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kPeriod_s = 0.02;
+constexpr double kMemoryPeriod_s = 2.0;
+const std::string kMemory = "last_known_pose";  // beside the node: its own parameters are checked
+const Eigen::Vector3d kMemorySigma(0.5, 0.5, 0.3);  // what may have happened meanwhile [m, m, rad]
+
+Pose planar(const Eigen::Isometry3d& pose) {
+  return {pose.translation().head<2>(), std::atan2(pose(1, 0), pose(0, 0))};
+}
+
+/// Scans and odometry in, map -> odom out.
+class ScanLocalizerNode {
+ public:
+  ScanLocalizerNode(ros::NodeHandle& node, const ParameterTable& values)
+      : node_(node),
+        robot_(robot_identity()),
+        model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        mapping_(values.flag("mapping")),
+        max_range_m_(values.number("max_range")),
+        hit_spacing_m_(values.number("hit_spacing")),
+        timeout_s_(values.number("scan_timeout")),
+        localizer_(ScanLocalizerOptions::from(values, model_)),
+        queue_(robot_.odom_frame, values.number("scan_rate"), timeout_s_),
+        listener_(transforms_, node, false, at_once()),
+        poses_(node.advertise<geometry_msgs::PoseWithCovarianceStamped>("localized_pose", 5)),
+        states_(node.advertise<mocha_ugv::Localization>("localization", 5, true)),
+        scans_(node.subscribe("scan", 20, &ScanLocalizerNode::on_scan, this, at_once())),
+        said_(node.subscribe("initialpose", 5, &ScanLocalizerNode::on_initial_pose, this)),
+        search_(node.advertiseService("global_localization", &ScanLocalizerNode::on_search, this)),
+        loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
+    begin(values);
+    diagnostics_.setHardwareID(robot_.name);
+    diagnostics_.add("localisation", this, &ScanLocalizerNode::diagnose);
+  }
+
+ private:
+  void begin(const ParameterTable& values) {
+    const std::string& path = values.text("map_file");
+    if (mapping_ != path.empty()) {
+      throw ParameterError(mapping_ ? "parameters `mapping` and `map_file` exclude each other"
+                                    : "parameter `map_file` is not set: no map to localise in");
+    }
+    if (mapping_) {
+      maps_ = node_.subscribe("map", 1, &ScanLocalizerNode::on_map, this, at_once());
+      localizer_.begin({{0.0, 0.0}, 0.0});
+      return;
+    }
+    OccupancyMapOptions options;
+    options.min_height_m = values.number("min_height");
+    options.max_height_m = values.number("max_height");
+    options.scan_height_m = 0.5 * (options.min_height_m + options.max_height_m);
+    localizer_.set_map(load_saved_slice(path, options));
+    remember();
+  }
+
+  /// Where this node, before it died, knew the robot to be.
+  void remember() {
+    std::vector<double> pose;
+    if (!node_.getParam(kMemory, pose) || pose.size() != 3) return;
+    localizer_.expect(
+        {{{pose[0], pose[1]}, pose[2]}, kMemorySigma.cwiseProduct(kMemorySigma).asDiagonal()});
+  }
+
+  void on_scan(const sensor_msgs::LaserScan& scan) {
+    queue_.add(scan, ros::Time::now(), refusals_);
+  }
+
+  void on_map(const nav_msgs::OccupancyGrid& message) {
+    try {
+      localizer_.set_map(from_message(message));
+    } catch (const std::invalid_argument& error) {
+      refusals_.add(error.what());
+    }
+  }
+
+  void on_initial_pose(const geometry_msgs::PoseWithCovarianceStamped& message) {
+    std::string fault;
+    const auto said = from_message(message, robot_.map_frame, fault);
+    if (!said || mapping_) {
+      refusals_.add("initialpose: " + (mapping_ ? "the map is only being made" : fault));
+      return;
+    }
+    localizer_.expect(*said);
+    ROS_INFO("Looking for the robot near (%.2f, %.2f)", said->pose.position.x(),
+             said->pose.position.y());
+  }
+
+  bool on_search(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+    if (mapping_) return false;
+    localizer_.forget();
+    return true;
+  }
+
+  void step(ros::Time now) {
+    if (now < now_) forget_time();
+    now_ = now;
+    if (started_.isZero()) started_ = now;
+    for (const Measurement& measurement : queue_.take_ready(transforms_, now, refusals_))
+      localize(measurement);
+    if (refusals_.total() > refusals_said_) {
+      ROS_WARN_THROTTLE(10.0, "Refused: %s", refusals_.newest().c_str());
+      refusals_said_ = refusals_.total();
+    }
+    diagnostics_.update();
+  }
+
+  /// The clock was set back: a recording began again.
+  void forget_time() {
+    transforms_.clear();
+    queue_.clear();
+    localizer_.forget();
+    if (mapping_) localizer_.begin({{0.0, 0.0}, 0.0});
+    started_ = used_ = remembered_ = ros::Time();
+  }
+
+  void localize(const Measurement& measurement) {
+    const auto* scan = std::get_if<PlanarScan>(&measurement.data);
+    if (scan == nullptr || measurement.last <= used_) return;
+    try {
+      const Pose base = planar(from_message(
+          transforms_.lookupTransform(robot_.odom_frame, robot_.base_frame, measurement.last)
+              .transform));
+      const auto beams = to_beams(*scan, measurement.poses, {max_range_m_, 0.0});
+      ScanHits hits = hits_of(beams, base, hit_spacing_m_);
+      hits.time_s = measurement.last.toSec();
+      const Localization::State before = localizer_.localization().state;
+      localizer_.add(hits, base);
+      used_ = measurement.last;
+      publish(before);
+    } catch (const tf2::TransformException& error) {
+      refusals_.add("no odometry at the scan's time", error.what());
+    }
+  }
+
+  void publish(Localization::State before) {
+    const Localization& localization = localizer_.localization();
+    state_ = to_message(localization, robot_);
+    states_.publish(state_);
+    if (localization.state != before) ROS_INFO("%s", state_.message.c_str());
+    if (localization.state != Localization::State::kLocalized) return;
+    transform_.sendTransform(map_to_odom(localization, robot_));
+    poses_.publish(pose_message(localization, robot_));
+    if (mapping_ || (now_ - remembered_).toSec() < kMemoryPeriod_s) return;
+    remembered_ = now_;
+    const Pose& pose = localization.base.pose;
+    node_.setParam(kMemory,
+                   std::vector<double>{pose.position.x(), pose.position.y(), pose.yaw_rad});
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    const double silent_s = (now_ - std::max(queue_.received(), started_)).toSec();
+    const double blind_s = (now_ - std::max(used_, started_)).toSec();
+    if (silent_s > timeout_s_) {
+      status.summaryf(DiagnosticStatus::ERROR, "no scan on %s for %.1f s",
+                      scans_.getTopic().c_str(), silent_s);
+    } else if (blind_s > timeout_s_) {
+      status.summaryf(DiagnosticStatus::ERROR, "no scan could be used for %.1f s: %s", blind_s,
+                      refusals_.newest().c_str());
+    } else if (state_.state != mocha_ugv::Localization::LOCALIZED) {
+      status.summary(DiagnosticStatus::ERROR, state_.message);
+    } else if (state_.sigma_position > model_.margins.localisation_m) {
+      status.summaryf(DiagnosticStatus::WARN, "%s; the model's margin_localisation is %.0f mm",
+                      state_.message.c_str(), 1e3 * model_.margins.localisation_m);
+    } else {
+      status.summary(DiagnosticStatus::OK, state_.message);
+    }
+    status.add("quality", state_.quality);
+    status.add("standard deviation of the position [m]", state_.sigma_position);
+    status.add("standard deviation of the heading [rad]", state_.sigma_yaw);
+    status.add("places that explain the scans", state_.places);
+    for (const auto& [reason, times] : refusals_.counts()) status.add("refused: " + reason, times);
+  }
+
+  ros::NodeHandle node_;
+  const RobotIdentity robot_;
+  const RobotModel model_;
+  const bool mapping_;
+  const double max_range_m_;
+  const double hit_spacing_m_;
+  const double timeout_s_;
+  ScanLocalizer localizer_;
+  mocha_ugv::Localization state_;
+
+  ScanQueue queue_;
+  Refusals refusals_;
+  int refusals_said_ = 0;
+  ros::Time now_;
+  ros::Time started_;
+  ros::Time used_;  // end of the newest scan
+  ros::Time remembered_;
+
+  tf2_ros::Buffer transforms_;
+  tf2_ros::TransformListener listener_;
+  tf2_ros::TransformBroadcaster transform_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::Publisher poses_;
+  ros::Publisher states_;
+  ros::Subscriber scans_;
+  ros::Subscriber said_;
+  ros::Subscriber maps_;
+  ros::ServiceServer search_;
+  StepLoop loop_;
+};
+
+}  // namespace
+}  // namespace mocha
+
+int main(int argc, char** argv) {
+  return mocha::run_node<mocha::ScanLocalizerNode>(argc, argv, "scan_localizer");
+}

@@ -1,0 +1,51 @@
+#include "perception/wall_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "world/distance_transform.h"
+
+namespace mocha {
+
+WallField::WallField(OccupancyGrid map, double reach_m) : map_(std::move(map)), reach_m_(reach_m) {
+  const std::size_t cells =
+      static_cast<std::size_t>(std::max(0, map_.width)) * std::max(0, map_.height);
+  if (cells == 0 || map_.cells.size() != cells || !(map_.resolution_m > 0.0))
+    throw std::invalid_argument("WallField: the grid is empty or its sizes do not match");
+  distance_m_.resize(cells);
+  std::transform(map_.cells.begin(), map_.cells.end(), distance_m_.begin(),
+                 [](int8_t cell) { return cell == OccupancyGrid::kOccupied ? 0.0f : kNoSite; });
+  distance_transform(distance_m_, map_.width, map_.height);
+  for (float& distance : distance_m_) {
+    distance = static_cast<float>(std::min(reach_m, map_.resolution_m * std::sqrt(distance)));
+  }
+}
+
+WallField::Sample WallField::sample(const Vector2& p) const {
+  const Vector2 at = (p - map_.origin) / map_.resolution_m - Vector2(0.5, 0.5);
+  if (!(at.minCoeff() >= 0.0 && at.x() < map_.width - 1 && at.y() < map_.height - 1))
+    return {reach_m_, Vector2::Zero()};
+  const int i = static_cast<int>(at.x());
+  const int j = static_cast<int>(at.y());
+  const double u = at.x() - i;
+  const double v = at.y() - j;
+  const double d00 = at_centre(i, j);
+  const double d10 = at_centre(i + 1, j);
+  const double d01 = at_centre(i, j + 1);
+  const double d11 = at_centre(i + 1, j + 1);
+  return {
+      (1 - v) * ((1 - u) * d00 + u * d10) + v * ((1 - u) * d01 + u * d11),
+      Vector2((1 - v) * (d10 - d00) + v * (d11 - d01), (1 - u) * (d01 - d00) + u * (d11 - d10)) /
+          map_.resolution_m};
+}
+
+int8_t WallField::cell(const Vector2& p) const {
+  const Vector2 at = (p - map_.origin) / map_.resolution_m;
+  if (!(at.minCoeff() >= 0.0 && at.x() < map_.width && at.y() < map_.height))
+    return OccupancyGrid::kUnknown;
+  return map_.at(static_cast<int>(at.x()), static_cast<int>(at.y()));
+}
+
+}  // namespace mocha

@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+"""Every launch file can be loaded, whatever its switches say; its arguments are explained; its nodes exist, and are given only parameters
+that they have."""
+import itertools
+import pathlib
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import roslaunch.config
+import roslaunch.xmlloader
+import yaml
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FILES = sorted((ROOT / "launch").glob("*.launch"))
+NEEDED = {"robot": "ugv3", "bag": "/drive.bag"}  # arguments without default
+
+
+def arguments(path):
+    return ElementTree.parse(path).findall("arg")
+
+
+def switches(path):
+    """All that the true-or-false arguments of a file can say together."""
+    names = [argument.get("name") for argument in arguments(path) if argument.get("default") in ("true", "false")]
+    for values in itertools.product(("true", "false"), repeat=len(names)):
+        yield [f"{name}:={value}" for name, value in zip(names, values)]
+
+
+def load(path, given=()):
+    needed = [f"{argument.get('name')}:={NEEDED[argument.get('name')]}" for argument in arguments(path) if argument.get("default") is None]
+    config = roslaunch.config.ROSLaunchConfig()
+    roslaunch.xmlloader.XmlLoader().load(str(path), config, argv=[*needed, *given], verbose=False)
+    return config
+
+
+def names_of(config):
+    return {node.namespace + node.name for node in config.nodes}
+
+
+class LaunchFiles(unittest.TestCase):
+    def test_arguments_are_explained(self):
+        for path in FILES:
+            unexplained = [argument.get("name") for argument in arguments(path) if not argument.get("doc")]
+            self.assertEqual(unexplained, [], path.name)
+
+    def test_roslaunch_finds_the_one_that_is_meant(self):
+        """By its name alone it looks through the whole checkout, and refuses what is there twice."""
+        everywhere = [path.name for path in ROOT.rglob("*.launch") if "_build" not in path.parts]
+        self.assertEqual([path.name for path in FILES if everywhere.count(path.name) > 1], [])
+
+    def test_can_be_loaded_whatever_the_switches_say(self):
+        for path in FILES:
+            for given in switches(path):
+                with self.subTest(path=path.name, given=given):
+                    self.assertGreater(len(load(path, given).nodes), 0)
+
+    def test_nodes_exist_and_have_their_parameters(self):
+        for path in FILES:
+            for given in switches(path):
+                config = load(path, given)
+                for node in config.nodes:
+                    if node.package != "mocha_ugv":
+                        continue
+                    with self.subTest(path=path.name, given=given, node=node.type):
+                        if (ROOT / "scripts" / node.type).exists():
+                            continue
+                        self.assertTrue((ROOT / f"src/nodes/{node.type}_node.cpp").exists())
+                        mine = node.namespace + node.name + "/"
+                        set_here = {name[len(mine):] for name in config.params if name.startswith(mine)}
+                        self.assertLessEqual(set_here, set(yaml.safe_load((ROOT / f"config/{node.type}.yaml").read_text())))
+
+
+class RobotLaunch(unittest.TestCase):
+    FILE = ROOT / "launch/robot.launch"
+    STACK = {"perception", "global_planner", "local_replanner", "trajectory_broadcaster", "trajectory_tracker"}
+
+    def started(self, *given):
+        return {name[len("/ugv3/"):] for name in names_of(load(self.FILE, given))} - self.STACK - {"robot_state_publisher"}
+
+    def test_what_is_started(self):
+        self.assertEqual(self.started(), {"base_driver", "scan_localizer"})
+        self.assertEqual(self.started("base:=false", "localizer:=false"), set())
+        self.assertEqual(self.started("lidar_frame:=laser_link"), {"base_driver", "scan_localizer", "lidar_frame"})
+        self.assertEqual(self.started("lidar_frame:=ugv3/laser", "rviz:=true"), {"base_driver", "scan_localizer", "rviz"})
+        vendor = ROOT / "test/rostest/vendor_lidar.launch"
+        self.assertEqual(self.started(f"lidar_launch:={vendor}"), {"base_driver", "scan_localizer", "vendor_lidar"})
+
+    def test_the_map_is_for_localiser_and_perception_and_not_for_mapping(self):
+        known = load(self.FILE, ["map_file:=/flat.bt"]).params
+        self.assertEqual([known[f"/ugv3/{node}/map_file"].value for node in ("perception", "scan_localizer")], 2 * ["/flat.bt"])
+        mapping = load(self.FILE, ["map_file:=/flat.bt", "mapping:=true"]).params
+        self.assertEqual([mapping[f"/ugv3/{node}/map_file"].value for node in ("perception", "scan_localizer")], 2 * [""])
+        self.assertEqual([params["/ugv3/scan_localizer/mapping"].value for params in (known, mapping)], [False, True])
+
+    def test_scans_come_from_the_lidars_topic(self):
+        config = load(self.FILE, ["lidar_topic:=/scan"])
+        perception, = [node for node in config.nodes if node.type == "perception"]
+        self.assertIn(["/ugv3/scan", "/scan"], perception.remap_args)
+
+
+if __name__ == "__main__":
+    unittest.main()
