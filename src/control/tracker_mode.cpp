@@ -37,6 +37,16 @@ constexpr Transition kTransitions[] = {
     {M::kHolding, E::kAdopted, M::kTracking},
     {M::kHolding, E::kStrayed, M::kErrorBraking},
     {M::kHolding, E::kPoseLost, M::kStale},
+
+    {M::kIdle, E::kStopped, M::kEmergency},
+    {M::kTracking, E::kStopped, M::kEmergency},
+    {M::kBraking, E::kStopped, M::kEmergency},
+    {M::kErrorBraking, E::kStopped, M::kEmergency},
+    {M::kStale, E::kStopped, M::kEmergency},
+    {M::kHolding, E::kStopped, M::kEmergency},
+
+    // What was committed before is not driven any more.
+    {M::kEmergency, E::kReset, M::kIdle},
 };
 
 }  // namespace
@@ -51,7 +61,7 @@ TrackerMode next_mode(TrackerMode mode, TrackerEvent event) {
 const char* to_text(TrackerMode mode) {
   switch (mode) {
     case M::kIdle:
-      return "idle, nothing committed";
+      return "idle, nothing to drive";
     case M::kTracking:
       return "tracking";
     case M::kBraking:
@@ -62,6 +72,8 @@ const char* to_text(TrackerMode mode) {
       return "stopping without a pose";
     case M::kHolding:
       return "standing at the end";
+    case M::kEmergency:
+      return "emergency stop";
   }
   return "unknown";
 }

@@ -89,6 +89,15 @@ void TrajectoryTracker::renew(const MotionId& id, double lease_end_s) {
   }
 }
 
+void TrajectoryTracker::set_stopped(bool stopped, const std::string& reason) {
+  if (stopped_ && !stopped) {
+    offer_.reset();
+    early_lease_.reset();
+  }
+  stopped_ = stopped;
+  order_ = reason;
+}
+
 UnicycleState TrajectoryTracker::step(double t, const std::optional<RobotState>& state) {
   const double dt =
       last_step_s_ ? std::clamp(t - *last_step_s_, 0.0, kLongestStep_s) : kFirstStep_s;
@@ -99,9 +108,11 @@ UnicycleState TrajectoryTracker::step(double t, const std::optional<RobotState>&
 
   if (offer_ && pose && offer_->lease_end_s > t) take_up_offer(t, *pose, state->twist.speed);
   update_mode(t, pose);
+  handle(stopped_ ? TrackerEvent::kStopped : TrackerEvent::kReset, t, order_);
   switch (mode_) {
     case TrackerMode::kIdle:
-      return limiter_.limit({0.0, 0.0}, dt);
+    case TrackerMode::kEmergency:
+      return limiter_.limit({0.0, 0.0}, dt);  // both wheels in the same ratio
     case TrackerMode::kErrorBraking:
       return limiter_.ramp_down_straight(dt);
     case TrackerMode::kStale:

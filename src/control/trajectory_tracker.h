@@ -35,7 +35,8 @@ struct TrackerParameters {
 /// slips time: the reference at time t is the motion at time t.
 ///
 /// A motion is driven only under a lease. The lease expired, the robot brakes along the path; from
-/// then on only a new motion, which starts where the robot really is, makes it move again.
+/// then on only a new motion, which starts where the robot really is, makes it move again. So it is
+/// after an emergency stop, which goes before everything else.
 class TrajectoryTracker {
  public:
   /// Throws std::invalid_argument for bounds and gains that are not positive.
@@ -53,6 +54,11 @@ class TrajectoryTracker {
 
   /// Sets the end of the lease of one motion, also of one that is still to be offered.
   void renew(const MotionId& id, double lease_end_s);
+
+  /// Emergency stop, or its end, from the next step() on: the wheels are stopped as hard as they
+  /// can be, on the curve that they are on, and stay so. After its end only a motion that is
+  /// offered then is driven. `reason` is for people.
+  void set_stopped(bool stopped, const std::string& reason);
 
   /// The command at time t [s] for the newest known state. Steps are expected at a steady rate,
   /// with t rising.
@@ -101,6 +107,8 @@ class TrajectoryTracker {
   std::optional<TrackingError> error_;
   std::optional<double> last_step_s_;
   bool settling_ = false;
+  bool stopped_ = false;
+  std::string order_;  // why stopped_
   std::string stop_reason_;
   std::string refusal_;
   int refused_ = 0;

@@ -14,6 +14,7 @@ std::pair<std::string, std::uint32_t> sender_of(const FleetMessage& message) {
     return {promise->agent, promise->id.epoch};
   if (const auto* request = std::get_if<WayRequest>(&message))
     return {request->agent, request->epoch};
+  if (const auto* stops = std::get_if<FleetStops>(&message)) return {stops->agent, stops->epoch};
   const Beat& beat = std::get<Beat>(message);
   return {beat.agent, beat.epoch};
 }

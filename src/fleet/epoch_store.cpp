@@ -1,15 +1,12 @@
 #include "fleet/epoch_store.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+
+#include "fleet/durable_file.h"
 
 namespace mocha {
 namespace {
@@ -37,30 +34,12 @@ std::uint32_t read_epoch(const std::string& path) {
   return static_cast<std::uint32_t>(epoch);
 }
 
-/// Writes and flushes to the disk; false with errno set where that fails.
-bool write_through(const std::string& path, const std::string& text) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file < 0) return false;
-  const bool written =
-      ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-      ::fsync(file) == 0;
-  const int trouble = errno;
-  ::close(file);
-  errno = trouble;
-  return written;
-}
-
 void write_epoch(const std::string& path, std::uint32_t epoch) {
-  std::error_code error;
-  const auto folder = std::filesystem::path(path).parent_path();
-  if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  if (error) fail(path, "its folder cannot be made (" + error.message() + ")");
-  const std::string fresh = path + ".new";
-  if (!write_through(fresh, std::to_string(epoch) + "\n")) {
-    fail(path, std::string("cannot be written (") + std::strerror(errno) + ")");
+  try {
+    write_durably(path, std::to_string(epoch) + "\n");
+  } catch (const std::runtime_error& error) {
+    fail(path, error.what());
   }
-  std::filesystem::rename(fresh, path, error);
-  if (error) fail(path, "cannot be replaced (" + error.message() + ")");
 }
 
 }  // namespace

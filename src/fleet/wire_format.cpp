@@ -10,6 +10,7 @@
 #include "fleet/byte_codec.h"
 #include "fleet/message_fields.h"
 #include "fleet/motion_codec.h"
+#include "fleet/stop_codec.h"
 
 namespace mocha {
 namespace {
@@ -21,7 +22,7 @@ constexpr std::size_t kSizeAt = kSealAt + FleetKey::kSealBytes;
 constexpr std::size_t kFrame = kSizeAt + 2;
 constexpr std::size_t kMostBody = kMostDatagramBytes - kLcmHeader - kFrame;
 
-enum class Kind : std::uint8_t { kPromise = 1, kBeat = 2, kWayRequest = 3 };
+enum class Kind : std::uint8_t { kPromise = 1, kBeat = 2, kWayRequest = 3, kFleetStops = 4 };
 
 PromiseState get_state(ByteReader& in) {
   const auto state = in.get<std::uint8_t>();
@@ -152,6 +153,10 @@ ByteWriter body_of(const Datagram& datagram) {
   } else if (const auto* request = std::get_if<WayRequest>(&datagram.message)) {
     validate(*request);
     put_request(body, *request, datagram.number);
+  } else if (const auto* stops = std::get_if<FleetStops>(&datagram.message)) {
+    validate(*stops);
+    put_head(body, Kind::kFleetStops, stops->agent, stops->epoch, datagram.number);
+    put_stops(body, stops->stops);
   } else {
     put_beat(body, std::get<Beat>(datagram.message), datagram.number);
   }
@@ -160,7 +165,7 @@ ByteWriter body_of(const Datagram& datagram) {
 
 Datagram from_body(ByteReader in) {
   const auto kind = static_cast<Kind>(in.get<std::uint8_t>());
-  require_said(kind >= Kind::kPromise && kind <= Kind::kWayRequest, "is of no known kind");
+  require_said(kind >= Kind::kPromise && kind <= Kind::kFleetStops, "is of no known kind");
   std::string agent = get_name(in);
   const auto epoch = in.get<std::uint32_t>();
   Datagram datagram;
@@ -169,6 +174,10 @@ Datagram from_body(ByteReader in) {
     datagram.message = get_promise(in, std::move(agent), epoch);
   } else if (kind == Kind::kWayRequest) {
     datagram.message = get_request(in, std::move(agent), epoch);
+  } else if (kind == Kind::kFleetStops) {
+    FleetStops stops{std::move(agent), epoch, get_stops(in)};
+    validate(stops);
+    datagram.message = std::move(stops);
   } else {
     datagram.message = get_beat(in, std::move(agent), epoch);
   }

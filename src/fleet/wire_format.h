@@ -7,16 +7,17 @@
 #include <variant>
 #include <vector>
 
+#include "fleet/emergency_stop.h"
 #include "fleet/fleet_key.h"
 #include "fleet/promise.h"
 #include "fleet/way_request.h"
 
 namespace mocha {
 
-// Promises, heartbeats and way requests as bytes on the network: LCM messages (lcm/datagram_t.lcm)
-// of one datagram each. Numbers are quantised: times to 1 us, places to 0.01 mm, headings, speeds
-// and accelerations to 1e-5 rad, m/s and m/s^2, radii to 1 mm (up). So that all robots hold the
-// same motion, the one that promises drives quantised(), too.
+// Promises, heartbeats, way requests and emergency stops as bytes on the network: LCM messages
+// (lcm/datagram_t.lcm) of one datagram each. Numbers are quantised: times to 1 us, places to 0.01
+// mm, headings, speeds and accelerations to 1e-5 rad, m/s and m/s^2, radii to 1 mm (up). So that
+// all robots hold the same motion, the one that promises drives quantised(), too.
 
 /// Of everything below; others are refused.
 constexpr int kWireVersion = 1;
@@ -25,7 +26,7 @@ constexpr int kWireVersion = 1;
 /// larger ones would be cut into fragments, each of which may get lost.
 constexpr std::size_t kMostDatagramBytes = 1400;
 
-using FleetMessage = std::variant<Promise, Beat, WayRequest>;
+using FleetMessage = std::variant<Promise, Beat, WayRequest, FleetStops>;
 
 struct Datagram {
   std::uint32_t number = 0;  ///< the sender counts its datagrams since its start

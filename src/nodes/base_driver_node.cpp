@@ -1,13 +1,9 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <geometry_msgs/Twist.h>
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
-#include <std_srvs/SetBool.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <optional>
 #include <string>
 
@@ -15,8 +11,10 @@
 #include "base/waveshare_base.h"
 #include "control/command_limiter.h"
 #include "ros/base_messages.h"
+#include "ros/emergency_stop_listener.h"
 #include "ros/parameters.h"
 #include "ros/robot_identity.h"
+#include "ros/run_stopping_node.h"
 #include "ros/step_loop.h"
 #include "ros/transport.h"
 
@@ -49,7 +47,8 @@ WaveshareBase::Options base_options(const ParameterTable& values, const RobotMod
 ///
 /// The base stands unless somebody has commanded a velocity a short while ago and the base answers.
 /// Who stops commanding has it slowed down by the ramp; who dies with this node, by the firmware's
-/// heartbeat.
+/// heartbeat. In an emergency stop the wheels are stopped as hard as they can be, then the firmware
+/// is told to hold them, until the reset.
 class BaseDriverNode {
  public:
   BaseDriverNode(ros::NodeHandle& node, const ParameterTable& values)
@@ -63,7 +62,7 @@ class BaseDriverNode {
         imu_(node.advertise<sensor_msgs::Imu>("imu", 50)),
         battery_(node.advertise<sensor_msgs::BatteryState>("battery", 5)),
         commands_(node.subscribe("cmd_vel", 1, &BaseDriverNode::on_command, this, at_once())),
-        emergency_stop_(node.advertiseService("emergency_stop", &BaseDriverNode::on_stop, this)),
+        stop_(node),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
     diagnostics_.setHardwareID(robot_.name);
     diagnostics_.add("base", this, &BaseDriverNode::diagnose_base);
@@ -90,16 +89,6 @@ class BaseDriverNode {
     }
   }
 
-  bool on_stop(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
-    stopped_ = request.data;
-    base_.set_emergency_stop(stopped_);
-    limiter_ = CommandLimiter(model_);
-    response.success = true;
-    response.message = stopped_ ? "stopped" : "released";
-    ROS_WARN("Emergency stop: %s", response.message.c_str());
-    return true;
-  }
-
   void step(ros::Time now) {
     listen(now);
     const double since_s = (now - driven_).toSec();
@@ -124,13 +113,24 @@ class BaseDriverNode {
   void drive(ros::Time now) {
     const double dt_s = std::clamp((now - driven_).toSec(), 0.0, kLongestStep_s);
     driven_ = now;
-    command_ = watchdog_.command(now.toSec());
-    if (!base_.connected(now.toSec()) || stopped_) {
+    command_ = stop_.stopped() ? std::nullopt : watchdog_.command(now.toSec());
+    if (!base_.connected(now.toSec())) {
       limiter_ = CommandLimiter(model_);  // whatever it did, it stands when it goes on
       base_.drive({0.0, 0.0});
-      return;
+    } else {
+      base_.drive(limiter_.limit(command_.value_or(UnicycleState{0.0, 0.0}), dt_s));
     }
-    base_.drive(limiter_.limit(command_.value_or(UnicycleState{0.0, 0.0}), dt_s));
+    const bool stands = limiter_.last().speed == 0.0 && limiter_.last().yaw_rate == 0.0;
+    if (stop_.stopped() && stands) hold(true);
+    if (stop_.released()) hold(false);  // what a driver before this one may have left behind, too
+  }
+
+  /// By the firmware; not before the wheels have been stopped on their curve.
+  void hold(bool held) {
+    if (held == held_) return;
+    held_ = held;
+    base_.set_emergency_stop(held);
+    ROS_WARN("Emergency stop: %s", held ? stop_.reason().c_str() : "released");
   }
 
   void publish(const BaseFeedback& feedback) {
@@ -150,8 +150,8 @@ class BaseDriverNode {
     const double now_s = loop_.now().toSec();
     if (!base_.connected(now_s)) {
       status.summary(DiagnosticStatus::ERROR, "the base is lost: " + base_.fault(now_s));
-    } else if (stopped_) {
-      status.summary(DiagnosticStatus::WARN, "emergency stop");
+    } else if (stop_.stopped()) {
+      status.summary(DiagnosticStatus::ERROR, stop_.reason());
     } else if (!command_) {
       status.summaryf(DiagnosticStatus::OK, "stands: no command on %s for %.2f s",
                       commands_.getTopic().c_str(), model_.command_age_limit_s);
@@ -183,7 +183,7 @@ class BaseDriverNode {
   CommandWatchdog watchdog_;
   CommandLimiter limiter_;
   bool connected_ = false;
-  bool stopped_ = false;
+  std::optional<bool> held_;  // by the firmware
   ros::Time driven_;
   std::optional<UnicycleState> command_;  // that was driven last
   std::optional<BaseFeedback> feedback_;
@@ -194,33 +194,15 @@ class BaseDriverNode {
   ros::Publisher imu_;
   ros::Publisher battery_;
   ros::Subscriber commands_;
-  ros::ServiceServer emergency_stop_;
+  EmergencyStopListener stop_;
   StepLoop loop_;
 };
-
-std::atomic<bool> asked_to_stop{false};
-
-void ask_to_stop(int) { asked_to_stop = true; }
 
 }  // namespace
 }  // namespace mocha
 
 int main(int argc, char** argv) {
-  // Own handlers: the base is to be told before the line closes.
-  ros::init(argc, argv, "base_driver", ros::init_options::NoSigintHandler);
-  std::signal(SIGINT, mocha::ask_to_stop);
-  std::signal(SIGTERM, mocha::ask_to_stop);
-  ros::NodeHandle node;
-  try {
-    mocha::BaseDriverNode driver(node, mocha::read_parameters(ros::NodeHandle("~"), "base_driver"));
-    while (ros::ok() && !mocha::asked_to_stop) {
-      ros::getGlobalCallbackQueue()->callAvailable(mocha::kListenPeriod);
-      driver.listen();
-    }
-    driver.stop();
-  } catch (const std::exception& error) {
-    ROS_FATAL("base_driver: %s", error.what());
-    return 1;
-  }
-  return 0;
+  using Node = mocha::BaseDriverNode;
+  return mocha::run_stopping_node<Node>(argc, argv, "base_driver", mocha::kListenPeriod,
+                                        [](Node& driver) { driver.listen(); });
 }

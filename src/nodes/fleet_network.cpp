@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ros/emergency_stop_conversions.h"
 #include "ros/promise_conversions.h"
 #include "ros/transport.h"
 #include "ros/way_request_conversions.h"
@@ -36,11 +37,14 @@ FleetNetwork::FleetNetwork(ros::NodeHandle& node, const RobotIdentity& robot,
   promises_out_ = node.advertise<mocha_ugv::Trajectory>("/fleet/promises", 100);
   heartbeats_out_ = node.advertise<mocha_ugv::Heartbeat>("/fleet/heartbeats", 100);
   requests_out_ = node.advertise<mocha_ugv::WayRequest>("/fleet/way_requests", 100);
+  stops_out_ = node.advertise<mocha_ugv::FleetStops>("/fleet/emergency_stops", 100);
   promises_in_ = node.subscribe("/fleet/promises", 100, &FleetNetwork::on_promise, this, at_once());
   heartbeats_in_ =
       node.subscribe("/fleet/heartbeats", 100, &FleetNetwork::on_heartbeat, this, at_once());
   requests_in_ =
       node.subscribe("/fleet/way_requests", 100, &FleetNetwork::on_way_request, this, at_once());
+  stops_in_ =
+      node.subscribe("/fleet/emergency_stops", 100, &FleetNetwork::on_stops, this, at_once());
 }
 
 void FleetNetwork::send(const FleetMessage& message, ros::Time now) {
@@ -50,6 +54,8 @@ void FleetNetwork::send(const FleetMessage& message, ros::Time now) {
     promises_out_.publish(to_message(*promise, robot_.map_frame, now));
   } else if (const auto* request = std::get_if<WayRequest>(&message)) {
     requests_out_.publish(to_message(*request, robot_.map_frame, now));
+  } else if (const auto* stops = std::get_if<FleetStops>(&message)) {
+    stops_out_.publish(to_message(*stops, now));
   } else {
     heartbeats_out_.publish(to_message(std::get<Beat>(message), robot_.map_frame, now));
   }
@@ -70,6 +76,11 @@ void FleetNetwork::on_way_request(const Event<mocha_ugv::WayRequest>& event) {
   take(event, "/fleet/way_requests", [this](const mocha_ugv::WayRequest& message) {
     return way_request_from_message(message, robot_.map_frame);
   });
+}
+
+void FleetNetwork::on_stops(const Event<mocha_ugv::FleetStops>& event) {
+  take(event, "/fleet/emergency_stops",
+       [](const mocha_ugv::FleetStops& message) { return stops_from_message(message); });
 }
 
 /// A message of another robot. The same name from another node is another robot that calls itself

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
+#include <mocha_ugv/FleetStops.h>
 #include <mocha_ugv/Heartbeat.h>
 #include <mocha_ugv/Trajectory.h>
 #include <mocha_ugv/WayRequest.h>
@@ -23,8 +24,8 @@ struct FleetNetworkSettings {
 };
 
 /// How the robots of a fleet hear each other: datagrams over LCM, or where they share a roscore,
-/// the topics /fleet/promises, /fleet/heartbeats and /fleet/way_requests. What comes from outside
-/// and is no use is counted and reported.
+/// the topics /fleet/promises, /fleet/heartbeats, /fleet/way_requests and /fleet/emergency_stops.
+/// What comes from outside and is no use is counted and reported.
 class FleetNetwork {
  public:
   /// `hear` gets what others say, in the node's thread. Throws std::runtime_error for a url that
@@ -46,6 +47,7 @@ class FleetNetwork {
   void on_promise(const Event<mocha_ugv::Trajectory>& event);
   void on_heartbeat(const Event<mocha_ugv::Heartbeat>& event);
   void on_way_request(const Event<mocha_ugv::WayRequest>& event);
+  void on_stops(const Event<mocha_ugv::FleetStops>& event);
   void on_datagram(const LcmChannel::Bytes& bytes);
   template <typename Message, typename Convert>
   void take(const Event<Message>& event, const std::string& topic, Convert convert);
@@ -60,9 +62,11 @@ class FleetNetwork {
   ros::Publisher promises_out_;
   ros::Publisher heartbeats_out_;
   ros::Publisher requests_out_;
+  ros::Publisher stops_out_;
   ros::Subscriber promises_in_;
   ros::Subscriber heartbeats_in_;
   ros::Subscriber requests_in_;
+  ros::Subscriber stops_in_;
   std::unique_ptr<LcmChannel> channel_;
 };
 

@@ -12,6 +12,7 @@
 #include "planning/pursuit.h"
 #include "ros/commitment_source.h"
 #include "ros/conversions.h"
+#include "ros/emergency_stop_listener.h"
 #include "ros/goal_inputs.h"
 #include "ros/live_parameters.h"
 #include "ros/map_source.h"
@@ -44,6 +45,7 @@ class GlobalPlannerNode {
         pursuit_(PursuitRules::from(values), kBraking * model_.limits.max_acceleration,
                  RightOfWay({false, values.integer("priority"), identity_.name}, model_,
                             PlannerRules::from(values))),
+        stop_(node),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
@@ -60,7 +62,7 @@ class GlobalPlannerNode {
         service_(node.advertiseService("plan", &GlobalPlannerNode::on_plan_service, this)),
         inputs_(node, identity_, pose_.transforms(),
                 {[this](std::deque<Goal> goals) { take(std::move(goals)); },
-                 [this](const std::string& why) { stop(why); }}),
+                 [this](const std::string& why) { stop(why); }, [this] { return stop_.reason(); }}),
         parameters_(values_, [this](const ParameterTable& changed) { apply(changed); }),
         loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }) {
     diagnostics_.setHardwareID(identity_.name);
@@ -96,6 +98,7 @@ class GlobalPlannerNode {
   void step(ros::Time now) {
     now_ = now;
     diagnostics_.update();
+    heed_stop();
     const PoseReading reading = pose_.read(now);
     if (!reading.state) {
       if (!pursuit_.idle()) report(PlanReason::kNoPose, {}, reading.missing);
@@ -110,6 +113,22 @@ class GlobalPlannerNode {
     show(pursuit_.step(now.toSec(), *reading.state, committed_.motion(), outlook));
   }
 
+  /// When stopped for an emergency, the robot forgets where it was going: it does not set off again
+  /// by itself.
+  void heed_stop() {
+    const bool was_reset = stopped_ && !stop_.stopped();
+    stopped_ = stop_.stopped();
+    if (stop_.stops() != heeded_) {
+      heeded_ = stop_.stops();
+      const std::string why = stopped_ ? stop_.reason() : "emergency stop, which is reset by now";
+      pursuit_.drop();
+      inputs_.finish(false, why);
+      outputs_.adopt(Motion(), now_);
+      report(PlanReason::kEmergencyStop, {}, why);
+    }
+    if (was_reset) report(PlanReason::kNoGoal, {}, "the emergency stop is reset");
+  }
+
   PlanResult plan(const PlanQuery& query) {
     const Vector2 start = query.committed.at(query.start_time_s).pose.position;
     return planner_->plan(query, scene({start, query.goal}), [] { return false; });
@@ -122,6 +141,7 @@ class GlobalPlannerNode {
   }
 
   void stop(const std::string& why) {
+    if (stop_.stopped()) return;
     ROS_INFO("%s: stops: %s", identity_.name.c_str(), why.c_str());
     adopt(pursuit_.stop(committed_.motion(), now_.toSec()));
   }
@@ -205,10 +225,11 @@ class GlobalPlannerNode {
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
-    const bool fine = pursuit_.idle() || outputs_.reason() == PlanReason::kSolved;
-    status.summary(
-        fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
-        pursuit_.idle() ? "no goal" : to_text(outputs_.reason()) + (": " + outputs_.text()));
+    const bool fine = !stopped_ && (pursuit_.idle() || outputs_.reason() == PlanReason::kSolved);
+    const std::string doing =
+        pursuit_.idle() ? "no goal" : to_text(outputs_.reason()) + (": " + outputs_.text());
+    status.summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                   stopped_ ? stop_.reason() : doing);
     status.add("plans made", plans_made_);
     status.add("plans adopted", outputs_.adopted());
     status.add("switches to another class of ways", class_switches_);
@@ -224,6 +245,9 @@ class GlobalPlannerNode {
   ParameterTable values_;
   std::unique_ptr<const GlobalPlanner> planner_;
   Pursuit pursuit_;
+  EmergencyStopListener stop_;
+  int heeded_ = 0;  // of its stops
+  bool stopped_ = false;
   PoseSource pose_;
   MapSource map_;
   PeerSource peers_;

@@ -11,6 +11,7 @@
 
 #include "planning/local_replanner.h"
 #include "ros/conversions.h"
+#include "ros/emergency_stop_listener.h"
 #include "ros/local_outputs.h"
 #include "ros/map_source.h"
 #include "ros/parameters.h"
@@ -47,6 +48,7 @@ class LocalReplannerNode {
         max_prediction_age_s_(values.number("max_prediction_age")),
         prediction_horizon_(values.number("prediction_horizon")),
         replanner_(model_, LocalReplannerRules::from(values, model_), LocalRules::from(values)),
+        stop_(node),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
@@ -104,6 +106,10 @@ class LocalReplannerNode {
     now_ = now;
     diagnostics_.update();
     const PoseReading reading = pose_.read(now);
+    if (stop_.stopped()) {
+      halt(now, reading);
+      return;
+    }
     const auto [reason, missing] = what_is_missing(now, reading);
     if (reason != PlanReason::kSolved) {
       local_.clear(now);
@@ -130,6 +136,17 @@ class LocalReplannerNode {
       requests_.publish(
           to_message(output.reason, output.violation, output.message, identity_.map_frame, now));
     }
+  }
+
+  /// Needs no map and no word of the others: what the robot does is promised, whatever it meets.
+  void halt(ros::Time now, const PoseReading& reading) {
+    local_.clear(now);
+    if (reading.state) {
+      const auto output = replanner_.halt(now.toSec(), *reading.state);
+      if (output.proposal) propose(now, *output.proposal);
+    }
+    report(now, PlanReason::kEmergencyStop, {},
+           reading.state ? stop_.reason() : stop_.reason() + "; " + reading.missing);
   }
 
   /// What nothing can be proved without, as reason and text; kSolved where all is there.
@@ -213,7 +230,8 @@ class LocalReplannerNode {
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
-    const bool failed = reason_ == PlanReason::kNoMap || reason_ == PlanReason::kNoPose;
+    const bool failed = reason_ == PlanReason::kNoMap || reason_ == PlanReason::kNoPose ||
+                        reason_ == PlanReason::kEmergencyStop;
     const auto level = failed                           ? DiagnosticStatus::ERROR
                        : reason_ == PlanReason::kSolved ? DiagnosticStatus::OK
                                                         : DiagnosticStatus::WARN;
@@ -234,6 +252,7 @@ class LocalReplannerNode {
   const double max_prediction_age_s_;
   const ros::Duration prediction_horizon_;
   LocalReplanner replanner_;
+  EmergencyStopListener stop_;
   PoseSource pose_;
   MapSource map_;
   PeerSource peers_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -17,6 +18,7 @@
 #include "fleet/wire_format.h"
 #include "nodes/fleet_network.h"
 #include "ros/conversions.h"
+#include "ros/emergency_stop_controls.h"
 #include "ros/markers.h"
 #include "ros/parameters.h"
 #include "ros/peer_diagnostics.h"
@@ -44,6 +46,11 @@ std::string epoch_file(const std::string& parameter, const std::string& robot) {
   }
   const std::string folder = ros_home != nullptr ? ros_home : std::string(home) + "/.ros";
   return folder + "/mocha_ugv/" + robot + ".epoch";
+}
+
+/// Beside the file that counts the starts.
+std::string stop_file(const std::string& epochs) {
+  return std::filesystem::path(epochs).replace_extension(".stops").string();
 }
 
 CommitmentSettings commitment_settings(const ParameterTable& values, const std::string& robot,
@@ -108,9 +115,13 @@ class TrajectoryBroadcasterNode {
                                  this, at_once())),
         network_(node, robot_, {values.text("lcm_url"), values.text("fleet_key")},
                  [this](const FleetMessage& message) { hear(message); }),
+        stop_(node, robot_, commitment_.settings().epoch, stop_file(epoch_file_),
+              {[this](const FleetStops& stops) { network_.send(stops, now_); },
+               [this] { draw(drawn_); }}),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
     diagnostics_.setHardwareID(robot_.name);
     diagnostics_.add("promises", this, &TrajectoryBroadcasterNode::diagnose);
+    diagnostics_.add("emergency stop", &stop_, &EmergencyStopControls::diagnose);
     diagnostics_.add("fleet network", this, &TrajectoryBroadcasterNode::diagnose_network);
     draw(Motion());
     ROS_INFO("%s: epoch %u", robot_.name.c_str(), commitment_.settings().epoch);
@@ -126,6 +137,9 @@ class TrajectoryBroadcasterNode {
       // As everybody else will hear it.
       const Promise wish = quantised(promise_from_message(message, robot_.map_frame));
       const Proposal proposal{message.sequence, wish.footprint_radius_m, wish.motion};
+      if (wish.state == PromiseState::kProposed && stop_.stopped()) {
+        throw std::invalid_argument(stop_.message());
+      }
       if (wish.state == PromiseState::kProposed) {
         apply(commitment_.propose(proposal, now_.toSec()));
       } else if (wish.state == PromiseState::kEmergency) {
@@ -169,6 +183,8 @@ class TrajectoryBroadcasterNode {
     if (!advance_clock(ros::Time::now())) return;
     if (const auto* request = std::get_if<WayRequest>(&message)) {
       requests_out_.publish(to_message(*request, robot_.map_frame, now_));
+    } else if (const auto* stops = std::get_if<FleetStops>(&message)) {
+      stop_.hear(*stops, now_);
     } else if (const auto* promise = std::get_if<Promise>(&message)) {
       apply(commitment_.receive(*promise, now_.toSec()));
     } else {
@@ -187,6 +203,7 @@ class TrajectoryBroadcasterNode {
 
   void step(ros::Time now) {
     if (!advance_clock(now)) return;
+    stop_.step(now_);
     apply(commitment_.tick(now_.toSec()));
     go_on_after_known_epoch();
     publish_fleet();
@@ -235,9 +252,11 @@ class TrajectoryBroadcasterNode {
 
   /// The robot, and what it drives.
   void draw(const Motion& motion) {
+    drawn_ = motion;
     Drawing drawing(robot_.map_frame, now_);
     drawing.add_motion("committed", motion, model_.limits.max_speed);
-    drawing.add_robot(robot_.name, robot_.base_frame, model_.footprint);
+    drawing.add_robot(robot_.name + (stop_.stopped() ? ": EMERGENCY STOP" : ""), robot_.base_frame,
+                      model_.footprint);
     drawings_.publish(drawing.markers());
   }
 
@@ -295,6 +314,7 @@ class TrajectoryBroadcasterNode {
   ros::Time now_;
   ros::Time next_fleet_;
   std::vector<PromiseId> published_;
+  Motion drawn_;
   mocha_ugv::Lease lease_;
   std::map<std::string, int> refusals_;
   int breaches_ = 0;
@@ -310,6 +330,7 @@ class TrajectoryBroadcasterNode {
   ros::Subscriber leases_;
   ros::Subscriber requests_;
   FleetNetwork network_;
+  EmergencyStopControls stop_;
   StepLoop loop_;
 };
 

@@ -3,21 +3,20 @@
 #include <geometry_msgs/Vector3Stamped.h>
 #include <mocha_ugv/Lease.h>
 #include <mocha_ugv/Trajectory.h>
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <stdexcept>
 #include <string>
 
 #include "control/trajectory_tracker.h"
 #include "ros/conversions.h"
+#include "ros/emergency_stop_listener.h"
 #include "ros/live_parameters.h"
 #include "ros/parameters.h"
 #include "ros/pose_source.h"
 #include "ros/robot_identity.h"
+#include "ros/run_stopping_node.h"
 #include "ros/step_loop.h"
 #include "ros/transport.h"
 
@@ -57,6 +56,7 @@ class TrajectoryTrackerNode {
         max_lease_(values.number("max_lease")),
         tracker_(tracker_parameters(values),
                  load_robot_model(config_path(""), values.text("robot_model"))),
+        stop_(node),
         pose_(node, robot_, values.number("max_pose_age"), values.number("max_transform_age")),
         commands_(node.advertise<geometry_msgs::Twist>("cmd_vel", 1)),
         errors_(node.advertise<geometry_msgs::Vector3Stamped>("tracking_error", 10)),
@@ -115,6 +115,7 @@ class TrajectoryTrackerNode {
     reading_ = pose_.read(now);
     const TrackerMode before = tracker_.mode();
     const int refused_before = tracker_.refused();
+    tracker_.set_stopped(stop_.stopped(), stop_.reason());
     command_ = tracker_.step(now.toSec(), reading_.state);
     now_ = now;
     publish();
@@ -145,7 +146,8 @@ class TrajectoryTrackerNode {
     using diagnostic_msgs::DiagnosticStatus;
     const TrackerMode mode = tracker_.mode();
     const std::string why = mode == TrackerMode::kStale ? reading_.missing : tracker_.stop_reason();
-    const bool failed = mode == TrackerMode::kErrorBraking || mode == TrackerMode::kStale;
+    const bool failed = mode == TrackerMode::kErrorBraking || mode == TrackerMode::kStale ||
+                        mode == TrackerMode::kEmergency;
     const bool idle_without_pose = mode == TrackerMode::kIdle && !reading_.state;
     if (failed) {
       status.summary(DiagnosticStatus::ERROR, std::string(to_text(mode)) + ": " + why);
@@ -182,6 +184,7 @@ class TrajectoryTrackerNode {
   double initial_lease_;
   double max_lease_;
   TrajectoryTracker tracker_;
+  EmergencyStopListener stop_;
   PoseSource pose_;
   PoseReading reading_;
   UnicycleState command_ = {0.0, 0.0};
@@ -197,29 +200,11 @@ class TrajectoryTrackerNode {
   StepLoop loop_;
 };
 
-std::atomic<bool> asked_to_stop{false};
-
-void ask_to_stop(int) { asked_to_stop = true; }
-
 }  // namespace
 }  // namespace mocha
 
 int main(int argc, char** argv) {
-  // Own handlers: the last command has to leave before the connections close.
-  ros::init(argc, argv, "trajectory_tracker", ros::init_options::NoSigintHandler);
-  std::signal(SIGINT, mocha::ask_to_stop);
-  std::signal(SIGTERM, mocha::ask_to_stop);
-  ros::NodeHandle node;
-  try {
-    mocha::TrajectoryTrackerNode tracker(
-        node, mocha::read_parameters(ros::NodeHandle("~"), "trajectory_tracker"));
-    while (ros::ok() && !mocha::asked_to_stop) {
-      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
-    }
-    tracker.stop();
-  } catch (const std::exception& error) {
-    ROS_FATAL("trajectory_tracker: %s", error.what());
-    return 1;
-  }
-  return 0;
+  using Node = mocha::TrajectoryTrackerNode;
+  return mocha::run_stopping_node<Node>(argc, argv, "trajectory_tracker", ros::WallDuration(0.02),
+                                        [](Node&) {});
 }

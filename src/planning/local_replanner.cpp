@@ -18,6 +18,7 @@ constexpr double kStanding_radps = 0.05;
 constexpr double kStandPhase_s = 0.1;
 constexpr double kSamePlace_m = 0.5;      // of two plans' ends
 constexpr double kShareOfTrigger = 0.75;  // of the clearance to what moves, below which (37) is met
+constexpr double kShareOfError = 0.5;     // within which a stop is what was promised
 constexpr double kWorthwhile_s =
     0.15;  // a promise that reaches less farther is not worth a message
 
@@ -131,13 +132,37 @@ void LocalReplanner::take_offer(double now_s, const PromiseScene& scene, Output&
     const Violation of_offer = conflict(*offered_, now_s, scene, horizon_s);
     output.keeps_plan = of_offer && (!of_plan || of_plan.time_s > of_offer.time_s);
   }
-  if (!output.keeps_plan) {
-    plan_ = std::move(*offered_);
-    swerving_.forget();
-    ++plan_id_;
-    squeezes_ = false;
-  }
+  if (!output.keeps_plan) replace_plan(std::move(*offered_));
   offered_.reset();
+}
+
+void LocalReplanner::replace_plan(Motion plan) {
+  plan_ = std::move(plan);
+  swerving_.forget();
+  ++plan_id_;
+  squeezes_ = false;
+}
+
+LocalReplanner::Output LocalReplanner::halt(double now_s, const RobotState& state) {
+  const Pose here = predict(state, now_s);
+  Output output;
+  output.reason = PlanReason::kEmergencyStop;
+  offered_.reset();
+  replace_plan(Motion());
+  const Motion stop(now_s, brake_from(here, state.twist.speed, state.twist.yaw_rate,
+                                      builder_.stop_deceleration(state.twist)));
+  const bool said = proposals_.pending(now_s) && proposals_.newest_brakes();
+  if (!said && !is_promised(stop, now_s)) propose(now_s, stop, true, {}, true, output);
+  return output;
+}
+
+bool LocalReplanner::is_promised(const Motion& stop, double now_s) const {
+  if (committed_.empty() || committed_.end_time() > stop.end_time()) return false;
+  const Pose promised = committed_.at(now_s).pose;
+  const Pose real = stop.at(now_s).pose;
+  return (promised.position - real.position).norm() < kShareOfError * rules_.max_error_m &&
+         std::abs(wrap_angle(promised.yaw_rad - real.yaw_rad)) <
+             kShareOfError * rules_.max_error_rad;
 }
 
 Violation LocalReplanner::conflict(const Motion& plan, double now_s, const PromiseScene& scene,

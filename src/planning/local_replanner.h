@@ -60,6 +60,10 @@ class LocalReplanner {
   void on_refusal(std::uint32_t sequence);
 
   Output step(double now_s, const RobotState& measured, const PromiseScene& scene);
+  /// Instead, while the robot is stopped for an emergency: the plan is dropped, and what is
+  /// promised is what the robot does: it stops as hard as its wheels can and stands, wherever it is
+  /// pushed.
+  Output halt(double now_s, const RobotState& measured);
 
   const Motion& committed() const { return committed_; }
   /// What is being followed: the newest plan, or what local planning made of it.
@@ -69,6 +73,7 @@ class LocalReplanner {
 
  private:
   void take_offer(double now_s, const PromiseScene& scene, Output& output);
+  void replace_plan(Motion plan);
   /// The plan leads farther than what is in force.
   bool under_way() const;
   Violation conflict(const Motion& plan, double now_s, const PromiseScene& scene,
@@ -76,6 +81,8 @@ class LocalReplanner {
   bool waits_for_answer(double now_s, const PromiseScene& scene) const;
   void start(double now_s, const RobotState& measured, Output& output);
   bool off_track(double now_s, const RobotState& measured) const;
+  /// What is in force is where the robot is, and at rest no later than it will be.
+  bool is_promised(const Motion& stop, double now_s) const;
   void stop_here(double now_s, const RobotState& measured, Output& output);
   Swerving::Situation situation(double now_s) const;
   bool swerve(double now_s, const PromiseScene& scene, Output& output);

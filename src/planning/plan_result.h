@@ -25,7 +25,8 @@ enum class PlanReason {
   kPeerConflict = 10,
   kBraking = 11,
   kBackingOut = 12,
-  kCannotWin = 13
+  kCannotWin = 13,
+  kEmergencyStop = 14
 };
 
 /// One way to the goal that was optimised, certified or not.

@@ -65,6 +65,13 @@ double PromiseBuilder::hard_deceleration() const {
   return std::max(deceleration(), 0.6 * robot_.max_wheel_acceleration);
 }
 
+double PromiseBuilder::stop_deceleration(const UnicycleState& twist) const {
+  const WheelSpeeds wheels = wheel_speeds(twist, robot_.limits.track_m);
+  const double fastest = std::max(std::abs(wheels.left), std::abs(wheels.right));
+  const double share = fastest > 0.0 ? std::abs(twist.speed) / fastest : 1.0;
+  return std::max(deceleration(), share * robot_.max_wheel_acceleration);
+}
+
 std::vector<MovingThing> PromiseBuilder::kept_from(const PromiseScene& scene, double now_s,
                                                    double share) const {
   return kept_from(scene, now_s, Kept{0.0, kPeerSlack_m, share, 0.0});

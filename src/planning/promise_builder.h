@@ -6,6 +6,7 @@
 
 #include "safety/certificate.h"
 #include "safety/margin_budget.h"
+#include "trajectory/unicycle.h"
 #include "world/distance_field.h"
 #include "world/robot_model.h"
 
@@ -74,6 +75,8 @@ class PromiseBuilder {
   double deceleration() const { return 0.6 * robot_.limits.max_acceleration; }
   /// The same where nothing gentler helps: what the wheels can do, with something to spare.
   double hard_deceleration() const;
+  /// Of an emergency stop [m/s^2], in which the faster wheel slows down as hard as it can.
+  double stop_deceleration(const UnicycleState& twist) const;
 
  private:
   struct Kept {

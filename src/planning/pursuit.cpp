@@ -79,10 +79,14 @@ Motion Pursuit::brake(const Motion& committed, double now_s) const {
   return Motion(from_s, brake_along(committed, from_s, deceleration_));
 }
 
-Motion Pursuit::stop(const Motion& committed, double now_s) {
+void Pursuit::drop() {
   goals_.clear();
   parked_ = false;
   begin_goal();
+}
+
+Motion Pursuit::stop(const Motion& committed, double now_s) {
+  drop();
   if (!committed.empty()) plan_ = brake(committed, now_s);
   return plan_;
 }

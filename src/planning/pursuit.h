@@ -37,7 +37,7 @@ struct Outlook {
 /// Pursues goals: when to plan, what to ask the planner, which of its plans to drive, and when a
 /// goal is reached or given up. Where team-mates stand in its way, it asks for it; where it is in
 /// the way of a higher one, it makes room first, and so it does where it has reached its goal,
-/// until it is told to stop. Pure decisions: time, measurements and plans come in.
+/// until it is told to stop, or stopped. Pure decisions: time, measurements and plans come in.
 class Pursuit {
  public:
   enum class Ending { kNone, kReached, kNoProgress, kGoalOccupied };
@@ -72,6 +72,8 @@ class Pursuit {
   void follow(Motion followed);
   /// Drops all goals. The plan brakes along what is in force; empty where nothing is.
   Motion stop(const Motion& committed, double now_s);
+  /// Drops all goals and the plan, where something else stops the robot.
+  void drop();
 
   /// What a team-mate asks for.
   void hear(const WayRequest& request, double now_s) { right_of_way_.hear(request, now_s); }

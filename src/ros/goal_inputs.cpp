@@ -41,15 +41,26 @@ std::optional<Goal> GoalInputs::to_goal(const geometry_msgs::PoseStamped& stampe
     if (!any_heading) goal.yaw_rad = in_map.yaw_rad;
     return goal;
   } catch (const std::exception& error) {
-    ++refused_;
-    refusal_ = std::string("goal: ") + error.what();
-    ROS_WARN_THROTTLE(1.0, "%s: refused a message on %s", robot_.name.c_str(), refusal_.c_str());
+    refuse(error.what());
     return std::nullopt;
   }
 }
 
+std::optional<Goal> GoalInputs::accept(const geometry_msgs::PoseStamped& pose) {
+  const std::string why = handlers_.refusal();
+  if (why.empty()) return to_goal(pose);
+  refuse(why);
+  return std::nullopt;
+}
+
+void GoalInputs::refuse(const std::string& why) {
+  ++refused_;
+  refusal_ = "goal: " + why;
+  ROS_WARN_THROTTLE(1.0, "%s: refused a message on %s", robot_.name.c_str(), refusal_.c_str());
+}
+
 void GoalInputs::on_simple_goal(const geometry_msgs::PoseStamped& pose) {
-  const auto goal = to_goal(pose);
+  const auto goal = accept(pose);
   if (!goal) return;
   finish(false, "preempted by a goal on move_base_simple/goal");
   handlers_.take({*goal});
@@ -59,7 +70,7 @@ void GoalInputs::on_waypoints(const nav_msgs::Path& path) {
   std::deque<Goal> goals;
   for (geometry_msgs::PoseStamped pose : path.poses) {
     if (pose.header.frame_id.empty()) pose.header.frame_id = path.header.frame_id;
-    const auto goal = to_goal(pose);
+    const auto goal = accept(pose);
     if (!goal) return;
     goals.push_back(*goal);
   }
@@ -72,7 +83,7 @@ void GoalInputs::on_waypoints(const nav_msgs::Path& path) {
 }
 
 void GoalInputs::on_action_goal() {
-  const auto goal = to_goal(action_.acceptNewGoal()->target_pose);
+  const auto goal = accept(action_.acceptNewGoal()->target_pose);
   if (goal) {
     handlers_.take({*goal});
     return;

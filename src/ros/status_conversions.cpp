@@ -17,6 +17,7 @@ ros::Time ros_time(double t) {
 using Status = mocha_ugv::PlannerStatus;
 static_assert(static_cast<int>(PlanReason::kBackingOut) == Status::BACKING_OUT);
 static_assert(static_cast<int>(PlanReason::kCannotWin) == Status::CANNOT_WIN);
+static_assert(static_cast<int>(PlanReason::kEmergencyStop) == Status::EMERGENCY_STOP);
 static_assert(static_cast<int>(PlanReason::kPeerConflict) == Status::PEER_CONFLICT);
 static_assert(static_cast<int>(ViolatedTerm::kSeparation) == Status::SEPARATION);
 static_assert(static_cast<int>(ViolatedTerm::kUnseenSpace) == Status::UNSEEN_SPACE);
@@ -52,6 +53,8 @@ const char* to_text(PlanReason reason) {
       return "backing out";
     case PlanReason::kCannotWin:
       return "cannot win";
+    case PlanReason::kEmergencyStop:
+      return "emergency stop";
   }
   return "unknown";
 }

@@ -207,6 +207,71 @@ TEST(TrajectoryTracker, LargeErrorStopsUntilAMotionFitsTheRealPose) {
   EXPECT_NEAR((loop.robot.pose().position - here.position).norm(), 1.0, 0.03);
 }
 
+TEST(TrajectoryTracker, AnEmergencyStopBrakesAsHardAsTheWheelsCanOnTheCurve) {
+  for (const RobotModel& model : {rover(), jackal()}) {
+    std::mt19937 random(11);
+    for (int run = 0; run < 10; ++run) {
+      const DrivePhase drive = winding(model.limits, 1, random);
+      const Motion motion(0.0, {drive});
+      ClosedLoop loop(model, start_of(drive), run);
+      loop.tracker.offer({1, 1}, motion, kForever);
+      const Sample last = loop.run(0.4 * motion.end_time()).back();
+      loop.tracker.set_stopped(true, "button");
+      const auto samples = loop.run(motion.end_time() + 2.0);
+      const double step = model.max_wheel_acceleration * kPeriod_s;
+      const auto faster_wheel = [&](const UnicycleState& state) {
+        const WheelSpeeds wheels = wheel_speeds(state, model.limits.track_m);
+        return std::max(std::abs(wheels.left), std::abs(wheels.right));
+      };
+      const double from = faster_wheel(last.command);
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        const UnicycleState& command = samples[i].command;
+        EXPECT_NEAR(faster_wheel(command), std::max(0.0, from - (i + 1) * step), 1e-9);
+        EXPECT_NEAR(command.yaw_rate * last.command.speed, command.speed * last.command.yaw_rate,
+                    1e-9)
+            << "the curve is left";
+      }
+      EXPECT_EQ(loop.tracker.mode(), TrackerMode::kEmergency);
+      EXPECT_EQ(loop.tracker.stop_reason(), "button");
+      EXPECT_EQ(samples.back().command.speed, 0.0);
+    }
+  }
+}
+
+TEST(TrajectoryTracker, WhileStoppedAndAfterTheResetNothingOldIsDriven) {
+  ClosedLoop loop(rover(), {}, 1);
+  loop.tracker.offer({1, 1}, Motion(0.0, {straight({}, 1, 4.0, 9.0)}), kForever);
+  loop.run(3.0);
+  loop.tracker.set_stopped(true, "button");
+  loop.run(4.0);
+  const Pose here = loop.robot.pose();
+  loop.tracker.offer({1, 2}, Motion(4.5, {straight(here, 1, 1.0, 4.0)}), kForever);
+  loop.run(6.0);
+  loop.tracker.offer({1, 3}, Motion(12.0, {straight(here, 1, 1.0, 4.0)}), 0.0);  // no lease yet
+  loop.run(6.5);
+  loop.tracker.set_stopped(false, "");
+  loop.run(7.0);
+  loop.tracker.renew({1, 3}, kForever);
+  loop.run(17.0);
+  EXPECT_LT((loop.robot.pose().position - here.position).norm(), 1e-6);
+  EXPECT_EQ(loop.tracker.mode(), TrackerMode::kIdle);
+  EXPECT_TRUE(loop.tracker.stop_reason().empty());
+
+  loop.tracker.offer({1, 4}, Motion(17.5, {straight(here, 1, 1.0, 4.0)}), kForever);
+  loop.run(23.0);
+  EXPECT_NEAR((loop.robot.pose().position - here.position).norm(), 1.0, 0.03);
+}
+
+TEST(TrajectoryTracker, AnEmergencyStopNeedsNoPose) {
+  ClosedLoop loop(rover(), {}, 1);
+  loop.blind = [](double t) { return t > 2.9; };
+  loop.tracker.offer({1, 1}, Motion(0.0, {straight({}, 1, 4.0, 9.0)}), kForever);
+  const double before = loop.run(3.0).back().command.speed;
+  loop.tracker.set_stopped(true, "button");
+  const double step = rover().max_wheel_acceleration * kPeriod_s;
+  EXPECT_LT(loop.run(3.0 + 0.5 * kPeriod_s).back().command.speed, before - 0.9 * step);
+}
+
 TEST(TrajectoryTracker, ContinuesSeamlesslyIntoAMotionThatBranchesOff) {
   std::mt19937 random(5);
   const DrivePhase first = winding(rover().limits, 1, random);

@@ -167,6 +167,26 @@ TEST(WireFormat, GivesBackWayRequests) {
   EXPECT_THROW(encoded(sent), std::invalid_argument);
 }
 
+TEST(WireFormat, GivesBackEmergencyStops) {
+  const FleetStops sent{"ugv1", 3, {{"ugv2", 7, 6, kNow_s + 0.125, "told by /joystick"}}};
+  const FleetStops heard = std::get<FleetStops>(decoded(encoded(sent)));
+  EXPECT_EQ(heard.agent, "ugv1");
+  EXPECT_EQ(heard.epoch, 3U);
+  ASSERT_EQ(heard.stops.size(), 1U);
+  EXPECT_EQ(heard.stops[0].agent, "ugv2");
+  EXPECT_EQ(heard.stops[0].ordered, 7U);
+  EXPECT_EQ(heard.stops[0].released, 6U);
+  EXPECT_NEAR(heard.stops[0].since_s, kNow_s + 0.125, 1e-6);
+  EXPECT_EQ(heard.stops[0].reason, "told by /joystick");
+  EXPECT_TRUE(std::get<FleetStops>(decoded(encoded(FleetStops{"ugv1", 3, {}}))).stops.empty());
+  FleetStops nonsense = sent;
+  nonsense.stops[0].released = 8;
+  EXPECT_THROW(encoded(nonsense), std::invalid_argument);
+  nonsense = sent;
+  nonsense.stops[0].agent = "two words";
+  EXPECT_THROW(encoded(nonsense), std::invalid_argument);
+}
+
 TEST(WireFormat, TenSecondsOfDriveFitIntoOneDatagram) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);

@@ -85,6 +85,15 @@ class Fuzzer {
       for (int i = below(20); i > 0; --i) request.way.emplace_back(below(40), below(40));
       return request;
     }
+    if (below(4) == 0) {
+      FleetStops stops{agent, epoch, {}};
+      for (int i = below(4); i > 0; --i) {
+        const auto ordered = static_cast<std::uint64_t>(1 + below(9));
+        stops.stops.push_back({"ugv" + std::to_string(1 + below(5)), ordered,
+                               ordered - static_cast<std::uint64_t>(below(2)), now_s_, "told"});
+      }
+      return stops;
+    }
     Promise promise{
         agent,  {epoch, 1U + below(9)}, static_cast<PromiseState>(1 + below(4)), below(3), 0.3,
         nullptr};
@@ -175,6 +184,11 @@ class Fuzzer {
       answer(robot_.receive(*promise, now_s_));
     } else if (const auto* beat = std::get_if<Beat>(&message)) {
       answer(robot_.receive(*beat, now_s_));
+    } else if (const auto* stops = std::get_if<FleetStops>(&message)) {
+      validate(*stops);
+      stop_.receive(*stops, now_s_);
+      require(stop_.record().fleet.size() <= EmergencyStop::kMostAgents,
+              "too many stops are known");
     } else {
       validate(std::get<WayRequest>(message));
     }
@@ -189,6 +203,8 @@ class Fuzzer {
   void advance() {
     now_s_ += 0.02;
     answer(robot_.tick(now_s_));
+    for (const FleetStops& stops : stop_.tick(now_s_)) link_.pack(stops);
+    if (below(100) == 0) stop_.stop_fleet(now_s_, "fuzz");
     if (below(10) == 0) corpus_[below(static_cast<int>(corpus_.size()))] = sound();
     if (below(20) != 0) return;
     const Vector2 here = robot_.binding().position(now_s_ + 0.5);
@@ -203,6 +219,7 @@ class Fuzzer {
   const bool keyed_;
   double now_s_ = kNow_s;
   Commitment robot_;
+  EmergencyStop stop_{"ugv1", 1, {}};
   DatagramLink link_;
   std::vector<Bytes> corpus_;
   std::uint32_t epoch_ = 1;

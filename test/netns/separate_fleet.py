@@ -170,6 +170,12 @@ class SeparateFleet:
         """All that runs on a robot, at once."""
         self._hosts.kill(name)
 
+    def call(self, name, service, *words):
+        """What a service on a robot's host answers."""
+        command = self._hosts.command(name, ["rosservice", "call", service, *words])
+        return subprocess.run(command, env={**os.environ, **self._environment(name)}, check=True, capture_output=True, text=True,
+                              timeout=STUCK_WALL_S).stdout
+
     def attach(self, name):
         """Joins a robot with the simulator."""
         self._adapters[name] = self._adapter("robot", name, name)

@@ -134,6 +134,45 @@ TEST_F(LocalReplannerTest, OffItsTrackItBrakesFromWhereItIs) {
   EXPECT_TRUE(replanner_.step(now_s + 0.1, turned, scene_).proposal);
 }
 
+TEST_F(LocalReplannerTest, StoppedForAnEmergencyItPromisesWhatItDoes) {
+  replanner_.set_committed(1, ahead_);
+  replanner_.set_plan(ahead_);
+  const double now_s = kNow_s + 4.0;
+  const auto output = replanner_.halt(now_s, state(ahead_, now_s));
+  EXPECT_EQ(output.reason, PlanReason::kEmergencyStop);
+  EXPECT_FALSE(output.renew_lease);
+  EXPECT_FALSE(output.request_plan);
+  ASSERT_TRUE(output.proposal);
+  EXPECT_TRUE(output.proposal->emergency);
+  const Motion& stop = output.proposal->motion;
+  EXPECT_NEAR(stop.at(now_s).speed, 0.9, 1e-3);
+  EXPECT_LT((stop.at(now_s).pose.position - ahead_.at(now_s).pose.position).norm(), 1e-3);
+  const double brakes_m = 0.9 * 0.9 / (2.0 * robot_.max_wheel_acceleration);
+  EXPECT_NEAR(stop.length_m(), brakes_m + 0.1 * 0.9, 0.02);
+  EXPECT_FALSE(replanner_.halt(now_s + 0.1, state(stop, now_s + 0.1)).proposal);  // said already
+  replanner_.set_committed(output.proposal->sequence, stop);
+  for (double t = now_s + 0.1; t < now_s + 9.0; t += 0.1) {
+    replanner_.set_plan(ahead_);  // is dropped
+    EXPECT_FALSE(replanner_.halt(t, state(stop, t)).proposal) << t - now_s;
+  }
+  const auto after = step_on_track(now_s + 9.1);
+  EXPECT_FALSE(after.proposal) << "sets off by itself after the reset";
+  EXPECT_TRUE(replanner_.plan().empty());
+}
+
+TEST_F(LocalReplannerTest, StoppedForAnEmergencyAndPushedItSaysWhereItIs) {
+  replanner_.set_committed(1, standing(kNow_s - 5.0, {0.0, 0.0}, 0.0));
+  const RobotState here{kNow_s, {{0.01, -0.02}, 0.05}, {0.0, 0.0}};
+  EXPECT_FALSE(replanner_.halt(kNow_s, here).proposal);
+  const RobotState pushed{kNow_s + 1.0, {{0.3, -0.02}, 0.05}, {0.0, 0.0}};
+  const auto output = replanner_.halt(kNow_s + 1.0, pushed);
+  ASSERT_TRUE(output.proposal);
+  EXPECT_LT((output.proposal->motion.end_pose().position - Vector2(0.3, -0.02)).norm(), 1e-4);
+  EXPECT_EQ(output.proposal->motion.length_m(), 0.0);
+  EXPECT_TRUE(LocalReplanner(robot_, rules_, default_local_rules()).halt(kNow_s, here).proposal)
+      << "nothing was promised yet";
+}
+
 TEST_F(LocalReplannerTest, AnOldMeasurementOfAFastRobotIsNotOffTrack) {
   replanner_.set_committed(1, ahead_);
   const double now_s = kNow_s + 4.0;

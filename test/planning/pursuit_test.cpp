@@ -397,5 +397,20 @@ TEST_F(PursuitTest, MakesRoomWhereItIsParkedButNotWhereItWasToldToStop) {
   EXPECT_TRUE(asked_.empty());
 }
 
+TEST_F(PursuitTest, ForgetsItsGoalsWhereSomethingElseStopsIt) {
+  run(1.0);
+  pursuit_.drop();
+  EXPECT_TRUE(pursuit_.idle());
+  EXPECT_TRUE(pursuit_.plan().empty());
+  const WayRequest request = way_of("ugv9", {{9.0, 0.0}, {-4.0, 0.0}});
+  EXPECT_TRUE(run_while_asked(request, 3.0).plan.empty());
+  EXPECT_TRUE(asked_.empty());
+  pursuit_.take({Goal{{0.0, 0.0}, std::nullopt}}, now_s_);
+  ASSERT_EQ(step().ending, Ending::kReached);  // and is parked there
+  pursuit_.drop();
+  EXPECT_TRUE(run_while_asked(request, 3.0).plan.empty()) << "makes room";
+  EXPECT_TRUE(asked_.empty());
+}
+
 }  // namespace
 }  // namespace mocha

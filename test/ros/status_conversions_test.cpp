@@ -61,7 +61,8 @@ TEST(StatusConversions, EveryReasonHasItsOwnWordsAndNumber) {
       {PlanReason::kPeerConflict, Status::PEER_CONFLICT},
       {PlanReason::kBraking, Status::BRAKING},
       {PlanReason::kBackingOut, Status::BACKING_OUT},
-      {PlanReason::kCannotWin, Status::CANNOT_WIN}};
+      {PlanReason::kCannotWin, Status::CANNOT_WIN},
+      {PlanReason::kEmergencyStop, Status::EMERGENCY_STOP}};
   std::set<std::string> words;
   for (const auto& [reason, number] : numbers) {
     EXPECT_EQ(to_message(reason, {}, "", "map", kStamp).reason, number);

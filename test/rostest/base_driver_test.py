@@ -17,9 +17,11 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
+from mocha_ugv.msg import EmergencyStopState
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import BatteryState, Imu
-from std_srvs.srv import SetBool, Trigger
+from std_msgs.msg import Bool
+from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
 from node_process import pid_of
@@ -111,6 +113,8 @@ class BaseDriverTest(unittest.TestCase):
         cls.line = SerialLine(BASE, LINE)
         cls.watch = Watch()
         cls.commander = Commander()
+        cls.state = rospy.Publisher("/ugv1/emergency_stop_state", EmergencyStopState, queue_size=1, latch=True)
+        cls.order = rospy.Publisher("/ugv1/emergency_stop", Bool, queue_size=1)
 
     @classmethod
     def tearDownClass(cls):
@@ -332,13 +336,49 @@ class BaseDriverTest(unittest.TestCase):
         self.stands_within(HEARTBEAT_S)
         self.drive(timeout_s=20.0)
 
-    def test_18_an_emergency_stop_holds_until_its_reset(self):
+    def said_since(self, mark):
+        """What the driver has told the base: numbers of the commands."""
+        return [json.loads(line)["T"] for line in bytes(self.line.from_computer[mark:]).split(b"\n")[1:-1] if line]
+
+    def test_18_an_emergency_stop_is_ramped_and_holds_until_its_reset(self):
         self.drive()
-        service = rospy.ServiceProxy("/ugv1/emergency_stop", SetBool)
-        self.assertTrue(service(True).success)
+        mark = len(self.line.from_computer)
+        self.state.publish(stopped=True, resets=7, message="a button")
         self.stands_within(0.0)
         self.stays_standing(1.0)
-        self.assertTrue(service(False).success)
+        self.wait(lambda: self.watch.base()[0] == "a button", 3.0, "diagnostics say so")
+        lines = [json.loads(line) for line in bytes(self.line.from_computer[mark:]).split(b"\n")[1:-1] if line]
+        held = [line["T"] for line in lines].index(0)
+        ramp = [line["L"] for line in lines[:held] if line["T"] == 1]
+        self.assertEqual(ramp[-1], 0.0)
+        self.assertLess(max(abs(b - a) for a, b in zip(ramp, ramp[1:])), 2.0 * 0.1 + 1e-3, "no step beyond the ramp")
+        mark = len(self.line.from_computer)
+        self.state.publish(stopped=False, resets=8)
+        self.drive()
+        self.assertIn(999, self.said_since(mark))
+
+    def test_19_an_emergency_stop_on_the_topic_needs_nobody_else(self):
+        self.drive()
+        self.order.publish(True)
+        self.stands_within(0.0)
+        self.order.publish(False)
+        self.state.publish(stopped=False, resets=8)  # of before
+        self.stays_standing(1.0)
+        self.wait(lambda: "emergency stop by" in self.watch.base()[0], 3.0, "diagnostics say so")
+        self.state.publish(stopped=False, resets=9)
+        self.drive()
+
+    def test_20_a_driver_that_is_started_again_stays_stopped(self):
+        self.drive()
+        self.state.publish(stopped=True, resets=9, message="a button")
+        self.stands_within(0.0)
+        self.wait(lambda: self.watch.base()[0] == "a button", 3.0, "diagnostics say so")
+        mark = len(self.line.from_computer)
+        os.kill(pid_of("/ugv1/base_driver"), signal.SIGKILL)
+        self.wait(lambda: 0 in self.said_since(mark), 20.0, "the new driver has the base held, too")
+        self.stays_standing(3.0)
+        self.assertNotIn(999, self.said_since(mark))
+        self.state.publish(stopped=False, resets=10)
         self.drive()
 
 

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <mocha_ugv/EmergencyStopState.h>
+#include <ros/ros.h>
+#include <std_msgs/Bool.h>
+
+#include <string>
+
+#include "control/stop_latch.h"
+
+namespace mocha {
+
+/// A node's ear for emergency stops: `emergency_stop` and `fleet/emergency_stop`, where true stops
+/// at once, whoever else is alive, and `emergency_stop_state`, which alone says of a reset.
+class EmergencyStopListener {
+ public:
+  explicit EmergencyStopListener(ros::NodeHandle& node);
+
+  bool stopped() const { return latch_.stopped(); }
+  /// Whoever knows has said that no stop holds.
+  bool released() const { return latch_.released(); }
+  /// How often it came to be stopped.
+  int stops() const { return stops_; }
+  /// Which stops hold and how to reset them; empty while none does.
+  std::string reason() const;
+
+ private:
+  void on_stop(const ros::MessageEvent<const std_msgs::Bool>& event);
+  void on_state(const mocha_ugv::EmergencyStopState& state);
+
+  StopLatch latch_;
+  int stops_ = 0;
+  std::string message_;  // of the state
+  std::string sender_;   // of the newest "stop"
+  ros::Subscriber robot_;
+  ros::Subscriber fleet_;
+  ros::Subscriber states_;
+};
+
+}  // namespace mocha
