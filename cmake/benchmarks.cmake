@@ -12,6 +12,9 @@ endforeach()
 mocha_benchmark(classes)
 target_link_libraries(benchmark_classes mocha_perception)
 
+mocha_benchmark(localization)
+target_link_libraries(benchmark_localization mocha_perception mocha_simulation)
+
 mocha_benchmark(tracks)
 target_link_libraries(benchmark_tracks mocha_ros)
 

@@ -21,9 +21,9 @@ struct DriveScan {
   Pose truth_first;
 };
 
-inline World one_robot_world(const std::string& name, const Pose& start,
+inline World one_robot_world(const std::string& path, const Pose& start,
                              const std::string& model = "rover") {
-  World world = load_world("config/worlds/" + name + ".yaml", "config");
+  World world = load_world(path, "config");
   world.robots.resize(1);
   world.robots[0].model = load_robot_model("config", model);
   world.robots[0].start = start;

@@ -38,4 +38,28 @@ inline double turn_rad(const Pose& a, const Pose& b) {
   return std::abs(wrap_angle(a.yaw_rad - b.yaw_rad));
 }
 
+/// A drive from which a piece is missing: as if somebody had carried the robot.
+struct Kidnapping {
+  std::vector<DriveScan> drive;
+  std::size_t when;  // the first sweep after it
+};
+
+/// Carried from sweep `from` on, to the first place of the drive at least `carried_m` away.
+inline Kidnapping kidnap(const std::vector<DriveScan>& drive, std::size_t from, double carried_m) {
+  std::size_t to = from;
+  while (distance_m(drive.at(to).truth, drive[from].truth) < carried_m) ++to;
+  Kidnapping result{{drive.begin(), drive.begin() + static_cast<std::ptrdiff_t>(from)}, from};
+  const Pose shift =
+      composed(drive[from - 1].odometry, relative(drive[to - 1].odometry, {{0.0, 0.0}, 0.0}));
+  const double passed_s = drive[to].scan.start_time_s - drive[from].scan.start_time_s;
+  for (std::size_t i = to; i < drive.size(); ++i) {
+    DriveScan sweep = drive[i];
+    sweep.scan.start_time_s -= passed_s;
+    sweep.odometry = composed(shift, sweep.odometry);
+    sweep.odometry_first = composed(shift, sweep.odometry_first);
+    result.drive.push_back(sweep);
+  }
+  return result;
+}
+
 }  // namespace mocha

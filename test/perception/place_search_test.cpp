@@ -127,7 +127,7 @@ TEST(PlaceSearchTest, SaysSoWhenItGaveUp) {
 }
 
 TEST(PlaceSearchTest, FindsEveryPlaceOfADriveThroughTheCorridor) {
-  World world = one_robot_world("corridor", {{0.0, 0.0}, 0.0});
+  World world = one_robot_world("config/worlds/corridor.yaml", {{0.0, 0.0}, 0.0});
   const RobotModel& model = world.robots[0].model;
   const WallField walls(map_of(drive_through(world, corridor_way(), 1), model), 1.0);
   const PlaceSearch search(walls, {});

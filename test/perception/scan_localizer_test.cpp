@@ -46,33 +46,10 @@ Account follow(ScanLocalizer& localizer, const std::vector<DriveScan>& drive,
   return account;
 }
 
-/// A drive from which a piece of at least 5 m is missing: as if somebody had carried the robot.
-struct Kidnapping {
-  std::vector<DriveScan> drive;
-  std::size_t when;
-};
-
-Kidnapping kidnap(const std::vector<DriveScan>& drive, std::size_t from) {
-  std::size_t to = from;
-  while (distance_m(drive.at(to).truth, drive[from].truth) < 5.0) ++to;
-  Kidnapping result{{drive.begin(), drive.begin() + static_cast<std::ptrdiff_t>(from)}, from};
-  const Pose shift =
-      composed(drive[from - 1].odometry, relative(drive[to - 1].odometry, {{0.0, 0.0}, 0.0}));
-  const double passed_s = drive[to].scan.start_time_s - drive[from].scan.start_time_s;
-  for (std::size_t i = to; i < drive.size(); ++i) {
-    DriveScan sweep = drive[i];
-    sweep.scan.start_time_s -= passed_s;
-    sweep.odometry = composed(shift, sweep.odometry);
-    sweep.odometry_first = composed(shift, sweep.odometry_first);
-    result.drive.push_back(sweep);
-  }
-  return result;
-}
-
 class ScanLocalizerTest : public testing::TestWithParam<const char*> {
  protected:
   ScanLocalizerTest()
-      : world_(one_robot_world("corridor", {{0.0, 0.0}, 0.0}, GetParam())),
+      : world_(one_robot_world("config/worlds/corridor.yaml", {{0.0, 0.0}, 0.0}, GetParam())),
         model_(world_.robots[0].model),
         map_(map_of(drive_through(world_, corridor_way(), 1), model_)),
         drive_(drive_through(world_, corridor_way(), 2)),
@@ -102,7 +79,7 @@ TEST_P(ScanLocalizerTest, RecoversFromBeingCarriedAway) {
   for (std::size_t from : {60, 150, 280}) {
     ScanLocalizer localizer(options_for(model_));
     localizer.set_map(map_);
-    const Kidnapping carried = kidnap(drive_, from);
+    const Kidnapping carried = kidnap(drive_, from, 5.0);
     follow(localizer, carried.drive, model_.lidar, 0, carried.when);
     ASSERT_EQ(localizer.localization().state, State::kLocalized);
     // Within half a second nobody believes the old place; within three the new one is known.
@@ -131,9 +108,9 @@ TEST_P(ScanLocalizerTest, IsNotConfusedByAnOdometryThatBeginsAnew) {
 INSTANTIATE_TEST_SUITE_P(Models, ScanLocalizerTest, testing::Values("rover", "waveshare_rover"));
 
 TEST(ScanLocalizerRefusalTest, NeverBelievesThatItIsInAMapOfAnotherPlace) {
-  World here =
-      one_robot_world("five", load_world("config/worlds/five.yaml", "config").robots[0].start);
-  World there = one_robot_world("corridor", {{0.0, 0.0}, 0.0});
+  World here = one_robot_world("config/worlds/five.yaml",
+                               load_world("config/worlds/five.yaml", "config").robots[0].start);
+  World there = one_robot_world("config/worlds/corridor.yaml", {{0.0, 0.0}, 0.0});
   const RobotModel& model = here.robots[0].model;
   ScanLocalizer localizer(options_for(model));
   localizer.set_map(map_of(drive_through(there, corridor_way(), 1), model));
@@ -145,7 +122,7 @@ TEST(ScanLocalizerRefusalTest, NeverBelievesThatItIsInAMapOfAnotherPlace) {
 
 /// An empty room, 8 m by 5 m, which looks the same after half a turn.
 World symmetric_room() {
-  World world = one_robot_world("corridor", {{2.0, 1.5}, 0.3});
+  World world = one_robot_world("config/worlds/corridor.yaml", {{2.0, 1.5}, 0.3});
   world.circles.clear();
   world.bounds = Eigen::AlignedBox2d(Vector2(0.0, 0.0), Vector2(8.0, 5.0));
   const auto wall = [](double x0, double y0, double x1, double y1) {
@@ -186,7 +163,7 @@ TEST(ScanLocalizerRefusalTest, TakesAWordWhereTheScansCannotTell) {
 }
 
 TEST(ScanLocalizerRefusalTest, DoesNotTakeAWordThatTheScansContradict) {
-  World world = one_robot_world("corridor", {{0.0, 0.0}, 0.0});
+  World world = one_robot_world("config/worlds/corridor.yaml", {{0.0, 0.0}, 0.0});
   const RobotModel& model = world.robots[0].model;
   ScanLocalizer localizer(options_for(model));
   localizer.set_map(map_of(drive_through(world, corridor_way(), 1), model));
@@ -198,7 +175,7 @@ TEST(ScanLocalizerRefusalTest, DoesNotTakeAWordThatTheScansContradict) {
 }
 
 TEST(ScanLocalizerRefusalTest, WithoutMapOrHitsItKnowsNothing) {
-  World world = one_robot_world("corridor", {{0.0, 0.0}, 0.0});
+  World world = one_robot_world("config/worlds/corridor.yaml", {{0.0, 0.0}, 0.0});
   const RobotModel& model = world.robots[0].model;
   const auto drive = drive_through(world, {{2.0, 0.0}}, 2);
   ScanLocalizer localizer(options_for(model));
@@ -210,7 +187,7 @@ TEST(ScanLocalizerRefusalTest, WithoutMapOrHitsItKnowsNothing) {
 }
 
 TEST(ScanLocalizerRefusalTest, WhoSeesNothingForLongIsLost) {
-  World world = one_robot_world("corridor", {{0.0, 0.0}, 0.0});
+  World world = one_robot_world("config/worlds/corridor.yaml", {{0.0, 0.0}, 0.0});
   const RobotModel& model = world.robots[0].model;
   ScanLocalizer localizer(options_for(model));
   localizer.set_map(map_of(drive_through(world, corridor_way(), 1), model));
@@ -236,7 +213,8 @@ TEST(ScanLocalizerRefusalTest, WhoSeesNothingForLongIsLost) {
 }
 
 TEST(ScanLocalizerMappingTest, MakesAMapOfTheCorridorWithAnOdometryThatDrifts) {
-  World world = one_robot_world("corridor", {{0.0, 0.0}, 0.0}, "waveshare_rover");
+  World world =
+      one_robot_world("config/worlds/corridor.yaml", {{0.0, 0.0}, 0.0}, "waveshare_rover");
   const RobotModel& model = world.robots[0].model;
   const auto drive = drive_through(world, corridor_way(), 2, 200.0);
   ScanLocalizer localizer(options_for(model));

@@ -97,7 +97,7 @@ TEST(ScanMatcherTest, HitsOnWhatTheMapDoesNotKnowHaveNoSay) {
 }
 
 TEST(ScanMatcherTest, ItsCovarianceIsNotBetterThanItsErrors) {
-  World world = one_robot_world("corridor", {{0.0, 0.0}, 0.0});
+  World world = one_robot_world("config/worlds/corridor.yaml", {{0.0, 0.0}, 0.0});
   const RobotModel& model = world.robots[0].model;
   const WallField walls(map_of(drive_through(world, corridor_way(), 1), model), 1.0);
   std::mt19937 random(5);
