@@ -162,6 +162,30 @@ TEST(ScanLocalizerRefusalTest, TakesAWordWhereTheScansCannotTell) {
   EXPECT_LT(Account::quantile(account.off_m, 1.0), 0.1);
 }
 
+TEST(ScanLocalizerRefusalTest, ACrowdThatHidesTheWallsForAWhileDoesNotConfuseIt) {
+  World world = symmetric_room();
+  const RobotModel& model = world.robots[0].model;
+  const std::vector<Vector2> way{{6.0, 1.5}, {6.0, 3.5}, {2.0, 3.5}};
+  ScanLocalizer localizer(options_for(model));
+  localizer.set_map(map_of(drive_through(world, way, 1), model));
+  const auto drive = drive_through(world, way, 2);
+  localizer.expect({drive[0].truth, Eigen::Vector3d(0.25, 0.25, 0.07).asDiagonal()});
+  follow(localizer, drive, model.lidar, 0, 40);
+  ASSERT_EQ(localizer.localization().state, State::kLocalized);
+  for (std::size_t i = 40; i < 75; ++i) {
+    ScanHits scan = hits_of(drive[i], model.lidar);
+    for (std::size_t hit = 0; i < 53 && hit < scan.hits.size(); ++hit) {
+      if (hit % 20 < 9) scan.hits[hit] *= 0.5;  // somebody on the way to the wall
+    }
+    const Localization& now = localizer.add(scan, drive[i].odometry);
+    EXPECT_EQ(now.state, State::kLocalized) << i << ' ' << now.quality;
+    EXPECT_LT(distance_m(now.base.pose, drive[i].truth), 0.1) << i;
+    if (i == 50) {
+      EXPECT_LT(now.quality, 0.7);
+    }
+  }
+}
+
 TEST(ScanLocalizerRefusalTest, DoesNotTakeAWordThatTheScansContradict) {
   World world = one_robot_world("config/worlds/corridor.yaml", {{0.0, 0.0}, 0.0});
   const RobotModel& model = world.robots[0].model;

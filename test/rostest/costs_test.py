@@ -20,6 +20,7 @@ from mocha_scripts import costs_plots  # noqa: E402
 
 WORLD = os.path.join(ROOT, "config/worlds/corridor_meet.yaml")
 RECORDED_S = 4.0
+MOST_RECORDINGS = 5
 DEARER = 1.1  # than before the promise, at least by this factor
 
 
@@ -33,12 +34,23 @@ class CostsTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.out = tempfile.mkdtemp()
-        cls.demo = run("demo", "--headless", "--rate", "0", "--world", WORLD, "--limit", str(RECORDED_S), out=cls.out)
         cls.bag = os.path.join(cls.out, "drive.bag")
+        for _ in range(MOST_RECORDINGS):
+            cls.demo = run("demo", "--headless", "--rate", "0", "--world", WORLD, "--limit", str(RECORDED_S), out=cls.out)
+            if cls.both_set_out_together():
+                break
 
     @classmethod
     def tearDownClass(cls):
         shutil.rmtree(cls.out)
+
+    @classmethod
+    def both_set_out_together(cls):
+        """Goals do not come in lockstep: on a busy machine one may come so late that its robot knows the other's promise from the start."""
+        if not os.path.exists(cls.bag):
+            return False
+        recording = costs_plots.Recording(cls.bag, ["ugv1", "ugv2"])
+        return recording.leader() == "ugv1" and recording.telling_plan("ugv2")[1] is not None
 
     def setUp(self):
         self.assertTrue(os.path.exists(self.bag), self.demo.stdout)
