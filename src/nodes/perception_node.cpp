@@ -101,10 +101,7 @@ class PerceptionNode {
     }
     publish_map();
     publish_cells();
-    if (refusals_.total() > refusals_said_) {
-      ROS_WARN_THROTTLE(10.0, "Refused: %s", refusals_.newest().c_str());
-      refusals_said_ = refusals_.total();
-    }
+    refusals_.warn();
     diagnostics_.update();
   }
 
@@ -278,7 +275,6 @@ class PerceptionNode {
 
   ScanQueue queue_;
   Refusals refusals_;
-  int refusals_said_ = 0;
   bool standing_known_ = true;
   ros::Time now_;
   ros::Time started_;

@@ -127,10 +127,7 @@ class ScanLocalizerNode {
     if (started_.isZero()) started_ = now;
     for (const Measurement& measurement : queue_.take_ready(transforms_, now, refusals_))
       localize(measurement);
-    if (refusals_.total() > refusals_said_) {
-      ROS_WARN_THROTTLE(10.0, "Refused: %s", refusals_.newest().c_str());
-      refusals_said_ = refusals_.total();
-    }
+    refusals_.warn();
     diagnostics_.update();
   }
 
@@ -214,7 +211,6 @@ class ScanLocalizerNode {
 
   ScanQueue queue_;
   Refusals refusals_;
-  int refusals_said_ = 0;
   ros::Time now_;
   ros::Time started_;
   ros::Time used_;  // end of the newest scan

@@ -35,14 +35,8 @@ nav_msgs::Odometry odometry_message(const BaseFeedback& feedback, const RobotIde
 
 geometry_msgs::TransformStamped odometry_transform(const BaseFeedback& feedback,
                                                    const RobotIdentity& robot) {
-  geometry_msgs::TransformStamped message;
-  message.header.stamp = ros::Time(feedback.stamp_s);
-  message.header.frame_id = robot.odom_frame;
-  message.child_frame_id = robot.base_frame;
-  message.transform.translation.x = feedback.pose.position.x();
-  message.transform.translation.y = feedback.pose.position.y();
-  message.transform.rotation = quaternion_of(feedback.pose.yaw_rad);
-  return message;
+  return transform_message(ros::Time(feedback.stamp_s), robot.odom_frame, robot.base_frame,
+                           feedback.pose);
 }
 
 sensor_msgs::Imu imu_message(const BaseFeedback& feedback, const RobotIdentity& robot) {

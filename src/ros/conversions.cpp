@@ -81,6 +81,20 @@ Motion from_message(const mocha_ugv::Trajectory& message) {
   return rebuild(descriptor);
 }
 
+geometry_msgs::TransformStamped transform_message(ros::Time stamp, const std::string& parent,
+                                                  const std::string& child, const Pose& pose,
+                                                  double height_m) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  message.transform.translation.x = pose.position.x();
+  message.transform.translation.y = pose.position.y();
+  message.transform.translation.z = height_m;
+  message.transform.rotation = quaternion_of(pose.yaw_rad);
+  return message;
+}
+
 OccupancyGrid from_message(const nav_msgs::OccupancyGrid& map) {
   constexpr int kOccupiedFrom = 65;
   constexpr int kFreeUpTo = 25;

@@ -2,8 +2,11 @@
 
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Quaternion.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <mocha_ugv/Trajectory.h>
 #include <nav_msgs/OccupancyGrid.h>
+
+#include <string>
 
 #include "trajectory/motion.h"
 #include "world/occupancy_grid.h"
@@ -21,6 +24,11 @@ geometry_msgs::Quaternion quaternion_of(double yaw_rad);
 geometry_msgs::Pose to_message(const Pose& pose);
 /// Position and heading; anything out of the plane is dropped.
 Pose from_message(const geometry_msgs::Pose& pose);
+
+/// Where `child` stands in `parent`, `height_m` above the plane.
+geometry_msgs::TransformStamped transform_message(ros::Time stamp, const std::string& parent,
+                                                  const std::string& child, const Pose& pose,
+                                                  double height_m = 0.0);
 
 /// Cells from 65 on count as occupied, from 0 to 25 as free, all else as unknown. Throws
 /// std::invalid_argument for sizes that do not match, a rotated origin, or values that are not

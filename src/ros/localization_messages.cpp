@@ -74,14 +74,8 @@ geometry_msgs::PoseWithCovarianceStamped pose_message(const Localization& locali
 
 geometry_msgs::TransformStamped map_to_odom(const Localization& localization,
                                             const RobotIdentity& robot) {
-  geometry_msgs::TransformStamped message;
-  message.header.stamp = ros::Time(localization.time_s);
-  message.header.frame_id = robot.map_frame;
-  message.child_frame_id = robot.odom_frame;
-  message.transform.translation.x = localization.odom_in_map.position.x();
-  message.transform.translation.y = localization.odom_in_map.position.y();
-  message.transform.rotation = quaternion_of(localization.odom_in_map.yaw_rad);
-  return message;
+  return transform_message(ros::Time(localization.time_s), robot.map_frame, robot.odom_frame,
+                           localization.odom_in_map);
 }
 
 std::optional<PoseEstimate> from_message(const geometry_msgs::PoseWithCovarianceStamped& message,

@@ -1,5 +1,6 @@
 #include "ros/scan_queue.h"
 
+#include <ros/console.h>
 #include <tf2/exceptions.h>
 
 #include "ros/sensor_conversions.h"
@@ -17,6 +18,12 @@ void Refusals::add(const std::string& reason, const std::string& detail) {
   ++counts_[reason];
   ++total_;
   newest_ = detail.empty() ? reason : reason + " (" + detail + ")";
+}
+
+void Refusals::warn() {
+  if (total_ == warned_of_) return;
+  ROS_WARN_THROTTLE(10.0, "Refused: %s", newest_.c_str());
+  warned_of_ = total_;
 }
 
 ScanQueue::ScanQueue(std::string map_frame, double rate, double patience_s)

@@ -1,33 +1,14 @@
 #include "ros/simulation_messages.h"
 
-#include <cmath>
-
 #include "ros/conversions.h"
+#include "trajectory/frame_change.h"
 
 namespace mocha {
 namespace {
 
-geometry_msgs::TransformStamped transform(ros::Time stamp, const std::string& parent,
-                                          const std::string& child, const Pose& pose,
-                                          double height_m = 0.0) {
-  geometry_msgs::TransformStamped message;
-  message.header.stamp = stamp;
-  message.header.frame_id = parent;
-  message.child_frame_id = child;
-  message.transform.translation.x = pose.position.x();
-  message.transform.translation.y = pose.position.y();
-  message.transform.translation.z = height_m;
-  message.transform.rotation = quaternion_of(pose.yaw_rad);
-  return message;
-}
-
 /// The frame in which a thing at `outer` is seen at `inner`.
 Pose frame_between(const Pose& outer, const Pose& inner) {
-  const double yaw = outer.yaw_rad - inner.yaw_rad;
-  const double c = std::cos(yaw);
-  const double s = std::sin(yaw);
-  const Vector2& p = inner.position;
-  return {outer.position - Vector2(c * p.x() - s * p.y(), s * p.x() + c * p.y()), yaw};
+  return composed(outer, relative(inner, {{0.0, 0.0}, 0.0}));
 }
 
 mocha_ugv::RobotTruth truth_message(const SimulatedRobot& robot) {
@@ -84,25 +65,26 @@ sensor_msgs::LaserScan scan_message(const SimulatedRobot& robot, const Scan& sca
 
 geometry_msgs::TransformStamped odom_to_base(const SimulatedRobot& robot, ros::Time stamp) {
   const std::string& name = robot.setup.name;
-  return transform(stamp, name + "/odom", name + "/base_link", robot.odometry.pose());
+  return transform_message(stamp, name + "/odom", name + "/base_link", robot.odometry.pose());
 }
 
 geometry_msgs::TransformStamped map_to_odom(const SimulatedRobot& robot, ros::Time stamp) {
-  return transform(stamp, "map", robot.setup.name + "/odom",
-                   frame_between(robot.vehicle.pose(), robot.odometry.pose()));
+  return transform_message(stamp, "map", robot.setup.name + "/odom",
+                           frame_between(robot.vehicle.pose(), robot.odometry.pose()));
 }
 
 geometry_msgs::TransformStamped map_to_odom(const SimulatedRobot& robot,
                                             const nav_msgs::Odometry& odometry, ros::Time stamp) {
   const Pose then = robot.past.at(odometry.header.stamp.toSec());
-  return transform(stamp, "map", odometry.header.frame_id,
-                   frame_between(then, from_message(odometry.pose.pose)));
+  return transform_message(stamp, "map", odometry.header.frame_id,
+                           frame_between(then, from_message(odometry.pose.pose)));
 }
 
 geometry_msgs::TransformStamped base_to_laser(const SimulatedRobot& robot) {
   const std::string& name = robot.setup.name;
   const LidarModel& lidar = robot.setup.model.lidar;
-  return transform(ros::Time(), name + "/base_link", name + "/laser", lidar.mount, lidar.height_m);
+  return transform_message(ros::Time(), name + "/base_link", name + "/laser", lidar.mount,
+                           lidar.height_m);
 }
 
 mocha_ugv::GroundTruth ground_truth_message(const WorldSimulator& simulator, ros::Time stamp) {
