@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "perception/scan_localizer.h"
 #include "perception/scan_sorter.h"
 #include "ros/sensor_conversions.h"
 
@@ -139,6 +140,38 @@ TEST(LidarBag, WhoWalksIsFollowed) {
   EXPECT_GT(longest.path_m / longest.length_s(), 0.3) << "m/s on average";
   EXPECT_LT(longest.path_m / longest.length_s(), 1.2);
   for (const auto& [id, track] : tracks) EXPECT_LT(track.fastest_mps, 2.0) << id;
+}
+
+TEST(LidarBag, ALidarFindsItsPlaceAmongPeople) {
+  if (!std::filesystem::exists(bag_path())) GTEST_SKIP() << "no " << bag_path();
+  OccupancyMap map({});
+  replay([&](std::vector<Beam>& beams, double) { map.insert_scan(beams); });
+  const RobotModel model = load_robot_model("config", "rover");
+  ScanLocalizer localizer(
+      ScanLocalizerOptions::from(ParameterTable::from_schema("config/scan_localizer.yaml"), model));
+  localizer.set_map(map.slice(0.5));
+  const Pose base{{0.0, 0.0}, 0.0};  // where the front lidar stands
+  std::vector<double> off_m;
+  double begun_s = 0.0;
+  double found_s = 0.0;
+  replay([&](std::vector<Beam>& beams, double time_s) {
+    if (beams.empty() || beams[0].origin.norm() > 0.1) return;  // the other lidar
+    if (begun_s == 0.0) begun_s = time_s;
+    ScanHits scan = hits_of(beams, base, 0.05);
+    scan.time_s = time_s;
+    const Localization& now = localizer.add(scan, base);
+    if (now.state != Localization::State::kLocalized) return;
+    if (off_m.empty()) found_s = time_s;
+    off_m.push_back(now.base.pose.position.norm());
+    EXPECT_LT(std::abs(now.base.pose.yaw_rad), 0.02) << time_s;
+  });
+  ASSERT_GT(off_m.size(), 290u);  // of 331
+  EXPECT_LT(found_s - begun_s, 3.0);
+  std::sort(off_m.begin(), off_m.end());
+  EXPECT_LT(off_m[off_m.size() / 2], 0.03);
+  EXPECT_LT(off_m.back(), 0.1);
+  RecordProperty("median_mm", static_cast<int>(1e3 * off_m[off_m.size() / 2]));
+  RecordProperty("worst_mm", static_cast<int>(1e3 * off_m.back()));
 }
 
 }  // namespace
