@@ -192,7 +192,7 @@ class FleetSimulatorNode {
       }
       channels_[i].odometry.publish(odometry_message(robot, now_));
     }
-    transforms_.sendTransform(transforms);
+    if (!transforms.empty()) transforms_.sendTransform(transforms);
     for (const auto& [robot, scan] : result.scans) {
       channels_[robot].scan.publish(scan_message(simulator_.robots()[robot], scan));
     }
