@@ -47,12 +47,10 @@ def node(full_name):
     return Node(full_name.rsplit("/", 1)[1], xmlrpc.client.ServerProxy(uri).getPid(_CALLER)[2], uri)
 
 
-def traffic(before, after, left_out=()):
+def traffic(before, after):
     """Messages and bytes sent between two `Node.sent()`, each counted once for every subscriber."""
     messages = size = 0
     for topic, connections in after.items():
-        if topic in left_out:
-            continue
         for number, (bytes_after, count_after) in connections.items():
             bytes_before, count_before = before.get(topic, {}).get(number, (0, 0))
             size += (bytes_after - bytes_before) % _COUNTERS

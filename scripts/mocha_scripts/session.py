@@ -36,7 +36,7 @@ class Session:
         return self._extra[-1]
 
     def wait_for_launch(self, patience_s=30.0):
-        """True once roslaunch has set up its master and said that time is simulated: what starts later follows /clock."""
+        """True once roslaunch has set up its master and said whether time is simulated: what starts later follows its clock."""
         import rosgraph
         until = time.monotonic() + patience_s
         while time.monotonic() < until and self.alive():
