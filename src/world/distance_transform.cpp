@@ -1,7 +1,6 @@
 #include "world/distance_transform.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -10,19 +9,23 @@ namespace {
 
 constexpr float kFar = 1e6f;  // cells; its square is kNoSite
 
-/// Squared distances within each column, by a sweep down and one up over whole rows.
+/// Of two numbers, in the form that compilers vectorise.
+float lesser(float a, float b) { return a < b ? a : b; }
+
+/// Squared distances within each column, by a sweep up and one down over whole rows.
 void transform_columns(std::vector<float>& squared, int columns, int rows) {
-  std::vector<float> away(columns, kFar);
+  std::vector<float> away(columns, kFar);  // from the nearest site behind
   for (int y = 0; y < rows; ++y) {
     float* row = &squared[static_cast<std::size_t>(y) * columns];
-    for (int x = 0; x < columns; ++x) row[x] = away[x] = row[x] == 0.0f ? 0.0f : away[x] + 1.0f;
+    for (int x = 0; x < columns; ++x) row[x] = away[x] = lesser(row[x], away[x] + 1.0f);
   }
   std::fill(away.begin(), away.end(), kFar);
   for (int y = rows - 1; y >= 0; --y) {
     float* row = &squared[static_cast<std::size_t>(y) * columns];
     for (int x = 0; x < columns; ++x) {
-      away[x] = std::min(away[x] + 1.0f, row[x]);
-      row[x] = std::min(away[x], kFar) * std::min(away[x], kFar);
+      away[x] = lesser(row[x], away[x] + 1.0f);
+      const float capped = lesser(away[x], kFar);
+      row[x] = capped * capped;
     }
   }
 }
@@ -31,41 +34,36 @@ void transform_columns(std::vector<float>& squared, int columns, int rows) {
 class RowTransform {
  public:
   explicit RowTransform(int columns)
-      : value_(columns),
-        height_(columns),
-        vertex_(columns),
-        boundary_(columns + 1),
-        half_inverse_(columns) {
+      : height_(columns), vertex_(columns), boundary_(columns + 1), half_inverse_(columns) {
     for (int i = 1; i < columns; ++i) half_inverse_[i] = 0.5 / i;
   }
 
   /// Nothing reaches across a site, so each stretch between two of them is on its own.
   void run(float* row, int count) {
-    int begin = 0;
-    while (begin < count) {
-      int end = begin + 1;
+    for (int end = 0; end < count;) {
+      int begin = end;
+      while (begin < count && row[begin] == 0.0f) ++begin;
+      if (begin == count) return;
+      end = begin + 1;
       while (end < count && row[end] != 0.0f) ++end;
-      if (end > begin + 1 || row[begin] != 0.0f)
-        stretch(row + begin, std::min(end + 1, count) - begin);
-      begin = end;
+      const int from = std::max(begin - 1, 0);
+      stretch(row + from, std::min(end + 1, count) - from);
     }
   }
 
  private:
   void stretch(float* row, int count) {
-    for (int q = 0; q < count; ++q) {
-      value_[q] = row[q];
-      height_[q] = static_cast<double>(row[q]) + static_cast<double>(q) * q;
-    }
+    for (int q = 0; q < count; ++q) height_[q] = row[q] + static_cast<double>(q) * q;
     const int last = envelope(count);
     if (last < 0) return;
     boundary_[last + 1] = count - 1;
     int x = 0;
     for (int k = 0; k <= last; ++k) {
       const int vertex = vertex_[k];
-      const float value = value_[vertex];
-      const double reaches = std::min(std::floor(boundary_[k + 1]), count - 1.0);
-      for (; x <= reaches; ++x) {
+      const auto value = static_cast<float>(height_[vertex] - static_cast<double>(vertex) * vertex);
+      const double boundary = std::min(boundary_[k + 1], count - 1.0);
+      const int end = boundary < 0.0 ? 0 : static_cast<int>(boundary) + 1;
+      for (; x < end; ++x) {
         const auto away = static_cast<float>(x - vertex);
         row[x] = away * away + value;
       }
@@ -77,7 +75,7 @@ class RowTransform {
   int envelope(int count) {
     int last = -1;
     for (int q = 0; q < count; ++q) {
-      if (value_[q] >= kNoSite) continue;
+      if (height_[q] >= kNoSite) continue;
       double start = 0.0;
       while (last >= 0) {
         start = (height_[q] - height_[vertex_[last]]) * half_inverse_[q - vertex_[last]];
@@ -90,7 +88,6 @@ class RowTransform {
     return last;
   }
 
-  std::vector<float> value_;
   std::vector<double> height_;  // of the parabolas at 0
   std::vector<int> vertex_;
   std::vector<double> boundary_;      // to the parabola before
