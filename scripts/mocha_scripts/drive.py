@@ -27,7 +27,7 @@ def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, lcm_u
     if map_file:
         arguments["map_file"] = os.path.abspath(map_file)
     with Session("fleet_sim.launch", arguments, os.path.join(out, "drive.log")) as session:
-        if not _wait_for_launch(session):
+        if not session.wait_for_launch():
             return {"robots": [], "min_separation_m": None}, session.last_words()
         if record:
             topics = RECORDED + [f"/{name}/{topic}" for name in names for topic in RECORDED_PER_ROBOT]
@@ -49,14 +49,3 @@ def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, lcm_u
             progress(referee)
             time.sleep(0.2)
         return referee.results(), why
-
-
-def _wait_for_launch(session, patience_s=30.0):
-    """True once roslaunch has set up its master and said that time is simulated: what starts later follows /clock."""
-    import rosgraph
-    until = time.monotonic() + patience_s
-    while time.monotonic() < until and session.alive():
-        if rosgraph.is_master_online() and rosgraph.Master("/drive").hasParam("/use_sim_time"):
-            return True
-        time.sleep(0.1)
-    return False

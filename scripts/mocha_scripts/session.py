@@ -33,6 +33,17 @@ class Session:
         """Another process that ends with the session."""
         self._extra.append(subprocess.Popen(command, stdout=self._log, stderr=subprocess.STDOUT,
                                             start_new_session=True))
+        return self._extra[-1]
+
+    def wait_for_launch(self, patience_s=30.0):
+        """True once roslaunch has set up its master and said whether time is simulated: what starts later follows its clock."""
+        import rosgraph
+        until = time.monotonic() + patience_s
+        while time.monotonic() < until and self.alive():
+            if rosgraph.is_master_online() and rosgraph.Master("/session").hasParam("/use_sim_time"):
+                return True
+            time.sleep(0.1)
+        return False
 
     def alive(self):
         return self._process.poll() is None

@@ -68,17 +68,24 @@ class Due {
   ros::Time next_;
 };
 
+/// Where nothing follows the simulator's clock, it follows that of the machine.
+ros::Time start_time() { return ros::Time::isSimTime() ? kStart : ros::Time::now(); }
+
 /// Simulated seconds per wall second: bounded above, and measured.
 class Pace {
  public:
-  /// `rate` 0: no bound.
-  explicit Pace(double rate) : rate_(rate) {}
+  /// `rate` 0: no bound. On the machine's clock: that rate, and no other.
+  Pace(double rate, ros::Time start)
+      : on_machine_clock_(!ros::Time::isSimTime()),
+        rate_(on_machine_clock_ ? 1.0 : rate),
+        last_(start) {}
 
-  /// Serves callbacks until the next step may begin. A step that came late does not make the
-  /// following ones hurry.
+  /// Serves callbacks until the next step may begin. A step that came late makes the following ones
+  /// hurry on the machine's clock only.
   void wait(double step_s) {
     if (rate_ == 0.0) return;
-    next_ = std::max(next_ + ros::WallDuration(step_s / rate_), ros::WallTime::now());
+    next_ += ros::WallDuration(step_s / rate_);
+    if (!on_machine_clock_) next_ = std::max(next_, ros::WallTime::now());
     serve_until(next_, [] { return false; });
   }
 
@@ -92,9 +99,10 @@ class Pace {
   }
 
  private:
+  bool on_machine_clock_;
   double rate_;
   ros::WallTime next_ = ros::WallTime::now();
-  ros::Time last_ = kStart;
+  ros::Time last_;
   ros::WallTime last_wall_ = ros::WallTime::now();
 };
 
@@ -105,9 +113,12 @@ class FleetSimulatorNode {
       : step_(values.number("step")),
         publish_map_to_odom_(values.flag("publish_map_to_odom")),
         emulated_bases_(values.flag("emulated_bases")),
-        simulator_(load_fleet(values), kStart.toSec(), values.integer("seed")),
-        pace_(values.number("rate")),
-        lockstep_(node, lockstep_roster(simulator_.world(), values.text("lockstep_nodes")),
+        now_(start_time()),
+        simulator_(load_fleet(values), now_.toSec(), values.integer("seed")),
+        pace_(values.number("rate"), now_),
+        lockstep_(node,
+                  lockstep_roster(simulator_.world(),
+                                  ros::Time::isSimTime() ? values.text("lockstep_nodes") : ""),
                   ros::WallDuration(values.number("start_timeout")),
                   ros::WallDuration(values.number("ack_timeout"))),
         truth_(node.advertise<mocha_ugv::GroundTruth>("/fleet_simulator/ground_truth", 100)),
@@ -192,7 +203,7 @@ class FleetSimulatorNode {
       }
       channels_[i].odometry.publish(odometry_message(robot, now_));
     }
-    transforms_.sendTransform(transforms);
+    if (!transforms.empty()) transforms_.sendTransform(transforms);
     for (const auto& [robot, scan] : result.scans) {
       channels_[robot].scan.publish(scan_message(simulator_.robots()[robot], scan));
     }
@@ -230,6 +241,7 @@ class FleetSimulatorNode {
   ros::Duration step_;
   bool publish_map_to_odom_;
   bool emulated_bases_;
+  ros::Time now_;
   WorldSimulator simulator_;
   Pace pace_;
   Lockstep lockstep_;
@@ -244,7 +256,6 @@ class FleetSimulatorNode {
   diagnostic_updater::Updater diagnostics_;
   Due truth_due_{kTruthPeriod_s};
   Due markers_due_{kMarkerPeriod_s};
-  ros::Time now_ = kStart;
   long steps_ = 0;
   long refused_commands_ = 0;
 };
@@ -258,7 +269,7 @@ int main(int argc, char** argv) {
   try {
     const auto values = mocha::read_parameters(ros::NodeHandle("~"), "fleet_simulator");
     if (!ros::Time::isSimTime()) {
-      ROS_WARN("/use_sim_time is not true: other nodes will not follow the simulator's clock");
+      ROS_WARN("/use_sim_time is not true: on the machine's clock, waiting for nobody");
     }
     mocha::FleetSimulatorNode(node, values).run();
   } catch (const std::exception& error) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -11,17 +12,26 @@ namespace mocha {
 namespace {
 
 /// Marks the corners of all cells that are (or are not) solid as sites.
-std::vector<float> corner_sites(const OccupancyGrid& grid, const std::vector<bool>& solid,
+std::vector<float> corner_sites(const OccupancyGrid& grid, DistanceField::Solid solid,
                                 bool wanted) {
+  const bool unknown_too = solid == DistanceField::Solid::kOccupiedOrUnknown;
   const int columns = grid.width + 1;
-  std::vector<float> sites(static_cast<std::size_t>(columns) * (grid.height + 1), kNoSite);
-  for (int y = 0; y < grid.height; ++y) {
-    for (int x = 0; x < grid.width; ++x) {
-      if (solid[static_cast<std::size_t>(y) * grid.width + x] != wanted) continue;
-      const std::size_t corner = static_cast<std::size_t>(y) * columns + x;
-      sites[corner] = sites[corner + 1] = sites[corner + columns] = sites[corner + columns + 1] =
-          0.0f;
+  std::vector<float> sites(static_cast<std::size_t>(columns) * (grid.height + 1));
+  std::vector<std::uint8_t> below(columns);  // corners of wanted cells in the row below
+  std::vector<std::uint8_t> above(columns);
+  for (int y = 0; y <= grid.height; ++y) {
+    below.swap(above);
+    std::fill(above.begin(), above.end(), std::uint8_t{0});
+    for (int x = 0; y < grid.height && x < grid.width; ++x) {
+      const std::int8_t cell = grid.at(x, y);
+      const bool is_solid =
+          cell == OccupancyGrid::kOccupied || (unknown_too && cell == OccupancyGrid::kUnknown);
+      const std::uint8_t is_wanted = is_solid == wanted;
+      above[x] |= is_wanted;
+      above[x + 1] = is_wanted;
     }
+    float* row = &sites[static_cast<std::size_t>(y) * columns];
+    for (int x = 0; x < columns; ++x) row[x] = (below[x] | above[x]) != 0 ? 0.0f : kNoSite;
   }
   return sites;
 }
@@ -50,24 +60,16 @@ DistanceField::DistanceField(const OccupancyGrid& grid, Solid solid)
   if (cells == 0 || grid.cells.size() != cells || !(grid.resolution_m > 0.0)) {
     throw std::invalid_argument("DistanceField: the grid is empty or its sizes do not match");
   }
-  std::vector<bool> is_solid(cells);
-  for (std::size_t i = 0; i < cells; ++i) {
-    const int8_t cell = grid.cells[i];
-    is_solid[i] =
-        cell == OccupancyGrid::kOccupied || (outside_solid_ && cell == OccupancyGrid::kUnknown);
-  }
-  std::vector<float> outside = corner_sites(grid, is_solid, true);
-  if (outside_solid_) add_rim(outside, columns_, rows_);
-  distance_transform(outside, columns_, rows_);
-  std::vector<float> inside(outside.size(), 0.0f);
-  if (!outside_solid_) {
-    inside = corner_sites(grid, is_solid, false);
-    distance_transform(inside, columns_, rows_);
-  }
-  distance_m_.resize(outside.size());
+  distance_m_ = corner_sites(grid, solid, true);
+  if (outside_solid_) add_rim(distance_m_, columns_, rows_);
+  distance_transform(distance_m_, columns_, rows_);
   const auto scale = static_cast<float>(resolution_m_);
-  for (std::size_t i = 0; i < outside.size(); ++i) {
-    distance_m_[i] = scale * (outside[i] > 0.0f ? std::sqrt(outside[i]) : -std::sqrt(inside[i]));
+  for (float& distance : distance_m_) distance = scale * std::sqrt(distance);
+  if (outside_solid_) return;
+  std::vector<float> inside = corner_sites(grid, solid, false);
+  distance_transform(inside, columns_, rows_);
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    if (inside[i] > 0.0f) distance_m_[i] = -scale * std::sqrt(inside[i]);
   }
 }
 

@@ -7,54 +7,99 @@
 namespace mocha {
 namespace {
 
-/// Squared distances along one line to parabolas f(q) + (x - q)^2, in place.
-class LineTransform {
- public:
-  explicit LineTransform(int longest) : value_(longest), vertex_(longest), boundary_(longest + 1) {}
+constexpr float kFar = 1e6f;  // cells; its square is kNoSite
 
-  void run(float* line, int count, std::ptrdiff_t stride) {
-    for (int i = 0; i < count; ++i) value_[i] = line[i * stride];
-    int last = -1;
-    for (int q = 0; q < count; ++q) {
-      if (value_[q] >= kNoSite) continue;
-      double start = -std::numeric_limits<double>::infinity();
-      while (last >= 0) {
-        start = intersection(vertex_[last], q);
-        if (start > boundary_[last]) break;
-        --last;
-        start = -std::numeric_limits<double>::infinity();
-      }
-      vertex_[++last] = q;
-      boundary_[last] = start;
+/// Of two numbers, in the form that compilers vectorise.
+float lesser(float a, float b) { return a < b ? a : b; }
+
+/// Squared distances within each column, by a sweep up and one down over whole rows.
+void transform_columns(std::vector<float>& squared, int columns, int rows) {
+  std::vector<float> away(columns, kFar);  // from the nearest site behind
+  for (int y = 0; y < rows; ++y) {
+    float* row = &squared[static_cast<std::size_t>(y) * columns];
+    for (int x = 0; x < columns; ++x) row[x] = away[x] = lesser(row[x], away[x] + 1.0f);
+  }
+  std::fill(away.begin(), away.end(), kFar);
+  for (int y = rows - 1; y >= 0; --y) {
+    float* row = &squared[static_cast<std::size_t>(y) * columns];
+    for (int x = 0; x < columns; ++x) {
+      away[x] = lesser(row[x], away[x] + 1.0f);
+      const float capped = lesser(away[x], kFar);
+      row[x] = capped * capped;
     }
-    if (last < 0) return;
-    int k = 0;
-    for (int x = 0; x < count; ++x) {
-      while (k < last && boundary_[k + 1] < x) ++k;
-      const auto offset = static_cast<float>(x - vertex_[k]);
-      line[x * stride] = offset * offset + value_[vertex_[k]];
+  }
+}
+
+/// Squared distances along one row to parabolas f(q) + (x - q)^2, in place.
+class RowTransform {
+ public:
+  explicit RowTransform(int columns)
+      : height_(columns), vertex_(columns), boundary_(columns + 1), half_inverse_(columns) {
+    for (int i = 1; i < columns; ++i) half_inverse_[i] = 0.5 / i;
+  }
+
+  /// Nothing reaches across a site, so each stretch between two of them is on its own.
+  void run(float* row, int count) {
+    for (int end = 0; end < count;) {
+      int begin = end;
+      while (begin < count && row[begin] == 0.0f) ++begin;
+      if (begin == count) return;
+      end = begin + 1;
+      while (end < count && row[end] != 0.0f) ++end;
+      const int from = std::max(begin - 1, 0);
+      stretch(row + from, std::min(end + 1, count) - from);
     }
   }
 
  private:
-  double intersection(int p, int q) const {
-    const double fp = static_cast<double>(value_[p]) + static_cast<double>(p) * p;
-    const double fq = static_cast<double>(value_[q]) + static_cast<double>(q) * q;
-    return (fq - fp) / (2.0 * (q - p));
+  void stretch(float* row, int count) {
+    for (int q = 0; q < count; ++q) height_[q] = row[q] + static_cast<double>(q) * q;
+    const int last = envelope(count);
+    if (last < 0) return;
+    boundary_[last + 1] = count - 1;
+    int x = 0;
+    for (int k = 0; k <= last; ++k) {
+      const int vertex = vertex_[k];
+      const auto value = static_cast<float>(height_[vertex] - static_cast<double>(vertex) * vertex);
+      const double boundary = std::min(boundary_[k + 1], count - 1.0);
+      const int end = boundary < 0.0 ? 0 : static_cast<int>(boundary) + 1;
+      for (; x < end; ++x) {
+        const auto away = static_cast<float>(x - vertex);
+        row[x] = away * away + value;
+      }
+    }
   }
 
-  std::vector<float> value_;
+  /// Which parabolas are the lowest somewhere, and from where on; returns the number of the last
+  /// one, -1 without any.
+  int envelope(int count) {
+    int last = -1;
+    for (int q = 0; q < count; ++q) {
+      if (height_[q] >= kNoSite) continue;
+      double start = 0.0;
+      while (last >= 0) {
+        start = (height_[q] - height_[vertex_[last]]) * half_inverse_[q - vertex_[last]];
+        if (start > boundary_[last]) break;
+        --last;
+      }
+      vertex_[++last] = q;
+      boundary_[last] = last > 0 ? start : -std::numeric_limits<double>::infinity();
+    }
+    return last;
+  }
+
+  std::vector<double> height_;  // of the parabolas at 0
   std::vector<int> vertex_;
-  std::vector<double> boundary_;
+  std::vector<double> boundary_;      // to the parabola before
+  std::vector<double> half_inverse_;  // 1 / 2i
 };
 
 }  // namespace
 
 void distance_transform(std::vector<float>& squared, int columns, int rows) {
-  LineTransform line(std::max(columns, rows));
-  for (int y = 0; y < rows; ++y)
-    line.run(&squared[static_cast<std::size_t>(y) * columns], columns, 1);
-  for (int x = 0; x < columns; ++x) line.run(&squared[x], rows, columns);
+  transform_columns(squared, columns, rows);
+  RowTransform row(columns);
+  for (int y = 0; y < rows; ++y) row.run(&squared[static_cast<std::size_t>(y) * columns], columns);
 }
 
 }  // namespace mocha
