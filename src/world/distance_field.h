@@ -14,7 +14,8 @@ namespace mocha {
 /// the corner lattice is exact: no error of half a cell as with centres. Between the corners,
 /// distance_bound() uses that d(p)^2 - |p|^2 is concave, being a minimum of linear functions of p:
 /// the interpolated squared distance, less how far |p|^2 sags below its own interpolation, is a
-/// lower bound, and closer than a millimetre at the distances and cells of small robots.
+/// lower bound. Beside one obstacle it is closer than a millimetre at the distances and cells of
+/// small robots; midway between several it falls short by up to 0.9 cells.
 class DistanceField : public ObstacleField<2> {
  public:
   enum class Solid {

@@ -50,22 +50,41 @@ TEST(DistanceField, IsExactAtCorners) {
   }
 }
 
+/// How far the bound may fall short of the distance, in cells: midway between four squares that
+/// stand diagonally to a cell, sqrt(4.5) - sqrt(1.5). Elsewhere it is less.
+constexpr double kMostShort = 0.8966;
+
 TEST(DistanceField, BoundIsNeverAboveTheDistanceAndClose) {
-  const OccupancyGrid grid = random_grid(7, OccupancyGrid::kFree);
-  const DistanceField field(grid, DistanceField::Solid::kOccupied);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> x(-2.0, 2.5);
   std::uniform_real_distribution<double> y(-0.5, 3.0);
-  for (int i = 0; i < 5000; ++i) {
-    const Vector2 p(x(random), y(random));
-    const double bound = field.distance_bound(p);
-    const double distance = brute_force(grid, p);
-    EXPECT_LE(bound, distance + 1e-6);
-    const bool inside = (p - grid.origin).minCoeff() > 0.0 && p.x() < 1.3 && p.y() < 2.2;
-    if (inside) {
-      EXPECT_GE(bound, distance - 0.75 * grid.resolution_m);  // the worst is between two obstacles
+  for (int seed = 1; seed <= 10; ++seed) {
+    const OccupancyGrid grid = random_grid(seed, OccupancyGrid::kFree);
+    const DistanceField field(grid, DistanceField::Solid::kOccupied);
+    for (int i = 0; i < 2000; ++i) {
+      const Vector2 p(x(random), y(random));
+      const double bound = field.distance_bound(p);
+      const double distance = brute_force(grid, p);
+      EXPECT_LE(bound, distance + 1e-6);
+      const bool inside = (p - grid.origin).minCoeff() > 0.0 && p.x() < 1.3 && p.y() < 2.2;
+      if (inside) {
+        EXPECT_GE(bound, distance - kMostShort * grid.resolution_m);
+      }
     }
   }
+}
+
+TEST(DistanceField, BoundFallsShortMostBetweenFourSquares) {
+  OccupancyGrid grid = random_grid(7, OccupancyGrid::kFree);
+  std::fill(grid.cells.begin(), grid.cells.end(), OccupancyGrid::kFree);
+  for (const int x : {8, 12}) {
+    for (const int y : {6, 10}) grid.at(x, y) = OccupancyGrid::kOccupied;
+  }
+  const DistanceField field(grid, DistanceField::Solid::kOccupied);
+  const Vector2 between = grid.origin + grid.resolution_m * Vector2(10.5, 8.5);
+  const double short_cells =
+      (brute_force(grid, between) - field.distance_bound(between)) / grid.resolution_m;
+  EXPECT_NEAR(short_cells, kMostShort, 1e-4);
 }
 
 TEST(DistanceField, BoundIsTightBesideOneObstacle) {
