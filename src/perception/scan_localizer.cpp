@@ -85,6 +85,7 @@ void ScanLocalizer::forget() {
   odometry_.reset();
   time_s_.reset();
   searched_s_.reset();
+  searched_in_vain_ = false;
   localization_ = {};
 }
 
