@@ -93,15 +93,16 @@ LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& stat
   const PromiseScene& asked = squeezes_ ? likely : scene;
   const bool conflicting{conflict(plan_, now_s, asked, rules_.mu_pre_s)};
   if ((in_the_way || conflicting) && waits_for_answer(now_s, scene)) return output;
-  // Only where the promise brakes and the plan does not, the plan has to be promised on.
-  if (in_the_way && !conflicting && !pending && follows_plan_at(now_s) &&
-      violation.time_s > committed_source_.follows_until_s) {
+  const bool waits_in_the_way =
+      violation.term == ViolatedTerm::kSeparation && !in_the_way && under_way();
+  const bool brakes_in_the_way =
+      in_the_way && follows_plan_at(now_s) && violation.time_s > committed_source_.follows_until_s;
+  // What is in the way is not the plan, but that no more of it is promised.
+  if ((waits_in_the_way || brakes_in_the_way) && !conflicting && !pending) {
     extend(now_s, asked, 0.0, output);
     if (output.proposal) return output;
   }
   if ((in_the_way || conflicting) && !pending && swerve(now_s, scene, output)) return output;
-  const bool waits_in_the_way =
-      violation.term == ViolatedTerm::kSeparation && !in_the_way && under_way();
   if (waits_in_the_way && !pending) {
     output.reason = PlanReason::kPeerConflict;
     output.violation = violation;

@@ -335,6 +335,20 @@ TEST_F(LocalReplannerTest, AnOfferThatMeetsSomebodySoonerIsPassedOver) {
   }
 }
 
+/// Who stands in the way of somebody had better drive than look for a place to step to.
+TEST_F(LocalReplannerTest, SetsOffInTimeBeforeWhoComesFromBehind) {
+  replanner_.set_committed(1, standing(kNow_s - 5.0, {0.0, 0.0}, 0.0));
+  replanner_.set_plan(straight_drive(kNow_s + 0.4, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5));
+  scene_.moving = {std::make_shared<PredictedDisc>("person", kNow_s, Vector2(-2.6, 0.05),
+                                                   Vector2(0.7, 0.0), 0.25, 0.0)};
+  scene_.predicted_until_s = kNow_s + 5.0;
+  const auto output = step_on_track(kNow_s);
+  ASSERT_TRUE(output.proposal) << output.message;
+  EXPECT_FALSE(output.proposal->emergency);
+  EXPECT_GT(output.proposal->motion.end_pose().position.x(), 2.0);
+  EXPECT_EQ(replanner_.least_bad(), 0);
+}
+
 TEST_F(LocalReplannerTest, WithoutAPlanItJustStands) {
   replanner_.set_committed(1, standing(kNow_s - 5.0, {0.0, 0.0}, 0.0));
   const auto output = step_on_track(kNow_s);
