@@ -34,6 +34,7 @@ struct LocalQuery {
   Motion plan;
   double progress_s = 0.0;  ///< time of the plan at which it is where the robot is
   Motion driven;            ///< what is being followed, for its class; may be empty
+  double anchor_s = 0.0;    ///< time of the plan at which `driven` comes back to it; 0: never left
 };
 
 /// One way through space-time that was optimised, certified or not.

@@ -13,6 +13,7 @@ namespace mocha {
 namespace {
 
 constexpr double kSooner_s = 0.2;  // by less, a farther anchor or a later arrival is not better
+constexpr double kLittle_s = 0.5;  // who loses no more need not look for better
 constexpr double kSlack_m = 0.01;  // over what is proved, for the optimiser to work in
 
 /// Arrivals later than the plan's, and anchors farther along it, in shares of mu. A swerve takes a
@@ -55,12 +56,36 @@ TimedPath driven_to(const RejoiningPoint& anchor, const LocalQuery& query) {
   return path;
 }
 
+/// Whether `other` gains as much as a change of class has to. Their anchors may differ, and so
+/// their costs may not be compared, but the time that they lose.
+bool is_worth_a_switch(const LocalPlan& other, const LocalPlan& kept, const LocalRules& rules) {
+  const auto loss = [&rules](const LocalPlan& plan) {
+    return rules.weight_duration * std::pow(std::max(0.0, plan.delay_s), 3);
+  };
+  const double kept_loss = loss(kept);
+  return loss(other) <
+         std::min((1.0 - rules.switch_margin) * kept_loss, kept_loss - rules.switch_gain);
+}
+
 /// Whether a later attempt is to be preferred to an earlier one.
-bool is_better(const LocalPlan& later, const LocalPlan& earlier) {
+bool is_better(const LocalPlan& later, const LocalPlan& earlier, const LocalRules& rules) {
+  // A driven way is not given up only because it keeps from what is likely, and another from more.
+  const bool good = std::max(later.proof, earlier.proof) <= LocalProof::kLikely;
+  if (good && later.switches_class != earlier.switches_class) {
+    return later.switches_class ? is_worth_a_switch(later, earlier, rules)
+                                : !is_worth_a_switch(earlier, later, rules);
+  }
   if (later.proof != earlier.proof) return later.proof < earlier.proof;
   if (later.proof == LocalProof::kNone)
     return earlier.candidates.empty() && !later.candidates.empty();
   return later.delay_s < earlier.delay_s - kSooner_s;
+}
+
+/// Whether farther anchors and later arrivals need not be tried.
+bool is_good_enough(const LocalPlan& first, const LocalQuery& query) {
+  const bool swerves_already = query.anchor_s > 0.0;
+  return first.proof == LocalProof::kAsked && first.delay_s < kLittle_s &&
+         !(swerves_already && first.switches_class);
 }
 
 /// Of what begins at that place and time.
@@ -81,13 +106,17 @@ LocalPlanner::LocalPlanner(const RobotModel& robot, const LocalRules& rules, Wat
       space_time_rules_(space_time_rules(robot, rules)),
       optimizer_(robot, rules) {}
 
+double LocalPlanner::anchor_ahead_s(const LocalQuery& query) const {
+  return std::max(rules_.mu_s, query.anchor_s - query.progress_s);
+}
+
 std::vector<LocalPlanner::Task> LocalPlanner::tasks(const LocalQuery& query,
                                                     const LocalScene& scene) const {
   const MotionState start = query.committed.at(query.start_time_s);
   std::vector<Task> tasks;
   for (const Attempt& tried : kAttempts) {
-    const auto anchor =
-        rejoining_point(query.plan, query.progress_s, (1.0 + tried.farther) * rules_.mu_s);
+    const auto anchor = rejoining_point(query.plan, query.progress_s,
+                                        anchor_ahead_s(query) + tried.farther * rules_.mu_s);
     if (!anchor) break;
     if (tried.farther > 0.0 && anchor->plan_time_s >= query.plan.end_time()) continue;
     Return back = optimizer_.return_to(*anchor, query);
@@ -164,7 +193,7 @@ LocalPlan LocalPlanner::attempt(const LocalQuery& query, const LocalScene& scene
 }
 
 LocalPlan LocalPlanner::keep_on(const LocalQuery& query, const LocalScene& scene) const {
-  const auto anchor = rejoining_point(query.plan, query.progress_s, rules_.mu_s);
+  const auto anchor = rejoining_point(query.plan, query.progress_s, anchor_ahead_s(query));
   if (query.driven.empty() || !anchor) return {};
   SpaceTimeWay way;
   way.points = driven_to(*anchor, query);
@@ -187,16 +216,7 @@ LocalPlan LocalPlanner::search(const LocalQuery& query, const LocalScene& scene)
   // Costs are not negative: nothing could be cheaper by enough.
   if (is_kept && kept.candidates.front().cost < rules_.switch_gain) return kept;
   LocalPlan other = anew(query, scene);
-  // A driven way is not given up only because it keeps from what is likely, and another from more.
-  if (std::max(kept.proof, other.proof) > LocalProof::kLikely)
-    return kept.proof < other.proof ? kept : other;
-  // Their anchors may differ, and so their costs may not be compared, but the time that they lose.
-  const auto loss = [this](const LocalPlan& plan) {
-    return rules_.weight_duration * std::pow(std::max(0.0, plan.delay_s), 3);
-  };
-  const double to_beat =
-      std::min((1.0 - rules_.switch_margin) * loss(kept), loss(kept) - rules_.switch_gain);
-  return !other.switches_class || loss(other) < to_beat ? other : kept;
+  return is_better(other, kept, rules_) ? other : kept;
 }
 
 LocalPlan LocalPlanner::anew(const LocalQuery& query, const LocalScene& scene) const {
@@ -204,14 +224,14 @@ LocalPlan LocalPlanner::anew(const LocalQuery& query, const LocalScene& scene) c
   std::vector<LocalPlan> plans(std::max<std::size_t>(1, tasks.size()));
   if (tasks.empty()) return plans.front();
   const Cuts<2> cuts = cuts_for(tasks, scene);
-  // The first one mostly succeeds. If it does not, it is urgent.
+  // The first one mostly does. If it does not, it is urgent.
   plans[0] = attempt(query, scene, tasks[0], cuts);
-  if (plans[0].proof == LocalProof::kAsked) return plans[0];
+  if (is_good_enough(plans[0], query)) return plans[0];
   in_parallel(tasks.size() - 1, rules_.threads,
               [&](std::size_t i) { plans[i + 1] = attempt(query, scene, tasks[i + 1], cuts); });
   const LocalPlan* best = &plans[0];
   for (const LocalPlan& plan : plans) {
-    if (is_better(plan, *best)) best = &plan;
+    if (is_better(plan, *best, rules_)) best = &plan;
   }
   return *best;
 }

@@ -27,7 +27,8 @@ class LocalPlanner {
   /// What is driven, made to fit; other ways are not looked for. No candidate where nothing is
   /// driven.
   LocalPlan keep_on(const LocalQuery& query, const LocalScene& scene) const;
-  /// Other ways too, without a preference for what is driven; against scene.moving.
+  /// Other ways too, among which that of what is driven has to be beaten by what a change of class
+  /// is worth; against scene.moving.
   LocalPlan anew(const LocalQuery& query, const LocalScene& scene) const;
   /// On the ways of a plan for the same query that came to nothing, perhaps by a planner for a
   /// robot that may do less.
@@ -40,6 +41,9 @@ class LocalPlanner {
     SpaceTimeQuery ways;
   };
 
+  /// mu, but no less than to the anchor that is driven to: what is driven could not be told from
+  /// other ways to a nearer one.
+  double anchor_ahead_s(const LocalQuery& query) const;
   /// With anchors ever farther and arrivals ever later.
   std::vector<Task> tasks(const LocalQuery& query, const LocalScene& scene) const;
   Cuts<2> cuts_for(const std::vector<Task>& tasks, const LocalScene& scene) const;

@@ -16,6 +16,20 @@ constexpr double kSoonerEvery_s = 0.5;    // people move on
 constexpr double kSooner_s = 0.2;         // to arrive by less is not worth a change
 constexpr double kMuchSooner_s = 1.0;     // nor, by less, one of class
 
+bool is_on(const Motion& plan, const RejoiningPoint& anchor) {
+  constexpr double kSamePlace_m = 1e-3;
+  return (plan.position(anchor.plan_time_s) - anchor.place()).norm() < kSamePlace_m;
+}
+
+/// The plan; where the robot does not keep its times, as after braking, from the nearest place on.
+Motion driven_on(const Swerving::Situation& at) {
+  if (at.follows_plan || at.plan.empty()) return at.plan;
+  const Vector2 place = at.committed.position(at.join_s);
+  const auto progress_s = progress_on(at.plan, place, at.plan.start_time(), kOffPlan_m);
+  if (!progress_s) return Motion();
+  return Motion(at.plan.start_time() + at.join_s - *progress_s, at.plan.phases());
+}
+
 }  // namespace
 
 Swerving::Swerving(const RobotModel& robot, const LocalRules& rules,
@@ -25,7 +39,7 @@ Swerving::Swerving(const RobotModel& robot, const LocalRules& rules,
       hard_planner_(WayOut::hardened(robot), rules, watch) {}
 
 std::optional<LocalQuery> Swerving::way_back(const Situation& at) const {
-  LocalQuery query{at.committed, at.join_s, {}, 0.0, at.follows_plan ? at.plan : Motion()};
+  LocalQuery query{at.committed, at.join_s, {}, 0.0, driven_on(at)};
   const Vector2 place = at.committed.position(at.join_s);
   for (const Motion* plan : {&route_, &at.plan}) {
     if (plan->empty()) continue;
@@ -34,6 +48,7 @@ std::optional<LocalQuery> Swerving::way_back(const Situation& at) const {
                                 : progress_on(*plan, place, plan->start_time(), kOffPlan_m);
     if (!progress_s) continue;
     query.plan = *plan;
+    if (plan == &route_) query.anchor_s = anchor_s_;
     query.progress_s = *progress_s;
     return query;
   }
@@ -85,6 +100,7 @@ std::optional<LocalPlan> Swerving::sooner(const Situation& at, const PromiseScen
 void Swerving::take(double now_s, const Motion& left, const LocalPlan& taken) {
   if (route_.empty()) route_ = left;
   rejoins_s_ = taken.rejoins_s;
+  anchor_s_ = is_on(route_, taken.anchor) ? taken.anchor.plan_time_s : 0.0;
   not_before_s_ = now_s + kAgain_s;
 }
 

@@ -49,6 +49,7 @@ class Swerving {
   LocalPlanner hard_planner_;  // the same, for accelerations that only an emergency calls for
   Motion route_;               // the plan that the swerve comes back to; empty: there is none
   double rejoins_s_ = 0.0;     // absolute
+  double anchor_s_ = 0.0;      // time of route_ at which it is there; 0: it is not
   double tried_s_ = 0.0;
   double not_before_s_ = 0.0;  // it is tried again
 };

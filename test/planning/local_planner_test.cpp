@@ -152,7 +152,8 @@ TEST_F(LocalPlannerTest, SaysWhenItTakesTooLong) {
   const LocalScene around = scene({person(planned(2.5), 2.5, {0.0, 0.6})});
   const LocalPlan plan = planner_.plan(query(), around);
   ASSERT_EQ(plan.reason, PlanReason::kSolved) << plan.message;
-  const double drive_s = plan.rejoins_s - query().start_time_s;
+  // Of a drive to an anchor mu ahead; to a farther one it takes longer in any case.
+  const double drive_s = rules_.mu_s + plan.delay_s;
   for (const double spare_s : {-0.01, 0.01}) {
     LocalRules rules = rules_;
     rules.t_epsilon_s = drive_s + spare_s;
@@ -165,6 +166,18 @@ TEST_F(LocalPlannerTest, ComesBackBeyondWhatStandsOnTheAnchor) {
   const LocalPlan plan = planner_.plan(query(), around);
   expect_sound(plan, query(), around);
   EXPECT_GT(plan.anchor.place().x(), planned(rules_.mu_s).x() + kPerson_m + keep_m_ - 1e-3);
+}
+
+TEST_F(LocalPlannerTest, LosesLittleAroundWhoStandsAnywhere) {
+  for (double ahead_s = 2.25; ahead_s < rules_.mu_s + 1.5; ahead_s += 0.25) {
+    for (const double aside_m : {-0.2, 0.05}) {
+      const LocalScene around =
+          scene({person(planned(ahead_s) + Vector2(0.0, aside_m), 0.0, {0.0, 0.0})});
+      const LocalPlan plan = planner_.plan(query(), around);
+      ASSERT_EQ(plan.proof, LocalProof::kAsked) << ahead_s;
+      EXPECT_LT(plan.delay_s, 0.5) << ahead_s << " s ahead, " << aside_m << " m aside";
+    }
+  }
 }
 
 TEST_F(LocalPlannerTest, IsBesideThePlanAtItsEndWhereThatIsNear) {
@@ -218,7 +231,7 @@ TEST_F(LocalPlannerTest, AClassIsKeptUnlessAnotherIsCheaperByTheMargin) {
       if (other.reason != PlanReason::kSolved || other.selected) continue;
       LocalQuery under_way = query();
       under_way.driven = other.motion;
-      const LocalPlan second = planner.plan(under_way, around);
+      const LocalPlan second = planner.anew(under_way, around);
       ASSERT_EQ(second.reason, PlanReason::kSolved) << second.message;
       const auto driven = std::find_if(second.candidates.begin(), second.candidates.end(),
                                        [](const LocalCandidate& c) { return c.driven; });
@@ -231,6 +244,7 @@ TEST_F(LocalPlannerTest, AClassIsKeptUnlessAnotherIsCheaperByTheMargin) {
       const bool stays = cheapest >= (1.0 - rules.switch_margin) * driven->cost;
       EXPECT_EQ(driven->selected, stays) << aside_m;
       EXPECT_EQ(second.switches_class, !stays);
+      EXPECT_EQ(planner.plan(under_way, around).switches_class, !stays);
       kept += stays;
       left += !stays;
     }

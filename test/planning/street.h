@@ -91,6 +91,7 @@ class Street {
   ClosedLoop loop;
   double noise_m = 0.0;  ///< of the places and velocities that are predicted
   double noise_mps = 0.0;
+  std::mt19937 random;  ///< that the noise is drawn from
 
   double least_gap_m = std::numeric_limits<double>::infinity();  ///< between the true discs
   double contact_speed = 0.0;  ///< [m/s] at which the robot itself runs into somebody, the highest
@@ -123,8 +124,8 @@ class Street {
     }
   }
   Vector2 noise(double deviation) {
-    const double x = normal_(random_);
-    return deviation * Vector2(x, normal_(random_));
+    const double x = normal_(random);
+    return deviation * Vector2(x, normal_(random));
   }
 
   /// What is promised until the next step is driven.
@@ -153,7 +154,6 @@ class Street {
   double begin_s_;
   double swerved_s_ = -10.0;
   int turns_ = 0;
-  std::mt19937 random_{5};
   std::normal_distribution<double> normal_;
 };
 

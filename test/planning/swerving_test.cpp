@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planning/worlds.h"
+#include "trajectory/stopping.h"
 
 namespace mocha {
 namespace {
@@ -35,6 +36,13 @@ class SwervingTest : public ::testing::Test {
     swerving_.take(begin_s_, ahead_, *plan);
     taken_ = *plan;
     return continued(ahead_, begin_s_, plan->motion.start_time(), plan->motion);
+  }
+
+  /// When it is beside the person.
+  double passing_s(const Motion& motion) const {
+    double t = motion.start_time();
+    while (t < motion.end_time() && motion.position(t).x() < person_x_) t += 0.05;
+    return t;
   }
 
   const RobotModel robot_ = rover();
@@ -73,6 +81,30 @@ TEST_F(SwervingTest, ComesBackToThePlanItLeftNotToTheSwerve) {
   EXPECT_LT((driven.position(within->anchor.plan_time_s) - within->anchor.place()).norm(), 1e-6);
 }
 
+TEST_F(SwervingTest, KnowsItsSideThoughItHadToBrake) {
+  const Motion driven = swerved();
+  const double brake_s = driven.switch_time(begin_s_ + 0.6);
+  const Motion brakes = with_brake(driven, driven.cut_time(begin_s_ + 0.4), brake_s, 0.5);
+  // As far as the tracker can tell, he stands a little on the other side of the plan now.
+  const auto again = swerving_.around({brake_s, brake_s + kSettle_s, brakes, taken_.motion, false},
+                                      scene(brake_s, -0.05));
+  ASSERT_TRUE(again);
+  ASSERT_EQ(again->proof, LocalProof::kAsked) << again->message;
+  EXPECT_FALSE(again->switches_class);
+  EXPECT_LT(again->motion.position(passing_s(again->motion)).y(), 0.0);
+}
+
+TEST_F(SwervingTest, ComesBackWhereItWouldHave) {
+  person_x_ = ahead_.position(begin_s_ + kSettle_s + default_local_rules().mu_s).x();
+  const Motion driven = swerved();
+  ASSERT_GT(taken_.anchor.place().x(), person_x_ + 0.5) << "beyond him";
+  const double now_s = begin_s_ + 0.6;
+  const auto again = swerving_.around(on(driven, now_s), scene(now_s, 0.1));
+  ASSERT_TRUE(again);
+  EXPECT_NEAR(again->anchor.plan_time_s, taken_.anchor.plan_time_s, 1e-6);
+  EXPECT_FALSE(again->switches_class);
+}
+
 TEST_F(SwervingTest, IsBackSoonerWhenNobodyIsThereAnyMore) {
   // Who crosses slowly from the right is let pass.
   PromiseScene crossing = scene(begin_s_, 0.0);
@@ -98,7 +130,6 @@ TEST_F(SwervingTest, IsBackSoonerWhenNobodyIsThereAnyMore) {
 }
 
 TEST_F(SwervingTest, IsNotDisturbedWhileItCannotBeSooner) {
-  person_x_ = 6.1;  // far enough for a swerve that loses next to nothing
   const Motion driven = swerved();
   ASSERT_LT(driven.end_time(), ahead_.end_time() + 0.1);
   for (double later_s = 0.6; begin_s_ + later_s < taken_.rejoins_s; later_s += 0.6) {
