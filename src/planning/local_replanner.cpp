@@ -61,7 +61,7 @@ void LocalReplanner::set_committed(std::uint32_t sequence, Motion motion) {
 
 void LocalReplanner::on_refusal(std::uint32_t sequence) { proposals_.refused(sequence); }
 
-void LocalReplanner::propose(double now_s, Motion motion, bool emergency,
+void LocalReplanner::propose(double now_s, const Motion& motion, bool emergency,
                              const PromiseSource& source, bool brakes, Output& output) {
   try {
     output.proposal = proposals_.make(now_s, quantised(motion), emergency, source, brakes);

@@ -100,7 +100,7 @@ class LocalReplanner {
   /// Promises more of the plan once `every_s` of the horizon is used up.
   void extend(double now_s, const PromiseScene& scene, double every_s, Output& output);
   static void ask_for_plan(const Violation& violation, const std::string& why, Output& output);
-  void propose(double now_s, Motion motion, bool emergency, const PromiseSource& source,
+  void propose(double now_s, const Motion& motion, bool emergency, const PromiseSource& source,
                bool brakes, Output& output);
 
   bool follows_plan_at(double t) const {
