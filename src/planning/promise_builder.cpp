@@ -121,11 +121,23 @@ std::optional<CertifiedMotion> PromiseBuilder::longest(const Motion& motion,
     if (!obstacle && fits(whole)) return CertifiedMotion{whole, motion.end_time(), {}};
     brake_s = motion.end_time();
   }
-  if (obstacle) brake_s = std::min(brake_s, obstacle.time_s);
+  const auto braking_at = [&](double t) -> std::optional<CertifiedMotion> {
+    const Motion cut = with_brake(motion, begin_s, t, deceleration());
+    if (certify(cut, scene, from_s) || !fits(cut)) return std::nullopt;
+    return CertifiedMotion{cut, t, obstacle};
+  };
+  if (obstacle) {
+    brake_s = std::min(brake_s, obstacle.time_s);
+  } else {
+    // Who drives before somebody may be in his way when he stops, and not before.
+    const double last_s = std::min(scene.predicted_until_s, motion.end_time());
+    for (double t = brake_s; t < last_s; t += kStep_s) {
+      if (auto found = braking_at(t)) return found;
+    }
+  }
   for (;; brake_s -= kStep_s) {
     brake_s = std::max(brake_s, earliest_s);
-    const Motion cut = with_brake(motion, begin_s, brake_s, deceleration());
-    if (!certify(cut, scene, from_s) && fits(cut)) return CertifiedMotion{cut, brake_s, obstacle};
+    if (auto found = braking_at(brake_s)) return found;
     if (brake_s <= earliest_s) return std::nullopt;
   }
 }

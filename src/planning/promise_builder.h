@@ -61,8 +61,9 @@ class PromiseBuilder {
   Violation certify_in_force(const Motion& motion, const PromiseScene& scene, double from_s) const;
 
   /// The longest part of `motion` from `from_s` on that may be promised, and fits into one
-  /// datagram, when braking begins no earlier than `earliest_s` and no later than `latest_s`.
-  /// Nothing if even braking at `earliest_s` is not certified.
+  /// datagram, when braking begins no earlier than `earliest_s` and no later than `latest_s`; or
+  /// later, up to the end of the predictions, where only to stop is in somebody's way. Nothing if
+  /// even braking at `earliest_s` is not certified.
   std::optional<CertifiedMotion> longest(const Motion& motion, const PromiseScene& scene,
                                          double from_s, double earliest_s, double latest_s) const;
 

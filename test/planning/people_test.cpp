@@ -80,11 +80,15 @@ TEST(People, OneWhoIsFasterComesFromBehind) {
 }
 
 TEST(People, OneComesFromBehindBeforeItHasSetOff) {
-  for (const double speed : {1.0, 1.27, 1.5}) {
-    SCOPED_TRACE(speed);
-    Street street(corridor(2.4), {10.0, 0.0}, {{{-3.7, 0.05}, {{60.0, {speed, 0.0}}}}});
-    EXPECT_TRUE(street.run_to_goal(40.0)) << street.loop.output.message;
-    EXPECT_GT(street.least_gap_m, 0.0);
+  for (const double width_m : {2.4, 3.4}) {
+    // The slower he is, the nearer he may be.
+    for (const auto& [speed, behind_m] :
+         {std::pair(1.0, 2.5), {1.27, 3.0}, {1.27, 3.7}, {1.5, 3.7}}) {
+      SCOPED_TRACE(testing::Message() << speed << " m/s, " << behind_m << " m behind, " << width_m);
+      Street street(corridor(width_m), {10.0, 0.0}, {{{-behind_m, 0.05}, {{60.0, {speed, 0.0}}}}});
+      EXPECT_TRUE(street.run_to_goal(40.0)) << street.loop.output.message;
+      EXPECT_GT(street.least_gap_m, 0.0);
+    }
   }
 }
 

@@ -143,6 +143,22 @@ TEST_F(PromiseBuilderTest, BrakesBeforeACrossingPeer) {
   expect_promise(*promise, with_peer, kStart_s);
 }
 
+TEST_F(PromiseBuilderTest, GoesOnBeforeWhoComesFromBehind) {
+  PromiseScene behind = scene(open_);
+  behind.moving = {std::make_shared<PredictedDisc>("person", kStart_s, Vector2(-1.76, 0.0),
+                                                   Vector2(0.9, 0.0), 0.25, 0.0)};
+  behind.predicted_until_s = kStart_s + 4.5;
+  const double horizon_s = kStart_s + 3.5;
+  const Motion cut =
+      with_brake(ahead_, ahead_.clean_cut(kStart_s), horizon_s, builder_.deceleration());
+  ASSERT_TRUE(builder_.certify(cut, behind, kStart_s)) << "he would run into it where it stops";
+  const auto promise = builder_.longest(ahead_, behind, kStart_s, kStart_s + 0.3, horizon_s);
+  ASSERT_TRUE(promise);
+  EXPECT_GT(promise->follows_until_s, horizon_s);
+  EXPECT_LT(promise->follows_until_s, behind.predicted_until_s);
+  expect_promise(*promise, behind, kStart_s);
+}
+
 TEST_F(PromiseBuilderTest, NothingWhereNotEvenBrakingIsSafe) {
   const double now_s = kStart_s + 4.0;  // at full speed
   const double here_x = ahead_.at(now_s).pose.position.x();
