@@ -112,7 +112,8 @@ void LocalReplanner::take_offer(double now_s, const PromiseScene& scene, Output&
   const bool to_the_same_place =
       !plan_.empty() && !offered_->empty() &&
       (plan_.end_pose().position - offered_->end_pose().position).norm() < kSamePlace_m;
-  if (to_the_same_place && follows_plan_at(now_s)) {
+  const bool is_proposed = proposals_.pending(now_s) && proposals_.newest_source().plan == plan_id_;
+  if (to_the_same_place && (follows_plan_at(now_s) || is_proposed)) {
     const double horizon_s = scene.predicted_until_s - now_s;
     const Violation of_plan = conflict(plan_, now_s, scene, horizon_s);
     const Violation of_offer = conflict(*offered_, now_s, scene, horizon_s);

@@ -11,6 +11,7 @@ ProposedMotion Proposals::make(double now_s, Motion motion, bool emergency,
   sources_[sequence_] = source;
   pending_until_s_ = now_s + answer_timeout_s_;
   newest_ = motion;
+  newest_source_ = source;
   newest_brakes_ = brakes;
   return {sequence_, std::move(motion), emergency};
 }

@@ -39,6 +39,8 @@ class Proposals {
   /// What is pending, or was last.
   const Motion& newest() const { return newest_; }
   bool newest_brakes() const { return newest_brakes_; }
+  /// What it was made from.
+  const PromiseSource& newest_source() const { return newest_source_; }
 
  private:
   const double answer_timeout_s_;
@@ -46,6 +48,7 @@ class Proposals {
   std::map<std::uint32_t, PromiseSource> sources_;  // by sequence, until answered
   double pending_until_s_ = 0.0;
   Motion newest_;
+  PromiseSource newest_source_;
   bool newest_brakes_ = false;
 };
 

@@ -324,14 +324,19 @@ TEST_F(LocalReplannerTest, AnOfferThatMeetsSomebodySoonerIsPassedOver) {
     replanner.set_plan(straight_drive(kNow_s + 0.5, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5));
     const auto first = replanner.step(kNow_s, {kNow_s, {}, {}}, scene_);
     ASSERT_TRUE(first.proposal);
-    replanner.set_committed(first.proposal->sequence, first.proposal->motion);
     PromiseScene people = scene_;
     for (const Vector2& place : each.people) people.moving.push_back(person_at(place));
     people.predicted_until_s = kNow_s + 9.0;
-    replanner.set_plan(detour);
-    const double now_s = kNow_s + 0.6;
-    const auto output = replanner.step(now_s, state(replanner.committed(), now_s), people);
-    EXPECT_EQ(output.keeps_plan, each.keeps) << each.people.size();
+    // The plan at hand counts as soon as it is proposed: else a new one would displace each swerve
+    // before it is settled.
+    for (const double now_s : {kNow_s + 0.1, kNow_s + 0.6}) {
+      const bool is_settled = now_s > kNow_s + 0.5;
+      LocalReplanner at_that_time = replanner;
+      if (is_settled) at_that_time.set_committed(first.proposal->sequence, first.proposal->motion);
+      at_that_time.set_plan(detour);
+      const auto output = at_that_time.step(now_s, state(at_that_time.committed(), now_s), people);
+      EXPECT_EQ(output.keeps_plan, each.keeps) << each.people.size() << ", " << is_settled;
+    }
   }
 }
 
