@@ -89,17 +89,8 @@ LocalReplanner::Output LocalReplanner::step(double now_s, const RobotState& stat
   }
   if ((in_the_way || conflicting) && !pending && swerve(now_s, scene, output)) return output;
   if (waits_in_the_way && !pending) {
-    output.reason = PlanReason::kPeerConflict;
-    output.violation = violation;
-    output.message = describe(violation);
-    if (const auto choice = way_out_.aside(committed_, times(now_s), scene)) {
-      take(now_s, *choice, output);
-    } else {
-      do_the_least_bad(now_s, scene, output);
-    }
-    return output;
-  }
-  if (in_the_way) {
+    step_aside(now_s, violation, scene, output);
+  } else if (in_the_way) {
     shorten(now_s, violation, scene, output);
   } else if (!pending && !plan_.empty() && !swerve_less(now_s, scene, output)) {
     extend(now_s, asked, rules_.extend_every_s, output);
@@ -202,6 +193,18 @@ void LocalReplanner::stop_here(double now_s, const RobotState& measured, Output&
   output.message = text.str();
   output.request_plan = true;
   propose(now_s, stop, true, {}, true, output);
+}
+
+void LocalReplanner::step_aside(double now_s, const Violation& violation, const PromiseScene& scene,
+                                Output& output) {
+  output.reason = PlanReason::kPeerConflict;
+  output.violation = violation;
+  output.message = describe(violation);
+  if (const auto choice = way_out_.aside(committed_, times(now_s), scene)) {
+    take(now_s, *choice, output);
+  } else {
+    do_the_least_bad(now_s, scene, output);
+  }
 }
 
 void LocalReplanner::shorten(double now_s, const Violation& violation, const PromiseScene& scene,

@@ -79,6 +79,9 @@ class LocalReplanner {
   /// Makes what local planning found the plan, and proposes as much of it as can be promised; false
   /// where that is next to nothing.
   bool adopt(double now_s, const PromiseScene& scene, Output& output);
+  /// Out of the way of who comes to where it stands.
+  void step_aside(double now_s, const Violation& violation, const PromiseScene& scene,
+                  Output& output);
   void shorten(double now_s, const Violation& violation, const PromiseScene& scene, Output& output);
   WayOut::Times times(double now_s) const;
   void take(double now_s, const WayOut::Choice& choice, Output& output);
