@@ -83,7 +83,7 @@ bool is_better(const LocalPlan& later, const LocalPlan& earlier, const LocalRule
 
 /// Whether farther anchors and later arrivals need not be tried.
 bool is_good_enough(const LocalPlan& first, const LocalQuery& query) {
-  const bool swerves_already = query.anchor_s > 0.0;
+  const bool swerves_already = query.anchor_s > query.progress_s;
   return first.proof == LocalProof::kAsked && first.delay_s < kLittle_s &&
          !(swerves_already && first.switches_class);
 }
