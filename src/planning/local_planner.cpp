@@ -224,7 +224,7 @@ LocalPlan LocalPlanner::anew(const LocalQuery& query, const LocalScene& scene) c
   std::vector<LocalPlan> plans(std::max<std::size_t>(1, tasks.size()));
   if (tasks.empty()) return plans.front();
   const Cuts<2> cuts = cuts_for(tasks, scene);
-  // The first one mostly does. If it does not, it is urgent.
+  // The first one is mostly good enough. Where it is not, it is urgent.
   plans[0] = attempt(query, scene, tasks[0], cuts);
   if (is_good_enough(plans[0], query)) return plans[0];
   in_parallel(tasks.size() - 1, rules_.threads,
