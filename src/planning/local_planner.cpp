@@ -81,13 +81,6 @@ bool is_better(const LocalPlan& later, const LocalPlan& earlier, const LocalRule
   return later.delay_s < earlier.delay_s - kSooner_s;
 }
 
-/// Whether farther anchors and later arrivals need not be tried.
-bool is_good_enough(const LocalPlan& first, const LocalQuery& query) {
-  const bool swerves_already = query.anchor_s > query.progress_s;
-  return first.proof == LocalProof::kAsked && first.delay_s < kLittle_s &&
-         !(swerves_already && first.switches_class);
-}
-
 /// Of what begins at that place and time.
 bool begins_inside(const std::vector<MovingThing>& things, const TimedPoint& start) {
   return std::any_of(things.begin(), things.end(), [&start](const MovingThing& thing) {
@@ -226,7 +219,7 @@ LocalPlan LocalPlanner::anew(const LocalQuery& query, const LocalScene& scene) c
   const Cuts<2> cuts = cuts_for(tasks, scene);
   // The first one is mostly good enough. Where it is not, it is urgent.
   plans[0] = attempt(query, scene, tasks[0], cuts);
-  if (is_good_enough(plans[0], query)) return plans[0];
+  if (plans[0].proof == LocalProof::kAsked && plans[0].delay_s < kLittle_s) return plans[0];
   in_parallel(tasks.size() - 1, rules_.threads,
               [&](std::size_t i) { plans[i + 1] = attempt(query, scene, tasks[i + 1], cuts); });
   const LocalPlan* best = &plans[0];

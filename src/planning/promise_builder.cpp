@@ -126,20 +126,19 @@ std::optional<CertifiedMotion> PromiseBuilder::longest(const Motion& motion,
     if (certify(cut, scene, from_s) || !fits(cut)) return std::nullopt;
     return CertifiedMotion{cut, t, obstacle};
   };
-  if (obstacle) {
-    brake_s = std::min(brake_s, obstacle.time_s);
-  } else {
-    // Who drives before somebody may be in his way when he stops, and not before.
-    const double last_s = std::min(scene.predicted_until_s, motion.end_time());
-    for (double t = brake_s; t < last_s; t += kStep_s) {
-      if (auto found = braking_at(t)) return found;
-    }
+  if (obstacle) brake_s = std::min(brake_s, obstacle.time_s);
+  brake_s = std::max(brake_s, earliest_s);
+  if (auto found = braking_at(brake_s)) return found;
+  // Who drives before somebody may be in his way when he stops, and not before.
+  const double last_s = obstacle ? brake_s : std::min(scene.predicted_until_s, motion.end_time());
+  for (double t = brake_s + kStep_s; t < last_s; t += kStep_s) {
+    if (auto found = braking_at(t)) return found;
   }
-  for (;; brake_s -= kStep_s) {
-    brake_s = std::max(brake_s, earliest_s);
+  while (brake_s > earliest_s) {
+    brake_s = std::max(brake_s - kStep_s, earliest_s);
     if (auto found = braking_at(brake_s)) return found;
-    if (brake_s <= earliest_s) return std::nullopt;
   }
+  return std::nullopt;
 }
 
 }  // namespace mocha

@@ -14,8 +14,8 @@ namespace {
 class SavedMapTest : public testing::Test {
  protected:
   SavedMapTest() {
-    char pattern[] = "/tmp/saved_map_XXXXXX";
-    directory_ = mkdtemp(pattern);
+    std::string pattern = testing::TempDir() + "saved_map_XXXXXX";
+    directory_ = mkdtemp(pattern.data());
   }
   ~SavedMapTest() override { std::filesystem::remove_all(directory_); }
 

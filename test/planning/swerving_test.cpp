@@ -105,6 +105,28 @@ TEST_F(SwervingTest, ComesBackWhereItWouldHave) {
   EXPECT_FALSE(again->switches_class);
 }
 
+/// Where a swerve came back to another plan, far beside the first one, says nothing of that.
+TEST_F(SwervingTest, TheAnchorIsThatOfItsPlan) {
+  swerved();
+  const double later_s = begin_s_ + 6.0;
+  const Motion beside = straight_drive(later_s - 2.0, {0.0, 3.0}, 0.0, 8.0, 0.9, 0.5);
+  PromiseScene there = nobody(later_s);
+  there.moving = {std::make_shared<PredictedDisc>("person", later_s, beside.position(later_s + 4.0),
+                                                  Vector2(0.0, 0.0), 0.25, 0.0)};
+  const auto around = swerving_.around(on(beside, later_s), there);
+  ASSERT_TRUE(around);
+  ASSERT_EQ(around->proof, LocalProof::kAsked) << around->message;
+  ASSERT_NEAR(around->anchor.place().y(), 3.0, 0.1);
+  swerving_.take(later_s, beside, *around);
+
+  const double now_s = later_s + 1.0;
+  const Motion stands = standing(now_s - 0.5, ahead_.position(begin_s_), 0.0);
+  const auto again =
+      swerving_.around({now_s, now_s + kSettle_s, stands, ahead_, false}, scene(now_s, 1.2));
+  ASSERT_TRUE(again);
+  EXPECT_NEAR(again->anchor.plan_time_s, begin_s_ + default_local_rules().mu_s, 0.1);
+}
+
 TEST_F(SwervingTest, IsBackSoonerWhenNobodyIsThereAnyMore) {
   // Who crosses slowly from the right is let pass.
   PromiseScene crossing = scene(begin_s_, 0.0);
