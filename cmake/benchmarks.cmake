@@ -16,7 +16,7 @@ mocha_benchmark(localization)
 target_link_libraries(benchmark_localization mocha_perception mocha_simulation)
 
 mocha_benchmark(tracks)
-target_link_libraries(benchmark_tracks mocha_ros)
+target_link_libraries(benchmark_tracks mocha_ros_bridge)
 
 # Table II has planners of OMPL beside ours.
 find_package(ompl QUIET)

@@ -1,7 +1,7 @@
-# mocha_folder(NAME LIBRARIES...): the static library mocha_NAME from src/NAME/*.cpp.
+# mocha_folder(NAME LIBRARIES...): the static library mocha_NAME from all sources below src/NAME.
 # A folder without sources becomes an interface library, so that the layering can be stated in one place.
 function(mocha_folder name)
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
   if(MOCHA_LEFT_OUT)
     list(FILTER sources EXCLUDE REGEX "/${MOCHA_LEFT_OUT}(_test)?\\.cpp$")
   endif()

@@ -1,4 +1,4 @@
-"""Draws what the ways of a recorded fleet cost and what the team-mates' promises add to that, and the drives, as the paper's Figs. 14 and 15."""
+"""Draws what the paths of a recorded fleet cost and what the team-mates' promises add to that, and the drives, as the paper's Figs. 14 and 15."""
 import math
 import os
 from dataclasses import dataclass
@@ -10,8 +10,8 @@ import numpy as np
 import rosbag
 from matplotlib.patches import Circle
 
+from benchmarks.classes_plots import COLORS, draw_world
 from mocha_scripts import drive_plots, worlds
-from mocha_scripts.classes_plots import COLORS, draw_world
 from mocha_ugv.msg import MotionPhase, PlannerStatus
 
 EVERY_S = 2.0  # the robots of the time-lapse are drawn
@@ -23,7 +23,7 @@ TEAM_MATE = "moving"  # name of the term (33)
 
 @dataclass
 class Plan:
-    """The ways of one plan (Candidate messages), the map, and the promises of driving team-mates that were known then."""
+    """The paths of one plan (Candidate messages), the map, and the promises of driving team-mates that were known then."""
     time_s: float
     ways: list
     grid: object  # OccupancyGrid
@@ -31,7 +31,7 @@ class Plan:
 
 
 class Recording:
-    """What a bag says of each robot: its plans that found a way, what it heard, and its ground truth."""
+    """What a bag says of each robot: its plans that found a path, what it heard, and its ground truth."""
 
     def __init__(self, bag, names):
         self.plans = {name: [] for name in names}
@@ -148,7 +148,7 @@ def signature(path, circles):
 
 
 def cost_before(way, before, circles):
-    """What the same way cost in the plan before; None where that did not make it out."""
+    """What the same path cost in the plan before; None where that did not make it out."""
     own = signature(places(way), circles)
     return min((one.cost for one in (before.ways if before else []) if solved(one) and signature(places(one), circles) == own), default=None)
 

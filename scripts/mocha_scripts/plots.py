@@ -1,5 +1,5 @@
 """Draws a recorded drive (map with trajectories, speed, acceleration and yaw rate against limits, clearance, separation), or the paper's
-Figs. 6 to 15 with our own data, or the ways of all classes on a map, or what moves in recorded laser scans."""
+Figs. 6 to 15 with our own data, or the paths of all classes on a map, or what moves in recorded laser scans, or the nodes and their topics."""
 import argparse
 import os
 import sys
@@ -48,7 +48,7 @@ def add_table3(what):
 
 
 def add_classes(what):
-    classes = what.add_parser("classes", help="the ways of all classes in a world or on a saved map",
+    classes = what.add_parser("classes", help="the paths of all classes in a world or on a saved map",
                               description="Plans in a world, for its first robot, or on a saved map, for the rover. Writes classes.png: the "
                               "candidates of all classes with their costs, and what the optimiser makes of the straight line, without classes.")
     classes.add_argument("file", help="world file, or map.yaml of a saved map")
@@ -81,7 +81,7 @@ def add_replan(what):
 
 def add_swerve(what):
     swerve = what.add_parser("swerve", help="a recorded drive around what moves, as in the paper's Figs. 10 and 11",
-                             description="Writes swerve.png: the global plan, the local trajectories with their anchors, what was seen to move, "
+                             description="Writes swerve.png: the global plan, the local trajectories with their rejoin points, what was seen to move, "
                              "and below the clearance over time.")
     swerve.add_argument("bag", help="drive.bag of a demo")
     swerve.add_argument("--world", default=os.path.join(ROOT, "config/worlds/swerve.yaml"), metavar="FILE",
@@ -91,16 +91,23 @@ def add_swerve(what):
 
 
 def add_costs(what):
-    costs = what.add_parser("costs", help="what a recorded fleet's ways cost, as in the paper's Figs. 14 and 15",
-                            description="Writes costs.png (for each robot the ways of one plan, their costs and what the team-mates' promises "
+    costs = what.add_parser("costs", help="what a recorded fleet's paths cost, as in the paper's Figs. 14 and 15",
+                            description="Writes costs.png (for each robot the paths of one plan, their costs and what the team-mates' promises "
                             "add to them: for the robot that promised first its first plan, for the others their first that knew a promise) and "
-                            "time_lapse.png (the drives), and prints the costs, beside those of the same ways in the plan before. A way is optimised with "
+                            "time_lapse.png (the drives), and prints the costs, beside those of the same paths in the plan before. A path is optimised with "
                             "(33), so where it makes room for a promise its duration rises rather than (33) itself.")
     costs.add_argument("bag", help="drive.bag of a demo")
     costs.add_argument("--world", default=os.path.join(ROOT, "config/worlds/corridor_meet.yaml"), metavar="FILE",
                        help="world file that was driven (default: two robots that meet in the corridor)")
     costs.set_defaults(draw=draw_costs)
     return costs
+
+
+def add_architecture(what):
+    architecture = what.add_parser("architecture", help="the nodes and their topics, read from the sources",
+                                   description="Writes architecture.svg, which docs/ holds.")
+    architecture.set_defaults(draw=draw_architecture)
+    return architecture
 
 
 # The imports stand in the functions, as the help needs no matplotlib.
@@ -110,32 +117,32 @@ def draw_drive(options):
 
 
 def draw_table1(options):
-    from mocha_scripts import table1_plots
+    from benchmarks import table1_plots
     table1_plots.draw_table1(options.world, options.out)
 
 
 def draw_table2(options):
-    from mocha_scripts import table2_plots
+    from benchmarks import table2_plots
     table2_plots.draw_table2(options.world, options.out)
 
 
 def draw_table3(options):
-    from mocha_scripts import table3_plots
+    from benchmarks import table3_plots
     table3_plots.draw_table3(options.seed, options.out)
 
 
 def draw_classes(options):
-    from mocha_scripts import classes_plots
+    from benchmarks import classes_plots
     classes_plots.draw_classes(options.file, options.classes, options.drive, options.out)
 
 
 def draw_tracks(options):
-    from mocha_scripts import tracks_plots
+    from benchmarks import tracks_plots
     tracks_plots.draw_tracks(options.bag, options.mount, options.out)
 
 
 def draw_replan(options):
-    from mocha_scripts import replan_plots
+    from benchmarks import replan_plots
     replan_plots.draw_replan(options.scene, options.out)
 
 
@@ -149,12 +156,17 @@ def draw_costs(options):
     print(costs_plots.draw_costs(options.bag, options.world, options.out))
 
 
+def draw_architecture(options):
+    from mocha_scripts import architecture_plot
+    architecture_plot.draw_architecture(ROOT, options.out)
+
+
 def main(arguments):
     parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
     what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
     for plots in (add_drive(what), add_table1(what), add_table2(what), add_table3(what), add_classes(what), add_tracks(what),
-                  add_replan(what), add_swerve(what), add_costs(what)):
-        plots.add_argument("--out", default=".", metavar="DIR", help="PNG files go there (default: here)")
+                  add_replan(what), add_swerve(what), add_costs(what), add_architecture(what)):
+        plots.add_argument("--out", default=".", metavar="DIR", help="files go there (default: here)")
     options = parser.parse_args(arguments)
     os.makedirs(options.out, exist_ok=True)
     options.draw(options)

@@ -1,4 +1,4 @@
-# For scripts/demo, bench and plots: builds what is missing and runs the module mocha_scripts.$1 in the package's environment.
+# For scripts/demo, bench and plots: builds what is missing and runs the Python module $1 in the package's environment.
 set -eo pipefail  # not -u: catkin reads unset variables
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
 setup=${MOCHA_BUILD:-$root/_build}/devel/setup.bash
@@ -8,5 +8,5 @@ if [[ " $* " != *" --help "* && " $* " != *" -h "* ]]; then "$root/scripts/build
 export PATH=/usr/bin:/bin:/usr/sbin:/sbin
 if [[ ! -x /usr/bin/python3 ]]; then "$root/scripts/setup"; fi
 if [[ -f $setup ]]; then enter; fi
-export PYTHONPATH=$root/scripts${PYTHONPATH:+:$PYTHONPATH}
-exec /usr/bin/python3 -m "mocha_scripts.$1" "${@:2}"
+export PYTHONPATH=$root/scripts:$root/test${PYTHONPATH:+:$PYTHONPATH}
+exec /usr/bin/python3 -m "$1" "${@:2}"

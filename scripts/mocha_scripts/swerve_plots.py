@@ -1,4 +1,4 @@
-"""Draws a recorded drive around what moves as the paper's Figs. 10 and 11: plan, local trajectories and anchors, and the clearance over time."""
+"""Draws a recorded drive around what moves as the paper's Figs. 10 and 11: plan, local trajectories and rejoin points, and the clearance over time."""
 import os
 
 import matplotlib
@@ -21,7 +21,7 @@ class Recording:
     def __init__(self, bag, robot):
         self.truth = []  # time, x, y, clearance
         self.plan = None  # the first global one
-        self.swerves = []  # (time, places up to the anchor, anchor)
+        self.swerves = []  # (time, places up to the rejoin point, rejoin point)
         self.seen = []  # (time, x, y, radius) of what moves, as tracked
         with rosbag.Bag(bag) as messages:
             for topic, message, _ in messages.read_messages():
@@ -40,11 +40,11 @@ class Recording:
 
     def _read_swerve(self, message):
         parts = {marker.ns: marker for marker in message.markers}
-        if "swerve" not in parts or "anchor" not in parts:
+        if "detour" not in parts or "rejoin point" not in parts:
             return
-        path, anchor = places(parts["swerve"].points), parts["anchor"].pose.position
+        path, rejoin_point = places(parts["detour"].points), parts["rejoin point"].pose.position
         if not self.swerves or not np.array_equal(path, self.swerves[-1][1]):
-            self.swerves.append((parts["swerve"].header.stamp.to_sec(), path, (anchor.x, anchor.y)))
+            self.swerves.append((parts["detour"].header.stamp.to_sec(), path, (rejoin_point.x, rejoin_point.y)))
 
     def place_at(self, time_s):
         return [np.interp(time_s, self.truth[:, 0], self.truth[:, column]) for column in (1, 2)]
@@ -58,10 +58,10 @@ def draw_scene(axes, recording, world, radius):
     drive_plots.draw_obstacles(axes, world)
     if recording.plan is not None:
         axes.plot(*recording.plan.T, color=PLAN, ls="--", lw=1.6, label="global plan")
-    for k, (_, path, anchor) in enumerate(recording.swerves):
+    for k, (_, path, rejoin_point) in enumerate(recording.swerves):
         first = k == 0
         axes.plot(*path.T, color=LOCAL, lw=3.0 if first else 1.0, alpha=0.6, label="local trajectories" if first else None)
-        axes.plot(*anchor, "s", color=LOCAL, ms=9 if first else 5, mec="k" if first else "none", ls="", label="anchors" if first else None)
+        axes.plot(*rejoin_point, "s", color=LOCAL, ms=9 if first else 5, mec="k" if first else "none", ls="", label="rejoin points" if first else None)
     axes.plot(recording.truth[:, 1], recording.truth[:, 2], color=DRIVEN, lw=1.0, label="driven")
     start, end = recording.truth[0, 0], recording.truth[-1, 0]
     for time_s in np.arange(start, end, EVERY_S):

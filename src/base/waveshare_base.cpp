@@ -13,6 +13,25 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+WaveshareBase::Options WaveshareBase::Options::from(const ParameterTable& values,
+                                                    const RobotModel& model) {
+  Options options;
+  options.device = values.text("port");
+  options.baud = values.integer("baud");
+  options.firmware = {values.integer("robot_type"), values.integer("heartbeat"),
+                      values.integer("feedback_interval")};
+  options.odometry = {model.limits.track_m, model.limits.max_wheel_speed,
+                      model.odometry_noise_distance, model.odometry_noise_yaw,
+                      values.number("gyro_noise")};
+  options.feedback_timeout_s = values.number("feedback_timeout");
+  options.feedback_delay_s = values.number("feedback_delay");
+  options.acceleration_scale = values.number("acceleration_scale");
+  options.gyro_scale = values.number("gyro_scale");
+  options.use_gyro = values.flag("use_gyro");
+  options.wheel_speed_noise = values.number("wheel_speed_noise");
+  return options;
+}
+
 WaveshareBase::WaveshareBase(const Options& options)
     : options_(options),
       port_(options.device, options.baud),
@@ -33,9 +52,9 @@ std::vector<BaseFeedback> WaveshareBase::poll(double now_s) {
   const std::vector<WaveshareFeedback> lines = decoder_.take(port_.read());
   std::vector<BaseFeedback> result;
   // Of several that waited here, the former ones are older.
-  double age_s = 1e-3 * options_.settings.feedback_interval_ms * static_cast<double>(lines.size());
+  double age_s = 1e-3 * options_.firmware.feedback_interval_ms * static_cast<double>(lines.size());
   for (const WaveshareFeedback& line : lines) {
-    age_s -= 1e-3 * options_.settings.feedback_interval_ms;
+    age_s -= 1e-3 * options_.firmware.feedback_interval_ms;
     const double stamp_s = now_s - options_.feedback_delay_s - age_s;
     stamp_s_ = set_back ? stamp_s : std::max(stamp_s, stamp_s_);
     result.push_back(feedback(stamp_s_, line));
@@ -96,7 +115,7 @@ void WaveshareBase::set_emergency_stop(bool stopped) {
 void WaveshareBase::send_setup(double now_s) {
   setup_s_ = now_s;
   if (!port_.is_open()) return;
-  for (const std::string& line : waveshare_setup(options_.settings)) send(line);
+  for (const std::string& line : waveshare_setup(options_.firmware)) send(line);
   send_stop();
 }
 

@@ -7,6 +7,8 @@
 #include "base/serial_port.h"
 #include "base/waveshare_protocol.h"
 #include "base/wheel_odometry.h"
+#include "config/parameter_table.h"
+#include "world/robot_model.h"
 
 namespace mocha {
 
@@ -19,16 +21,19 @@ namespace mocha {
 class WaveshareBase : public BaseInterface {
  public:
   struct Options {
-    std::string device = "/dev/ttyAMA0";
-    int baud = 115200;
-    WaveshareSettings settings;
+    std::string device;
+    int baud;
+    WaveshareOptions firmware;
     WheelOdometry::Options odometry;
-    double feedback_timeout_s = 0.3;  ///< without feedback so long, the base is not driven
-    double feedback_delay_s = 0.0;    ///< from the reading of its sensors to its arrival here
-    double acceleration_scale = 1.0;  ///< [m/s^2] per count of the sensor
-    double gyro_scale = 1.0;          ///< [rad/s] per count
-    bool use_gyro = true;             ///< for the heading
-    double wheel_speed_noise = 0.0;   ///< [m/s] standard deviation of a reported speed
+    double feedback_timeout_s;  ///< without feedback so long, the base is not driven
+    double feedback_delay_s;    ///< from the reading of its sensors to its arrival here
+    double acceleration_scale;  ///< [m/s^2] per count of the sensor
+    double gyro_scale;          ///< [rad/s] per count
+    bool use_gyro;              ///< for the heading
+    double wheel_speed_noise;   ///< [m/s] standard deviation of a reported speed
+
+    /// From the parameters of base_driver; the wheels are those of the model.
+    static Options from(const ParameterTable& values, const RobotModel& model);
   };
 
   explicit WaveshareBase(const Options& options);

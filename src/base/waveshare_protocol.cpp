@@ -74,12 +74,12 @@ std::string shown(const std::string& text) {
 
 }  // namespace
 
-std::vector<std::string> waveshare_setup(const WaveshareSettings& settings) {
-  return {line({{"T", 136}, {"cmd", settings.heartbeat_ms}}),  // first: the one that matters
+std::vector<std::string> waveshare_setup(const WaveshareOptions& firmware) {
+  return {line({{"T", 136}, {"cmd", firmware.heartbeat_ms}}),  // first: the one that matters
           line({{"T", 143}, {"cmd", 0}}),
           // Module 0: an arm would put its own values where those of the accelerometer are.
-          line({{"T", 900}, {"main", settings.robot_type}, {"module", 0}}),
-          line({{"T", 142}, {"cmd", settings.feedback_interval_ms}}),
+          line({{"T", 900}, {"main", firmware.robot_type}, {"module", 0}}),
+          line({{"T", 142}, {"cmd", firmware.feedback_interval_ms}}),
           line({{"T", 131}, {"cmd", 1}})};
 }
 

@@ -19,17 +19,17 @@ namespace mocha {
 /// the computer dies, counts from the last T 1. T 13 (body velocities) is not under its watch.
 
 /// What the firmware does not do of itself, or forgets when it restarts.
-struct WaveshareSettings {
-  int robot_type = 2;      ///< 1 RaspRover, 2 UGV Rover, 3 UGV Beast: their wheels and encoders
-  int heartbeat_ms = 300;  ///< the wheels stop so long after the last command
-  int feedback_interval_ms = 25;  ///< between two lines of feedback
+struct WaveshareOptions {
+  int robot_type;            ///< 1 RaspRover, 2 UGV Rover, 3 UGV Beast: their wheels and encoders
+  int heartbeat_ms;          ///< the wheels stop so long after the last command
+  int feedback_interval_ms;  ///< between two lines of feedback
 };
 
 /// The firmware ignores commands beyond this and goes on with the former one, heartbeat refreshed.
 constexpr double kWaveshareMaxWheelSpeed = 2.0;  // [m/s]
 
-/// The lines that bring the firmware to `settings`.
-std::vector<std::string> waveshare_setup(const WaveshareSettings& settings);
+/// The lines that bring the firmware to `firmware`.
+std::vector<std::string> waveshare_setup(const WaveshareOptions& firmware);
 
 /// Wheel rim speeds [m/s]. Where one is beyond the firmware's limit both are slowed down, which
 /// keeps the curvature; what is not finite stands.

@@ -21,11 +21,11 @@ namespace mocha {
 class WheelOdometry {
  public:
   struct Options {
-    double track_m = 0.0;          ///< between the wheels, as they act on the ground
-    double max_wheel_speed = 0.0;  ///< [m/s]
-    double noise_distance = 0.0;   ///< [m/sqrt(m)] standard deviation along the path
-    double noise_yaw = 0.0;        ///< [rad/sqrt(rad)] standard deviation of the heading, by wheels
-    double noise_gyro = 0.0;       ///< [rad/sqrt(s)] the same by gyroscope
+    double track_m;          ///< between the wheels, as they act on the ground
+    double max_wheel_speed;  ///< [m/s]
+    double noise_distance;   ///< [m/sqrt(m)] standard deviation along the path
+    double noise_yaw;        ///< [rad/sqrt(rad)] standard deviation of the heading, by wheels
+    double noise_gyro;       ///< [rad/sqrt(s)] the same by gyroscope
   };
 
   explicit WheelOdometry(const Options& options);

@@ -5,12 +5,12 @@
 
 namespace mocha {
 
-/// Duration [s] of an unconstrained variable, always positive (12).
+/// Duration [s] of an unconstrained variable, always positive, paper (12).
 inline double duration_of(double eta) {
   return eta > 0.0 ? (0.5 * eta + 1.0) * eta + 1.0 : 1.0 / ((0.5 * eta - 1.0) * eta + 1.0);
 }
 
-/// Its derivative (20), where the duration itself is known already.
+/// Its derivative, paper (20), where the duration itself is known already.
 inline double duration_slope(double eta, double duration_s) {
   return eta > 0.0 ? eta + 1.0 : (1.0 - eta) * duration_s * duration_s;
 }
@@ -22,8 +22,8 @@ inline double eta_of(double duration_s) {
                           : 1.0 - std::sqrt(2.0 / duration_s - 1.0);
 }
 
-/// A scalar kept inside (low, high) by a scaled logistic function (13)(19) of an unconstrained
-/// variable.
+/// A scalar kept inside (low, high) by a scaled logistic function, paper (13)(19), of an
+/// unconstrained variable.
 ///
 /// `scale` stretches the unconstrained axis: the paper's map has scale 1; choosing it so that one
 /// unit of the variable moves the knot about a metre makes all variables of the optimiser alike.

@@ -8,8 +8,9 @@
 namespace mocha {
 
 /// Motion camouflage: each knot moves along the line from its reference point through its place on
-/// the prey path, q_k = p_ref + lambda_k (p_prey(k) - p_ref) (9), with lambda_k inside bounds that
-/// let the knot travel a given distance to either side (13). One variable a knot.
+/// the prey path, q_k = p_ref + lambda_k (p_prey(k) - p_ref), paper (9), with lambda_k inside
+/// bounds that let the knot travel a given distance to either side, paper (13). One variable a
+/// knot.
 template <int D>
 class CamouflageMap : public KnotMap<D> {
  public:

@@ -17,8 +17,12 @@ class ReferenceChooser {
   using Point = Eigen::Matrix<double, D, 1>;
   using Points = Eigen::Matrix<double, D, Eigen::Dynamic>;
 
-  ReferenceChooser(const Points& path, const ObstacleField<D>& field, const ReferenceRules& rules)
-      : path_(path), field_(field), rules_(rules), max_cosine_(std::cos(rules.min_angle_rad)) {}
+  ReferenceChooser(const Points& path, const ObstacleField<D>& field,
+                   const ReferenceOptions& options)
+      : path_(path),
+        field_(field),
+        options_(options),
+        max_cosine_(std::cos(options.min_angle_rad)) {}
 
   /// The apex over the stretch between two points of the path, on the sparser side if that keeps
   /// the angle, else on the other.
@@ -29,7 +33,7 @@ class ReferenceChooser {
         room_beside(from, to, side) >= room_beside(from, to, -side) ? 1.0 : -1.0;
     for (const double sign : {preferred, -preferred}) {
       const Point apex =
-          path_.col(from) + 0.5 * (chord + sign * rules_.apex_height * chord.norm() * side);
+          path_.col(from) + 0.5 * (chord + sign * options_.apex_height * chord.norm() * side);
       if (keeps_angle(from, to, apex)) return apex;
     }
     return std::nullopt;
@@ -65,8 +69,8 @@ class ReferenceChooser {
       const Point middle = 0.5 * (path_.col(k) + path_.col(k + 1));
       const Point across = (side - side.dot(along) * along).normalized();
       for (const double share : {0.5, 1.0}) {
-        const Point beside = middle + share * rules_.side_depth_m * across;
-        room += std::clamp(field_.sample(beside).distance_m, 0.0, rules_.side_depth_m);
+        const Point beside = middle + share * options_.side_depth_m * across;
+        room += std::clamp(field_.sample(beside).distance_m, 0.0, options_.side_depth_m);
       }
     }
     return room;
@@ -90,7 +94,7 @@ class ReferenceChooser {
 
   const Points& path_;
   const ObstacleField<D>& field_;
-  const ReferenceRules& rules_;
+  const ReferenceOptions& options_;
   const double max_cosine_;
 };
 
@@ -99,8 +103,8 @@ class ReferenceChooser {
 template <int D>
 std::optional<Eigen::Matrix<double, D, Eigen::Dynamic>> choose_references(
     const Eigen::Matrix<double, D, Eigen::Dynamic>& path, const ObstacleField<D>& field,
-    const ReferenceRules& rules) {
-  const ReferenceChooser<D> chooser(path, field, rules);
+    const ReferenceOptions& options) {
+  const ReferenceChooser<D> chooser(path, field, options);
   const int last = static_cast<int>(path.cols()) - 1;
   Eigen::Matrix<double, D, Eigen::Dynamic> references(D, std::max(0, last - 1));
   for (int from = 0; from + 1 < last;) {
@@ -118,9 +122,9 @@ std::optional<Eigen::Matrix<double, D, Eigen::Dynamic>> choose_references(
 
 template std::optional<Eigen::Matrix2Xd> choose_references<2>(const Eigen::Matrix2Xd&,
                                                               const ObstacleField<2>&,
-                                                              const ReferenceRules&);
+                                                              const ReferenceOptions&);
 template std::optional<Eigen::Matrix3Xd> choose_references<3>(const Eigen::Matrix3Xd&,
                                                               const ObstacleField<3>&,
-                                                              const ReferenceRules&);
+                                                              const ReferenceOptions&);
 
 }  // namespace mocha

@@ -7,8 +7,8 @@
 
 namespace mocha {
 
-/// Reference points for camouflage about a prey path (Fig. 3).
-struct ReferenceRules {
+/// Reference points for camouflage about a prey path (paper Fig. 3).
+struct ReferenceOptions {
   /// Height of the apex over the middle of the chord, in half chords; 1 is the isosceles right
   /// triangle.
   double apex_height = 1.0;
@@ -29,13 +29,13 @@ struct ReferenceRules {
 template <int D>
 std::optional<Eigen::Matrix<double, D, Eigen::Dynamic>> choose_references(
     const Eigen::Matrix<double, D, Eigen::Dynamic>& path, const ObstacleField<D>& field,
-    const ReferenceRules& rules);
+    const ReferenceOptions& options);
 
 extern template std::optional<Eigen::Matrix2Xd> choose_references<2>(const Eigen::Matrix2Xd&,
                                                                      const ObstacleField<2>&,
-                                                                     const ReferenceRules&);
+                                                                     const ReferenceOptions&);
 extern template std::optional<Eigen::Matrix3Xd> choose_references<3>(const Eigen::Matrix3Xd&,
                                                                      const ObstacleField<3>&,
-                                                                     const ReferenceRules&);
+                                                                     const ReferenceOptions&);
 
 }  // namespace mocha

@@ -114,6 +114,7 @@ Parameter read_declaration(const YAML::Node& node, const std::string& where) {
   parameter.unit = node["unit"].as<std::string>();
   parameter.about = node["about"].as<std::string>();
   if (node["choices"]) parameter.choices = node["choices"].as<std::vector<std::string>>();
+  if (node["was"]) parameter.was = node["was"].as<std::string>();
   if (node["live"])
     parameter.live = std::get<bool>(read_value(node["live"], true, where + ".live"));
   check(parameter, parameter.value, where);
@@ -123,8 +124,12 @@ Parameter read_declaration(const YAML::Node& node, const std::string& where) {
 Parameter& find(std::map<std::string, Parameter>& parameters, const std::string& name,
                 const std::string& source) {
   const auto found = parameters.find(name);
-  if (found == parameters.end()) throw ParameterError(source + "unknown parameter `" + name + "`");
-  return found->second;
+  if (found != parameters.end()) return found->second;
+  for (const auto& [now, parameter] : parameters) {
+    if (parameter.was == name)
+      throw ParameterError(source + "parameter `" + name + "` is called `" + now + "` now");
+  }
+  throw ParameterError(source + "unknown parameter `" + name + "`");
 }
 
 }  // namespace

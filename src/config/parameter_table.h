@@ -31,6 +31,7 @@ struct Parameter {
   std::string about;
   std::vector<std::string> choices;  ///< of a text; empty: any
   bool live = false;                 ///< may change while the node runs
+  std::string was;                   ///< its former name, which is refused; empty: none
 };
 
 /// Named values, each declared once in a schema file with unit, range and default.
@@ -38,7 +39,7 @@ struct Parameter {
 /// Schema (YAML): `name: {default: 0.05, min: 0.01, max: 0.5, unit: m, about: Edge of a map
 /// cell.}`. The type is that of the default: true/false, integer, number or text; text may list
 /// `choices: [...]`. A default of `1.0` is a number, `1` an integer. `live: true` marks what may
-/// change while the node runs.
+/// change while the node runs. `was: edge` is a former name, which is refused with the new one.
 class ParameterTable {
  public:
   /// Reads a schema; every value is its default. Throws ParameterError naming file and key.

@@ -3,6 +3,12 @@
 #include <cmath>
 
 namespace mocha {
+namespace {
+
+constexpr double kStanding_mps = 0.03;
+constexpr double kStanding_radps = 0.05;
+
+}  // namespace
 
 Pose predict(const RobotState& state, double t) {
   const double elapsed = t - state.stamp_s;
@@ -17,6 +23,11 @@ Pose predict(const RobotState& state, double t) {
   pose.position = state.pose.position + chord * Vector2(std::cos(mean_yaw), std::sin(mean_yaw));
   pose.yaw_rad = wrap_angle(state.pose.yaw_rad + turned);
   return pose;
+}
+
+bool stands(const RobotState& state) {
+  return std::abs(state.twist.speed) < kStanding_mps &&
+         std::abs(state.twist.yaw_rate) < kStanding_radps;
 }
 
 }  // namespace mocha

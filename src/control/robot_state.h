@@ -15,4 +15,7 @@ struct RobotState {
 /// The pose at time t [s] if the robot goes on at the measured speed and yaw rate.
 Pose predict(const RobotState& state, double t);
 
+/// Whether the robot stands, as far as odometry can tell.
+bool stands(const RobotState& state);
+
 }  // namespace mocha

@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "trajectory/stopping.h"
-
 namespace mocha {
 namespace {
 
@@ -53,7 +51,7 @@ TrajectoryTracker::TrajectoryTracker(const TrackerParameters& parameters, const 
       max_position_error_m_(robot.margins.tracking_m),
       lag_s_(robot.actuator_lag_s),
       lead_s_(robot.actuator_lag_s + parameters.command_delay_s),
-      deceleration_(robot.limits.max_acceleration),
+      deceleration_(robot.braking_deceleration()),
       catch_up_acceleration_(robot.max_wheel_acceleration),
       limiter_(robot) {
   require_positive(max_position_error_m_, "margin_tracking");
@@ -71,12 +69,12 @@ void TrajectoryTracker::set_gains(const FeedbackGains& gains) {
 }
 
 void TrajectoryTracker::offer(const MotionId& id, Motion motion, double lease_end_s) {
-  const auto outdated = [&id](const Commitment& known) {
+  const auto outdated = [&id](const CommitmentProtocol& known) {
     return !known.motion.empty() && known.id.epoch == id.epoch && known.id.sequence >= id.sequence;
   };
   if (outdated(active_) || (offer_ && outdated(*offer_))) return;
   if (early_lease_ && early_lease_->id == id) lease_end_s = early_lease_->lease_end_s;
-  offer_ = Commitment{id, std::move(motion), lease_end_s};
+  offer_ = CommitmentProtocol{id, std::move(motion), lease_end_s};
 }
 
 void TrajectoryTracker::renew(const MotionId& id, double lease_end_s) {
@@ -85,7 +83,7 @@ void TrajectoryTracker::renew(const MotionId& id, double lease_end_s) {
   } else if (!active_.motion.empty() && active_.id == id) {
     active_.lease_end_s = lease_end_s;
   } else {
-    early_lease_ = Commitment{id, Motion(), lease_end_s};
+    early_lease_ = CommitmentProtocol{id, Motion(), lease_end_s};
   }
 }
 
@@ -123,7 +121,7 @@ UnicycleState TrajectoryTracker::step(double t, const std::optional<RobotState>&
 }
 
 void TrajectoryTracker::take_up_offer(double t, const Pose& pose, double speed) {
-  Commitment next = *std::exchange(offer_, std::nullopt);
+  CommitmentProtocol next = *std::exchange(offer_, std::nullopt);
   std::string why;
   if (next.motion.start_time() > t) {
     const double start_speed = next.motion.at(next.motion.start_time()).velocity.norm();
@@ -206,7 +204,7 @@ void TrajectoryTracker::handle(TrackerEvent event, double t, const std::string& 
   const TrackerMode next = next_mode(mode_, event);
   if (next == mode_) return;
   if (next == TrackerMode::kBraking) {
-    active_.motion = Motion(t, brake_along(active_.motion, t, deceleration_));
+    active_.motion = stop_at_lease_end(active_.motion, active_.lease_end_s, t, deceleration_);
   }
   mode_ = next;
   stop_reason_ = reason;

@@ -1,27 +1,17 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
 #include "control/command_limiter.h"
 #include "control/feedback_law.h"
+#include "control/lease.h"
 #include "control/robot_state.h"
 #include "control/tracker_mode.h"
 #include "trajectory/motion.h"
 #include "world/robot_model.h"
 
 namespace mocha {
-
-/// Names one committed motion of this robot.
-struct MotionId {
-  std::uint32_t epoch = 0;
-  std::uint32_t sequence = 0;
-};
-
-inline bool operator==(const MotionId& a, const MotionId& b) {
-  return a.epoch == b.epoch && a.sequence == b.sequence;
-}
 
 struct TrackerParameters {
   FeedbackGains gains;
@@ -77,7 +67,7 @@ class TrajectoryTracker {
   const std::string& refusal() const { return refusal_; }  ///< of the motion refused last
 
  private:
-  struct Commitment {
+  struct CommitmentProtocol {
     MotionId id;
     Motion motion;
     double lease_end_s = 0.0;
@@ -101,9 +91,9 @@ class TrajectoryTracker {
   CommandLimiter limiter_;
 
   TrackerMode mode_ = TrackerMode::kIdle;
-  Commitment active_;
-  std::optional<Commitment> offer_;
-  std::optional<Commitment> early_lease_;  // without a motion yet
+  CommitmentProtocol active_;
+  std::optional<CommitmentProtocol> offer_;
+  std::optional<CommitmentProtocol> early_lease_;  // without a motion yet
   std::optional<TrackingError> error_;
   std::optional<double> last_step_s_;
   bool settling_ = false;

@@ -10,13 +10,13 @@
 #include "base/command_watchdog.h"
 #include "base/waveshare_base.h"
 #include "control/command_limiter.h"
-#include "ros/base_messages.h"
-#include "ros/emergency_stop_listener.h"
-#include "ros/parameters.h"
-#include "ros/robot_identity.h"
-#include "ros/run_stopping_node.h"
-#include "ros/step_loop.h"
-#include "ros/transport.h"
+#include "ros_bridge/inputs/emergency_stop_listener.h"
+#include "ros_bridge/messages/base_messages.h"
+#include "ros_bridge/runtime/parameters.h"
+#include "ros_bridge/runtime/robot_identity.h"
+#include "ros_bridge/runtime/run_stopping_node.h"
+#include "ros_bridge/runtime/step_loop.h"
+#include "ros_bridge/runtime/transport.h"
 
 namespace mocha {
 namespace {
@@ -24,24 +24,6 @@ namespace {
 constexpr double kPeriod_s = 0.02;
 constexpr double kLongestStep_s = 0.1;  // that the ramp takes at once
 const ros::WallDuration kListenPeriod(0.005);
-
-WaveshareBase::Options base_options(const ParameterTable& values, const RobotModel& model) {
-  WaveshareBase::Options options;
-  options.device = values.text("port");
-  options.baud = values.integer("baud");
-  options.settings = {values.integer("robot_type"), values.integer("heartbeat"),
-                      values.integer("feedback_interval")};
-  options.odometry = {model.limits.track_m, model.limits.max_wheel_speed,
-                      model.odometry_noise_distance, model.odometry_noise_yaw,
-                      values.number("gyro_noise")};
-  options.feedback_timeout_s = values.number("feedback_timeout");
-  options.feedback_delay_s = values.number("feedback_delay");
-  options.acceleration_scale = values.number("acceleration_scale");
-  options.gyro_scale = values.number("gyro_scale");
-  options.use_gyro = values.flag("use_gyro");
-  options.wheel_speed_noise = values.number("wheel_speed_noise");
-  return options;
-}
 
 /// Velocity commands out to the base, its odometry and sensors in.
 ///
@@ -55,8 +37,8 @@ class BaseDriverNode {
       : robot_(robot_identity()),
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
         low_battery_v_(values.number("low_battery")),
-        base_(base_options(values, model_)),
-        watchdog_(model_.command_age_limit_s),
+        base_(WaveshareBase::Options::from(values, model_)),
+        watchdog_(model_.cmd_timeout_s),
         limiter_(model_),
         odometry_(node.advertise<nav_msgs::Odometry>("odom", 50)),
         imu_(node.advertise<sensor_msgs::Imu>("imu", 50)),
@@ -154,7 +136,7 @@ class BaseDriverNode {
       status.summary(DiagnosticStatus::ERROR, stop_.reason());
     } else if (!command_) {
       status.summaryf(DiagnosticStatus::OK, "stands: no command on %s for %.2f s",
-                      commands_.getTopic().c_str(), model_.command_age_limit_s);
+                      commands_.getTopic().c_str(), model_.cmd_timeout_s);
     } else {
       status.summary(DiagnosticStatus::OK, "drives");
     }

@@ -9,11 +9,11 @@
 #include <optional>
 #include <string>
 
-#include "ros/conversions.h"
-#include "ros/parameters.h"
-#include "ros/robot_identity.h"
-#include "ros/step_loop.h"
-#include "ros/transport.h"
+#include "ros_bridge/messages/conversions.h"
+#include "ros_bridge/runtime/parameters.h"
+#include "ros_bridge/runtime/robot_identity.h"
+#include "ros_bridge/runtime/step_loop.h"
+#include "ros_bridge/runtime/transport.h"
 #include "simulation/base_emulator.h"
 #include "simulation/pseudo_terminal.h"
 #include "simulation/vehicle.h"

@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "ros/lockstep.h"
-#include "ros/parameters.h"
-#include "ros/simulation_messages.h"
-#include "ros/transport.h"
-#include "ros/world_markers.h"
+#include "ros_bridge/messages/simulation_messages.h"
+#include "ros_bridge/runtime/lockstep.h"
+#include "ros_bridge/runtime/parameters.h"
+#include "ros_bridge/runtime/transport.h"
+#include "ros_bridge/rviz/world_markers.h"
 #include "simulation/world_simulator.h"
 
 namespace mocha {

@@ -8,31 +8,30 @@
 #include <string>
 #include <utility>
 
-#include "planning/global_planner.h"
-#include "planning/pursuit.h"
-#include "ros/commitment_source.h"
-#include "ros/conversions.h"
-#include "ros/emergency_stop_listener.h"
-#include "ros/goal_inputs.h"
-#include "ros/live_parameters.h"
-#include "ros/map_source.h"
-#include "ros/parameters.h"
-#include "ros/peer_source.h"
-#include "ros/planner_outputs.h"
-#include "ros/pose_source.h"
-#include "ros/robot_identity.h"
-#include "ros/run_node.h"
-#include "ros/status_conversions.h"
-#include "ros/step_loop.h"
-#include "ros/transport.h"
-#include "ros/way_requests.h"
-#include "topology/map_terrain.h"
+#include "planning/executive/goal_executive.h"
+#include "planning/global/global_planner.h"
+#include "ros_bridge/inputs/committed_trajectory_source.h"
+#include "ros_bridge/inputs/emergency_stop_listener.h"
+#include "ros_bridge/inputs/goal_inputs.h"
+#include "ros_bridge/inputs/map_source.h"
+#include "ros_bridge/inputs/peer_source.h"
+#include "ros_bridge/inputs/pose_source.h"
+#include "ros_bridge/inputs/yield_requests.h"
+#include "ros_bridge/messages/conversions.h"
+#include "ros_bridge/messages/status_conversions.h"
+#include "ros_bridge/outputs/planner_outputs.h"
+#include "ros_bridge/runtime/live_parameters.h"
+#include "ros_bridge/runtime/parameters.h"
+#include "ros_bridge/runtime/robot_identity.h"
+#include "ros_bridge/runtime/run_node.h"
+#include "ros_bridge/runtime/step_loop.h"
+#include "ros_bridge/runtime/transport.h"
+#include "topology/static_map/grid_static_map.h"
 
 namespace mocha {
 namespace {
 
 constexpr double kMapBorder_m = 3.0;
-constexpr double kBraking = 0.6;  // of the robot's acceleration limit, where a goal is given up
 
 /// Finds the way: goals and maps in, plans out.
 class GlobalPlannerNode {
@@ -41,20 +40,20 @@ class GlobalPlannerNode {
       : identity_(robot_identity()),
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
         values_(values),
-        planner_(std::make_unique<GlobalPlanner>(model_, PlannerRules::from(values))),
-        pursuit_(PursuitRules::from(values), kBraking * model_.limits.max_acceleration,
-                 RightOfWay({false, values.integer("priority"), identity_.name}, model_,
-                            PlannerRules::from(values))),
+        planner_(std::make_unique<GlobalPlanner>(model_, PlannerOptions::from(values))),
+        executive_(GoalExecutiveOptions::from(values), model_.braking_deceleration(),
+                   Yielding({false, values.integer("priority"), identity_.name}, model_,
+                            PlannerOptions::from(values))),
         stop_(node),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
         committed_(node, identity_.name),
         outputs_(node, identity_, model_),
-        requests_of_ways_(node, identity_,
-                          [this](const WayRequest& request) {
-                            pursuit_.hear(request, ros::Time::now().toSec());
-                          }),
+        yield_requests_(node, identity_,
+                        [this](const YieldRequest& request) {
+                          executive_.hear(request, ros::Time::now().toSec());
+                        }),
         followed_(node.subscribe("local_trajectory", 2, &GlobalPlannerNode::on_followed, this,
                                  at_once())),
         requests_(
@@ -74,7 +73,7 @@ class GlobalPlannerNode {
 
   void on_followed(const mocha_ugv::Trajectory& message) {
     try {
-      pursuit_.follow(from_message(message));
+      executive_.follow(from_message(message));
     } catch (const std::exception& error) {
       ++refused_;
       ROS_WARN_THROTTLE(1.0, "Refused a message on local_trajectory: %s", error.what());
@@ -82,15 +81,15 @@ class GlobalPlannerNode {
   }
 
   void on_request(const mocha_ugv::PlannerStatus& status) {
-    pursuit_.request();
+    executive_.request();
     request_ = status.message;
   }
 
-  void take(std::deque<Goal> goals) { pursuit_.take(std::move(goals), now_.toSec()); }
+  void take(std::deque<Goal> goals) { executive_.take(std::move(goals), now_.toSec()); }
 
   void apply(const ParameterTable& values) {
-    planner_ = std::make_unique<GlobalPlanner>(model_, PlannerRules::from(values));
-    pursuit_.set_rules(PursuitRules::from(values), PlannerRules::from(values));
+    planner_ = std::make_unique<GlobalPlanner>(model_, PlannerOptions::from(values));
+    executive_.set_options(GoalExecutiveOptions::from(values), PlannerOptions::from(values));
   }
 
   // --- what happens when ---
@@ -101,16 +100,19 @@ class GlobalPlannerNode {
     heed_stop();
     const PoseReading reading = pose_.read(now);
     if (!reading.state) {
-      if (!pursuit_.idle()) report(PlanReason::kNoPose, {}, reading.missing);
+      if (!executive_.idle()) report(PlanReason::kNoPose, {}, reading.missing);
       return;
     }
-    if (!pursuit_.idle()) inputs_.feedback(*reading.state, now);
-    Outlook outlook;
+    if (!executive_.idle()) inputs_.feedback(*reading.state, now);
+    PlannerInterface planner;
     if (map_.available()) {
-      outlook.plan = [this](const PlanQuery& query) { return plan(query); };
-      outlook.scene = [this](const std::vector<Vector2>& places) { return scene(places); };
+      planner.plan = [this](const PlanQuery& query) { return plan(query); };
+      planner.back_out = [this](const PlanQuery& query) {
+        return planner_->back_out(query, scene_of(query));
+      };
+      planner.scene = [this](const std::vector<Vector2>& places) { return scene(places); };
     }
-    show(pursuit_.step(now.toSec(), *reading.state, committed_.motion(), outlook));
+    show(executive_.step(now.toSec(), *reading.state, committed_.motion(), planner));
   }
 
   /// When stopped for an emergency, the robot forgets where it was going: it does not set off again
@@ -121,7 +123,7 @@ class GlobalPlannerNode {
     if (stop_.stops() != heeded_) {
       heeded_ = stop_.stops();
       const std::string why = stopped_ ? stop_.reason() : "emergency stop, which is reset by now";
-      pursuit_.drop();
+      executive_.drop();
       inputs_.finish(false, why);
       outputs_.adopt(Motion(), now_);
       report(PlanReason::kEmergencyStop, {}, why);
@@ -130,12 +132,15 @@ class GlobalPlannerNode {
   }
 
   PlanResult plan(const PlanQuery& query) {
-    const Vector2 start = query.committed.at(query.start_time_s).pose.position;
-    return planner_->plan(query, scene({start, query.goal}), [] { return false; });
+    return planner_->plan(query, scene_of(query), [] { return false; });
+  }
+
+  PlanningScene scene_of(const PlanQuery& query) {
+    return scene({query.committed.at(query.start_time_s).pose.position, query.goal});
   }
 
   PlanningScene scene(const std::vector<Vector2>& places) {
-    return {std::make_shared<MapTerrain>(
+    return {std::make_shared<GridStaticMap>(
                 map_.field(DistanceField::Solid::kOccupied, places, kMapBorder_m)),
             peers_.obstacles()};
   }
@@ -143,7 +148,7 @@ class GlobalPlannerNode {
   void stop(const std::string& why) {
     if (stop_.stopped()) return;
     ROS_INFO("%s: stops: %s", identity_.name.c_str(), why.c_str());
-    adopt(pursuit_.stop(committed_.motion(), now_.toSec()));
+    adopt(executive_.stop(committed_.motion(), now_.toSec()));
   }
 
   bool on_plan_service(mocha_ugv::PlanTrajectory::Request& request,
@@ -174,7 +179,7 @@ class GlobalPlannerNode {
       refusal.message = map_.available() ? "the robot's state is not known yet" : "no map yet";
       return refusal;
     }
-    PlanQuery query = pursuit_.query_to(*goal, committed_.motion(), now_.toSec());
+    PlanQuery query = executive_.query_to(*goal, committed_.motion(), now_.toSec());
     if (start) {
       query.start_time_s = now_.toSec();
       query.committed =
@@ -186,7 +191,7 @@ class GlobalPlannerNode {
 
   // --- what goes out ---
 
-  void show(const Pursuit::Output& output) {
+  void show(const GoalExecutive::Output& output) {
     if (output.planned) {
       ++plans_made_;
       outputs_.show_candidates(output.planned->result, output.planned->goal, now_);
@@ -197,19 +202,19 @@ class GlobalPlannerNode {
       const std::string no_map = "no map on " + ros::names::resolve("map") + " yet";
       report(reason, violation, reason == PlanReason::kNoMap ? no_map : text);
     }
-    if (output.request) requests_of_ways_.send(*output.request, now_);
+    if (output.request) yield_requests_.send(*output.request, now_);
     finish(output.ending);
     adopt(output.plan);
   }
 
-  void finish(Pursuit::Ending ending) {
-    if (ending == Pursuit::Ending::kNone) return;
-    if (ending == Pursuit::Ending::kReached) {
+  void finish(GoalExecutive::Ending ending) {
+    if (ending == GoalExecutive::Ending::kNone) return;
+    if (ending == GoalExecutive::Ending::kReached) {
       ROS_INFO("%s: reached its goal", identity_.name.c_str());
       inputs_.finish(true, "reached");
       return;
     }
-    const bool occupied = ending == Pursuit::Ending::kGoalOccupied;
+    const bool occupied = ending == GoalExecutive::Ending::kGoalOccupied;
     const std::string why = occupied ? outputs_.text() : "no progress towards the goal";
     inputs_.finish(false, occupied ? why : "no progress; last: " + outputs_.text());
     ROS_INFO("%s: stops: %s", identity_.name.c_str(), why.c_str());
@@ -225,35 +230,37 @@ class GlobalPlannerNode {
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
-    const bool fine = !stopped_ && (pursuit_.idle() || outputs_.reason() == PlanReason::kSolved);
-    const std::string doing =
-        pursuit_.idle() ? "no goal" : to_text(outputs_.reason()) + (": " + outputs_.text());
+    const bool fine = !stopped_ && (executive_.idle() || outputs_.reason() == PlanReason::kSolved);
+    const std::string doing = executive_.idle()
+                                  ? to_text(executive_.state())
+                                  : to_text(outputs_.reason()) + (": " + outputs_.text());
     status.summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                    stopped_ ? stop_.reason() : doing);
+    status.add("state", to_text(executive_.state()));
     status.add("plans made", plans_made_);
     status.add("plans adopted", outputs_.adopted());
-    status.add("switches to another class of ways", class_switches_);
+    status.add("switches to another class of paths", class_switches_);
     status.add("last request", request_);
     status.add("parameter changes refused", parameters_.refused());
     status.add("messages refused", refused_ + committed_.refused() + inputs_.refused() +
                                        map_.refused() + peers_.refused() + pose_.refused() +
-                                       requests_of_ways_.refused());
+                                       yield_requests_.refused());
   }
 
   const RobotIdentity identity_;
   const RobotModel model_;
   ParameterTable values_;
   std::unique_ptr<const GlobalPlanner> planner_;
-  Pursuit pursuit_;
+  GoalExecutive executive_;
   EmergencyStopListener stop_;
   int heeded_ = 0;  // of its stops
   bool stopped_ = false;
   PoseSource pose_;
   MapSource map_;
   PeerSource peers_;
-  CommitmentSource committed_;
+  CommittedTrajectorySource committed_;
   PlannerOutputs outputs_;
-  WayRequests requests_of_ways_;
+  YieldRequests yield_requests_;
   ros::Time now_;
   std::string request_;
   int plans_made_ = 0;

@@ -1,6 +1,8 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <mocha_ugv/Lease.h>
 #include <mocha_ugv/PlannerStatus.h>
+#include <mocha_ugv/ReplannerStatus.h>
+#include <mocha_ugv/Settlement.h>
 #include <mocha_ugv/Trajectory.h>
 #include <ros/ros.h>
 
@@ -9,20 +11,22 @@
 #include <string>
 #include <utility>
 
-#include "planning/local_replanner.h"
-#include "ros/conversions.h"
-#include "ros/emergency_stop_listener.h"
-#include "ros/local_outputs.h"
-#include "ros/map_source.h"
-#include "ros/parameters.h"
-#include "ros/peer_source.h"
-#include "ros/pose_source.h"
-#include "ros/prediction_source.h"
-#include "ros/robot_identity.h"
-#include "ros/run_node.h"
-#include "ros/status_conversions.h"
-#include "ros/step_loop.h"
-#include "ros/transport.h"
+#include "planning/replanner/local_replanner.h"
+#include "ros_bridge/inputs/emergency_stop_listener.h"
+#include "ros_bridge/inputs/map_source.h"
+#include "ros_bridge/inputs/peer_source.h"
+#include "ros_bridge/inputs/pose_source.h"
+#include "ros_bridge/inputs/prediction_source.h"
+#include "ros_bridge/messages/conversions.h"
+#include "ros_bridge/messages/status_conversions.h"
+#include "ros_bridge/outputs/local_outputs.h"
+#include "ros_bridge/runtime/parameters.h"
+#include "ros_bridge/runtime/robot_identity.h"
+#include "ros_bridge/runtime/run_node.h"
+#include "ros_bridge/runtime/step_loop.h"
+#include "ros_bridge/runtime/transport.h"
+#include "safety/margin_budget.h"
+#include "topology/static_map/grid_static_map.h"
 
 namespace mocha {
 namespace {
@@ -47,7 +51,7 @@ class LocalReplannerNode {
         max_fleet_age_s_(values.number("max_fleet_age")),
         max_prediction_age_s_(values.number("max_prediction_age")),
         prediction_horizon_(values.number("prediction_horizon")),
-        replanner_(model_, LocalReplannerRules::from(values, model_), LocalRules::from(values)),
+        replanner_(model_, LocalReplannerOptions::from(values, model_), LocalOptions::from(values)),
         stop_(node),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
@@ -58,7 +62,7 @@ class LocalReplannerNode {
         proposals_(node.advertise<mocha_ugv::Trajectory>("proposed_trajectory", 10)),
         leases_(node.advertise<mocha_ugv::Lease>("lease", 10)),
         requests_(node.advertise<mocha_ugv::PlannerStatus>("replan_request", 10)),
-        statuses_(node.advertise<mocha_ugv::PlannerStatus>("replanner_status", 10, true)),
+        statuses_(node.advertise<mocha_ugv::ReplannerStatus>("replanner_status", 10, true)),
         plans_(
             node.subscribe("global_trajectory", 2, &LocalReplannerNode::on_plan, this, at_once())),
         commitments_(node.subscribe("committed_trajectory", 10, &LocalReplannerNode::on_committed,
@@ -68,7 +72,7 @@ class LocalReplannerNode {
         loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }) {
     diagnostics_.setHardwareID(identity_.name);
     diagnostics_.add("promises", this, &LocalReplannerNode::diagnose);
-    diagnostics_.add("swerves", this, &LocalReplannerNode::diagnose_swerves);
+    diagnostics_.add("detours", this, &LocalReplannerNode::diagnose_detours);
   }
 
  private:
@@ -90,10 +94,15 @@ class LocalReplannerNode {
     }
   }
 
-  void on_settlement(const mocha_ugv::PlannerStatus& status) {
-    if (status.reason == mocha_ugv::PlannerStatus::SOLVED) return;
-    replanner_.on_refusal(proposed_sequence_);
-    last_refusal_ = status.message;
+  void on_settlement(const mocha_ugv::Settlement& settlement) {
+    using mocha_ugv::Settlement;
+    if (settlement.result == Settlement::SETTLED) return;
+    if (settlement.result == Settlement::BREACHED) {
+      step(ros::Time::now());
+      return;
+    }
+    replanner_.on_refusal(settlement.sequence);
+    last_refusal_ = settlement.message;
     ++refused_proposals_;
   }
 
@@ -113,29 +122,35 @@ class LocalReplannerNode {
     const auto [reason, missing] = what_is_missing(now, reading);
     if (reason != PlanReason::kSolved) {
       local_.clear(now);
-      report(now, reason, {}, missing);
+      const auto output = replanner_.stop_blind(now.toSec());
+      if (output.proposal) propose(now, *output.proposal);
+      report(now, output.row, reason, {}, missing);
       return;
     }
-    const Vector2 here = reading.state->pose.position;
-    PromiseScene scene;
-    scene.obstacles = map_.field(DistanceField::Solid::kOccupied, {here}, kMapBorder_m);
-    scene.unseen = map_.field(DistanceField::Solid::kOccupiedOrUnknown, {here}, kMapBorder_m);
-    scene.others = peers_.obstacles();
-    scene.moving = predictions_.obstacles();
-    scene.expected = predictions_.expected();
-    scene.predicted_until_s = (now + prediction_horizon_).toSec();
-    const int least_bad = replanner_.least_bad();
+    const LocalScene scene = this->scene(now, reading.state->pose.position);
     const auto output = replanner_.step(now.toSec(), *reading.state, scene);
-    local_.show(output, replanner_.plan(), scene.moving, now);
-    if (replanner_.least_bad() > least_bad)
+    local_.show(output, replanner_.plan(), scene.confident, now);
+    if (output.row == Row::kLastResort)
       ROS_ERROR_THROTTLE(1.0, "%s: %s", identity_.name.c_str(), output.message.c_str());
     if (output.proposal) propose(now, *output.proposal);
     if (output.renew_lease) renew(now);
-    report(now, output.reason, output.violation, output.message);
+    report(now, output.row, output.reason, output.violation, output.message);
     if (output.request_plan) {
       requests_.publish(
           to_message(output.reason, output.violation, output.message, identity_.map_frame, now));
     }
+  }
+
+  LocalScene scene(ros::Time now, const Vector2& here) {
+    LocalScene scene =
+        local_scene(std::make_shared<GridStaticMap>(
+                        map_.field(DistanceField::Solid::kOccupied, {here}, kMapBorder_m)),
+                    map_.field(DistanceField::Solid::kOccupiedOrUnknown, {here}, kMapBorder_m));
+    scene.peers = peers_.obstacles();
+    scene.confident = predictions_.obstacles();
+    scene.likely = predictions_.expected();
+    scene.predicted_until_s = (now + prediction_horizon_).toSec();
+    return scene;
   }
 
   /// Needs no map and no word of the others: what the robot does is promised, whatever it meets.
@@ -145,7 +160,7 @@ class LocalReplannerNode {
       const auto output = replanner_.halt(now.toSec(), *reading.state);
       if (output.proposal) propose(now, *output.proposal);
     }
-    report(now, PlanReason::kEmergencyStop, {},
+    report(now, Row::kEmergencyStop, PlanReason::kEmergencyStop, {},
            reading.state ? stop_.reason() : stop_.reason() + "; " + reading.missing);
   }
 
@@ -183,7 +198,6 @@ class LocalReplannerNode {
     message.sequence = proposal.sequence;
     message.footprint_radius = model_.footprint.circumscribed_radius_m();
     to_message(proposal.motion, message);
-    proposed_sequence_ = proposal.sequence;
     proposals_.publish(message);
   }
 
@@ -196,18 +210,20 @@ class LocalReplannerNode {
     leases_.publish(lease);
   }
 
-  void report(ros::Time now, PlanReason reason, const Violation& violation,
+  void report(ros::Time now, Row row, PlanReason reason, const Violation& violation,
               const std::string& text) {
-    const bool news = reason != reason_ || text != text_;
+    const bool news = row != row_ || reason != reason_ || text != text_;
+    row_ = row;
     reason_ = reason;
     text_ = text;
     if (!news) return;
-    statuses_.publish(to_message(reason, violation, text, identity_.map_frame, now));
+    statuses_.publish(
+        to_message(row, to_message(reason, violation, text, identity_.map_frame, now)));
     if (!text.empty())
       ROS_INFO_THROTTLE(1.0, "%s: %s: %s", identity_.name.c_str(), to_text(reason), text.c_str());
   }
 
-  void diagnose_swerves(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  void diagnose_detours(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
     const double age_s = predictions_.age_s(now_);
     const auto things = predictions_.obstacles().size();
@@ -225,7 +241,7 @@ class LocalReplannerNode {
     status.add("local plans followed", counts.followed);
     status.add("switches of class while swerving", counts.switches);
     status.add("last local plan", local_.message());
-    status.add("times no certified motion existed", replanner_.least_bad());
+    status.add("times no certified motion existed", replanner_.count(Row::kLastResort));
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -236,6 +252,7 @@ class LocalReplannerNode {
                        : reason_ == PlanReason::kSolved ? DiagnosticStatus::OK
                                                         : DiagnosticStatus::WARN;
     status.summary(level, text_.empty() ? to_text(reason_) : text_);
+    status.add("doing", to_text(row_));
     status.add("committed sequence", committed_sequence_);
     status.add("proposals refused", refused_proposals_);
     status.add("last refusal", last_refusal_);
@@ -269,10 +286,10 @@ class LocalReplannerNode {
   ros::Time now_;
   std::uint32_t epoch_ = 0;
   std::uint32_t committed_sequence_ = 0;
-  std::uint32_t proposed_sequence_ = 0;
   int refused_proposals_ = 0;
   int refused_messages_ = 0;
   std::string last_refusal_;
+  Row row_ = Row::kKeep;
   PlanReason reason_ = PlanReason::kNoPose;
   std::string text_ = "starting";
   StepLoop loop_;

@@ -16,22 +16,22 @@
 #include <variant>
 #include <vector>
 
-#include "perception/occupancy_map.h"
-#include "perception/peer_tracks.h"
-#include "perception/planar_scan.h"
-#include "perception/point_cloud.h"
-#include "perception/scan_sorter.h"
-#include "ros/live_parameters.h"
-#include "ros/map_conversions.h"
-#include "ros/parameters.h"
-#include "ros/peer_motions.h"
-#include "ros/prediction_conversions.h"
-#include "ros/robot_identity.h"
-#include "ros/run_node.h"
-#include "ros/scan_queue.h"
-#include "ros/sensor_conversions.h"
-#include "ros/step_loop.h"
-#include "ros/transport.h"
+#include "perception/mapping/occupancy_map.h"
+#include "perception/sensor/planar_scan.h"
+#include "perception/sensor/point_cloud.h"
+#include "perception/tracking/moving_object_filter.h"
+#include "perception/tracking/peer_tracks.h"
+#include "ros_bridge/inputs/peer_motions.h"
+#include "ros_bridge/inputs/scan_queue.h"
+#include "ros_bridge/messages/map_conversions.h"
+#include "ros_bridge/messages/prediction_conversions.h"
+#include "ros_bridge/messages/sensor_conversions.h"
+#include "ros_bridge/runtime/live_parameters.h"
+#include "ros_bridge/runtime/parameters.h"
+#include "ros_bridge/runtime/robot_identity.h"
+#include "ros_bridge/runtime/run_node.h"
+#include "ros_bridge/runtime/step_loop.h"
+#include "ros_bridge/runtime/transport.h"
 #include "world/robot_model.h"
 #include "world/world_file.h"
 
@@ -41,20 +41,16 @@ namespace {
 constexpr double kPeriod_s = 0.02;
 constexpr double kFreshStamp_s = 0.5;  // a map much older than this: perception is dead
 
-OccupancyMapOptions map_options(const ParameterTable& values) {
-  const RobotModel model = load_robot_model(config_path(""), values.text("robot_model"));
-  return OccupancyMapOptions::from(values, model.map_resolution_m);
-}
-
 /// Scans and clouds in, occupancy and moving things out.
 class PerceptionNode {
  public:
   PerceptionNode(ros::NodeHandle& node, const ParameterTable& values)
       : values_(values),
         robot_(robot_identity()),
-        map_(map_options(values)),
+        model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        map_(OccupancyMapOptions::from(values, model_.map_resolution_m)),
         peers_(values.number("peer_margin"), values.number("peer_timeout")),
-        sorter_(ScanSorterOptions::from(values)),
+        filter_(MovingObjectFilterOptions::from(values)),
         timeout_s_(values.number("scan_timeout")),
         queue_(robot_.map_frame, values.number("integration_rate"), timeout_s_),
         listener_(transforms_, node, false, at_once()),
@@ -89,7 +85,13 @@ class PerceptionNode {
   }
 
   void on_fleet(const mocha_ugv::FleetTrajectories& message) {
-    peers_.update(message.header.stamp.toSec(), peers_of(message, refusals_));
+    try {
+      const PeerReading reading = peers_of(message, robot_.name, robot_.map_frame);
+      peers_.update(message.header.stamp.toSec(), reading.motions);
+      if (!reading.refused.empty()) refusals_.add("fleet/trajectories", reading.why);
+    } catch (const std::invalid_argument& error) {
+      refusals_.add("fleet/trajectories", error.what());
+    }
   }
 
   void step(ros::Time now) {
@@ -109,7 +111,7 @@ class PerceptionNode {
   void forget_time() {
     transforms_.clear();
     queue_.clear();
-    sorter_.clear();
+    filter_.clear();
     started_ = integrated_ = stamp_ = published_ = cells_published_ = ros::Time();
   }
 
@@ -120,7 +122,7 @@ class PerceptionNode {
         auto beams = to_beams(*scan, measurement.poses,
                               {values_.number("max_range"), values_.number("max_clearing_range")});
         peers_.ignore_peers(beams);
-        sorter_.sort(beams, map_);
+        filter_.sort(beams, map_);
         map_.insert_scan(beams);
       } else {
         auto beams = to_beams(std::get<1>(measurement.data), measurement.poses.first,
@@ -144,12 +146,13 @@ class PerceptionNode {
     }
   }
 
+  /// Unseen space under the body is free, and nothing else is.
   void mark_standing(ros::Time time) {
     standing_known_ = transforms_.canTransform(robot_.map_frame, robot_.base_frame, time);
     if (!standing_known_) return;
     const auto pose = transforms_.lookupTransform(robot_.map_frame, robot_.base_frame, time);
     map_.mark_standing(from_message(pose.transform).translation().head<2>(),
-                       values_.number("own_radius"));
+                       model_.footprint.cover_reach_m() + model_.map_resolution_m);
   }
 
   void publish_map() {
@@ -178,7 +181,7 @@ class PerceptionNode {
 
   /// Though nothing moves: their age tells that they can be relied on.
   void publish_moving() {
-    moving_.publish(to_message(sorter_.moving(stamp_.toSec()), robot_.map_frame, stamp_));
+    moving_.publish(to_message(filter_.moving(stamp_.toSec()), robot_.map_frame, stamp_));
   }
 
   void publish_cells() {
@@ -200,14 +203,14 @@ class PerceptionNode {
   bool on_load(mocha_ugv::LoadMap::Request& request, mocha_ugv::LoadMap::Response& response) {
     return answer(response, "loaded " + request.path, [&] {
       map_.load(request.path);
-      sorter_.clear();
+      filter_.clear();
     });
   }
 
   bool on_clear(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
     return answer(response, "cleared", [&] {
       map_.clear();
-      sorter_.clear();
+      filter_.clear();
     });
   }
 
@@ -258,19 +261,20 @@ class PerceptionNode {
   }
 
   void diagnose_moving(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    const std::size_t tracks = sorter_.moving(stamp_.toSec()).size();
+    const std::size_t tracks = filter_.moving(stamp_.toSec()).size();
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,
                    tracks == 0 ? "nothing moves" : "tracked");
     status.add("tracks", tracks);
-    status.add("hits of the newest scan on moving things", sorter_.moving_hits());
+    status.add("hits of the newest scan on moving things", filter_.moving_hits());
   }
 
   ParameterTable values_;
   const RobotIdentity robot_;
+  const RobotModel model_;
   OccupancyMap map_;
   std::vector<Polygon> keep_out_;
   PeerTracks peers_;
-  ScanSorter sorter_;
+  MovingObjectFilter filter_;
   const double timeout_s_;
 
   ScanQueue queue_;

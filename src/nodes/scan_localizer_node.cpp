@@ -14,17 +14,17 @@
 #include <variant>
 #include <vector>
 
-#include "perception/saved_map.h"
-#include "perception/scan_localizer.h"
-#include "ros/conversions.h"
-#include "ros/localization_messages.h"
-#include "ros/parameters.h"
-#include "ros/robot_identity.h"
-#include "ros/run_node.h"
-#include "ros/scan_queue.h"
-#include "ros/sensor_conversions.h"
-#include "ros/step_loop.h"
-#include "ros/transport.h"
+#include "perception/localization/scan_localizer.h"
+#include "perception/mapping/saved_map.h"
+#include "ros_bridge/inputs/scan_queue.h"
+#include "ros_bridge/messages/conversions.h"
+#include "ros_bridge/messages/localization_messages.h"
+#include "ros_bridge/messages/sensor_conversions.h"
+#include "ros_bridge/runtime/parameters.h"
+#include "ros_bridge/runtime/robot_identity.h"
+#include "ros_bridge/runtime/run_node.h"
+#include "ros_bridge/runtime/step_loop.h"
+#include "ros_bridge/runtime/transport.h"
 
 namespace mocha {
 namespace {
@@ -75,11 +75,8 @@ class ScanLocalizerNode {
       localizer_.begin({{0.0, 0.0}, 0.0});
       return;
     }
-    OccupancyMapOptions options;
-    options.min_height_m = values.number("min_height");
-    options.max_height_m = values.number("max_height");
-    options.scan_height_m = 0.5 * (options.min_height_m + options.max_height_m);
-    localizer_.set_map(load_saved_slice(path, options));
+    localizer_.set_map(
+        load_saved_slice(path, values.number("min_height"), values.number("max_height")));
     remember();
   }
 
@@ -87,8 +84,11 @@ class ScanLocalizerNode {
   void remember() {
     std::vector<double> pose;
     if (!node_.getParam(kMemory, pose) || pose.size() != 3) return;
-    localizer_.expect(
-        {{{pose[0], pose[1]}, pose[2]}, kMemorySigma.cwiseProduct(kMemorySigma).asDiagonal()});
+    const PoseEstimate known{{{pose[0], pose[1]}, pose[2]},
+                             kMemorySigma.cwiseProduct(kMemorySigma).asDiagonal()};
+    const std::string fault = fault_of(known);
+    if (!fault.empty()) return refusals_.add(kMemory + ": " + fault);
+    localizer_.expect(known);
   }
 
   void on_scan(const sensor_msgs::LaserScan& scan) {
@@ -156,6 +156,8 @@ class ScanLocalizerNode {
       publish(before);
     } catch (const tf2::TransformException& error) {
       refusals_.add("no odometry at the scan's time", error.what());
+    } catch (const std::invalid_argument& error) {
+      refusals_.add(error.what());
     }
   }
 

@@ -13,21 +13,22 @@
 #include <utility>
 #include <vector>
 
-#include "fleet/commitment.h"
-#include "fleet/epoch_store.h"
-#include "fleet/wire_format.h"
-#include "nodes/fleet_network.h"
-#include "ros/conversions.h"
-#include "ros/emergency_stop_controls.h"
-#include "ros/markers.h"
-#include "ros/parameters.h"
-#include "ros/peer_diagnostics.h"
-#include "ros/promise_conversions.h"
-#include "ros/robot_identity.h"
-#include "ros/run_node.h"
-#include "ros/step_loop.h"
-#include "ros/transport.h"
-#include "ros/way_request_conversions.h"
+#include "control/lease.h"
+#include "fleet/protocol/commitment_protocol.h"
+#include "fleet/storage/epoch_store.h"
+#include "fleet/wire/wire_format.h"
+#include "ros_bridge/inputs/emergency_stop_controls.h"
+#include "ros_bridge/messages/committed_trajectory_conversions.h"
+#include "ros_bridge/messages/conversions.h"
+#include "ros_bridge/messages/yield_request_conversions.h"
+#include "ros_bridge/network/fleet_network.h"
+#include "ros_bridge/outputs/peer_diagnostics.h"
+#include "ros_bridge/runtime/parameters.h"
+#include "ros_bridge/runtime/robot_identity.h"
+#include "ros_bridge/runtime/run_node.h"
+#include "ros_bridge/runtime/step_loop.h"
+#include "ros_bridge/runtime/transport.h"
+#include "ros_bridge/rviz/markers.h"
 #include "safety/margin_budget.h"
 #include "world/robot_model.h"
 
@@ -53,33 +54,35 @@ std::string stop_file(const std::string& epochs) {
   return std::filesystem::path(epochs).replace_extension(".stops").string();
 }
 
-CommitmentSettings commitment_settings(const ParameterTable& values, const std::string& robot,
-                                       const RobotModel& model, const std::string& epochs) {
+CommitmentOptions commitment_settings(const ParameterTable& values, const std::string& robot,
+                                      const RobotModel& model, const std::string& epochs) {
   const MarginBudget margins = MarginBudget::of(model);
-  CommitmentSettings settings;
-  settings.agent = robot;
-  settings.priority = values.integer("priority");
-  settings.delta_dc_s = values.number("delta_dc");
-  settings.reach_timeout_s = values.number("reach_timeout");
-  settings.peer_clearance_m = model.peer_clearance_m + margins.peer_margin_m();
-  settings.heartbeat_period_s = 1.0 / values.number("heartbeat_rate");
-  settings.resend_period_s = 1.0 / values.number("resend_rate");
-  settings.clocks = {2.0 * margins.clock_s, values.number("max_clock_error")};
-  settings.epoch = next_epoch(epochs);
-  return settings;
+  CommitmentOptions options;
+  options.agent = robot;
+  options.priority = values.integer("priority");
+  options.delta_dc_s = values.number("delta_dc");
+  options.reach_timeout_s = values.number("reach_timeout");
+  options.peer_clearance_m = model.peer_clearance_m + margins.peer_margin_m();
+  options.stops = model.stop_options();
+  options.stop_clearance_m = margins.peer_margin_m();
+  options.heartbeat_period_s = 1.0 / values.number("heartbeat_rate");
+  options.resend_period_s = 1.0 / values.number("resend_rate");
+  options.clocks = {2.0 * margins.clock_s, values.number("max_clock_error")};
+  options.epoch = next_epoch(epochs);
+  return options;
 }
 
-const char* text_of(Commitment::State state) {
+const char* text_of(CommitmentProtocol::State state) {
   switch (state) {
-    case Commitment::State::kListening:
+    case CommitmentProtocol::State::kListening:
       return "listening for who is there";
-    case Commitment::State::kIdle:
+    case CommitmentProtocol::State::kIdle:
       return "nothing promised";
-    case Commitment::State::kProposing:
+    case CommitmentProtocol::State::kProposing:
       return "settling the first motion";
-    case Commitment::State::kBound:
+    case CommitmentProtocol::State::kBound:
       return "promised";
-    case Commitment::State::kRevising:
+    case CommitmentProtocol::State::kRevising:
       return "promised, settling the next motion";
   }
   return "unknown";
@@ -100,22 +103,24 @@ class TrajectoryBroadcasterNode {
   TrajectoryBroadcasterNode(ros::NodeHandle& node, const ParameterTable& values)
       : robot_(robot_identity()),
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        initial_lease_(values.number("initial_lease")),
         epoch_file_(epoch_file(values.text("epoch_file"), robot_.name)),
         commitment_(commitment_settings(values, robot_.name, model_, epoch_file_)),
         committed_(node.advertise<mocha_ugv::Trajectory>("committed_trajectory", 10, true)),
         fleet_(node.advertise<mocha_ugv::FleetTrajectories>("fleet/trajectories", 10, true)),
         drawings_(node.advertise<visualization_msgs::MarkerArray>("motion_markers", 2, true)),
-        settlements_(node.advertise<mocha_ugv::PlannerStatus>("settlement", 20)),
-        requests_out_(node.advertise<mocha_ugv::WayRequest>("fleet/way_requests", 100)),
+        leases_out_(node.advertise<mocha_ugv::Lease>("lease", 10)),
+        settlements_(node.advertise<mocha_ugv::Settlement>("settlement", 20)),
+        requests_out_(node.advertise<mocha_ugv::YieldRequest>("fleet/yield_requests", 100)),
         proposals_(node.subscribe("proposed_trajectory", 100,
                                   &TrajectoryBroadcasterNode::on_proposal, this, at_once())),
         leases_(
             node.subscribe("lease", 100, &TrajectoryBroadcasterNode::on_lease, this, at_once())),
-        requests_(node.subscribe("way_request", 10, &TrajectoryBroadcasterNode::on_way_request,
+        requests_(node.subscribe("yield_request", 10, &TrajectoryBroadcasterNode::on_yield_request,
                                  this, at_once())),
         network_(node, robot_, {values.text("lcm_url"), values.text("fleet_key")},
                  [this](const FleetMessage& message) { hear(message); }),
-        stop_(node, robot_, commitment_.settings().epoch, stop_file(epoch_file_),
+        stop_(node, robot_, commitment_.options().epoch, stop_file(epoch_file_),
               {[this](const FleetStops& stops) { network_.send(stops, now_); },
                [this] { draw(drawn_); }}),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
@@ -124,7 +129,7 @@ class TrajectoryBroadcasterNode {
     diagnostics_.add("emergency stop", &stop_, &EmergencyStopControls::diagnose);
     diagnostics_.add("fleet network", this, &TrajectoryBroadcasterNode::diagnose_network);
     draw(Motion());
-    ROS_INFO("%s: epoch %u", robot_.name.c_str(), commitment_.settings().epoch);
+    ROS_INFO("%s: epoch %u", robot_.name.c_str(), commitment_.options().epoch);
   }
 
  private:
@@ -135,14 +140,19 @@ class TrajectoryBroadcasterNode {
         throw std::invalid_argument("is of '" + message.agent + "'");
       }
       // As everybody else will hear it.
-      const Promise wish = quantised(promise_from_message(message, robot_.map_frame));
+      const CommittedTrajectory wish =
+          quantised(trajectory_from_message(message, robot_.map_frame));
+      if (message.sequence <= stop_sequence_) {
+        throw std::invalid_argument("was made before the robot braked, as its lease had ended");
+      }
+      newest_sequence_ = std::max(newest_sequence_, message.sequence);
       const Proposal proposal{message.sequence, wish.footprint_radius_m, wish.motion};
-      if (wish.state == PromiseState::kProposed && stop_.stopped()) {
+      if (wish.state == TrajectoryState::kProposed && stop_.stopped()) {
         throw std::invalid_argument(stop_.message());
       }
-      if (wish.state == PromiseState::kProposed) {
+      if (wish.state == TrajectoryState::kProposed) {
         apply(commitment_.propose(proposal, now_.toSec()));
-      } else if (wish.state == PromiseState::kEmergency) {
+      } else if (wish.state == TrajectoryState::kEmergency) {
         apply(commitment_.brake(proposal, now_.toSec()));
       } else {
         throw std::invalid_argument("is neither PROPOSED nor EMERGENCY");
@@ -151,44 +161,48 @@ class TrajectoryBroadcasterNode {
       ++refused_;
       refusal_ = error.what();
       ROS_WARN_THROTTLE(1.0, "Refused a message on proposed_trajectory: %s", error.what());
-      mocha_ugv::PlannerStatus status;
-      status.header.stamp = now_;
-      status.header.frame_id = robot_.map_frame;
-      status.reason = mocha_ugv::PlannerStatus::INVALID_INPUT;
-      status.message = "proposal " + std::to_string(message.sequence) + ": " + error.what();
-      settlements_.publish(status);
+      mocha_ugv::Settlement settlement;
+      settlement.header.stamp = now_;
+      settlement.header.frame_id = robot_.map_frame;
+      settlement.result = mocha_ugv::Settlement::INVALID;
+      settlement.epoch = commitment_.options().epoch;
+      settlement.sequence = message.sequence;
+      settlement.message = error.what();
+      settlements_.publish(settlement);
     }
   }
 
   /// For all team-mates, who make nothing of one in another name.
-  void on_way_request(const mocha_ugv::WayRequest& message) {
+  void on_yield_request(const mocha_ugv::YieldRequest& message) {
     if (!advance_clock(ros::Time::now())) return;
     try {
-      WayRequest request = way_request_from_message(message, robot_.map_frame);
+      YieldRequest request = yield_request_from_message(message, robot_.map_frame);
       if (request.agent != robot_.name) {
         throw std::invalid_argument("is of '" + request.agent + "'");
       }
-      request.epoch = commitment_.settings().epoch;
+      request.epoch = commitment_.options().epoch;
       network_.send(request, now_);
     } catch (const std::invalid_argument& error) {
       ++refused_;
       refusal_ = error.what();
-      ROS_WARN_THROTTLE(1.0, "Refused a message on way_request: %s", error.what());
+      ROS_WARN_THROTTLE(1.0, "Refused a message on yield_request: %s", error.what());
     }
   }
 
-  void on_lease(const mocha_ugv::Lease& message) { lease_ = message; }
+  void on_lease(const mocha_ugv::Lease& message) {
+    lease_.renew({message.epoch, message.sequence}, message.valid_until.toSec());
+  }
 
   void hear(const FleetMessage& message) {
     if (!advance_clock(ros::Time::now())) return;
-    if (const auto* request = std::get_if<WayRequest>(&message)) {
+    if (const auto* request = std::get_if<YieldRequest>(&message)) {
       requests_out_.publish(to_message(*request, robot_.map_frame, now_));
     } else if (const auto* stops = std::get_if<FleetStops>(&message)) {
       stop_.hear(*stops, now_);
-    } else if (const auto* promise = std::get_if<Promise>(&message)) {
-      apply(commitment_.receive(*promise, now_.toSec()));
+    } else if (const auto* trajectory = std::get_if<CommittedTrajectory>(&message)) {
+      apply(commitment_.receive(*trajectory, now_.toSec()));
     } else {
-      apply(commitment_.receive(std::get<Beat>(message), now_.toSec()));
+      apply(commitment_.receive(std::get<Heartbeat>(message), now_.toSec()));
     }
   }
 
@@ -204,6 +218,7 @@ class TrajectoryBroadcasterNode {
   void step(ros::Time now) {
     if (!advance_clock(now)) return;
     stop_.step(now_);
+    stop_where_the_lease_ended();
     apply(commitment_.tick(now_.toSec()));
     go_on_after_known_epoch();
     publish_fleet();
@@ -213,41 +228,75 @@ class TrajectoryBroadcasterNode {
   /// Where the file that counts the starts was lost, the peers take this robot for its own past.
   void go_on_after_known_epoch() {
     const std::uint32_t known = commitment_.peers().known_epoch();
-    if (known <= commitment_.settings().epoch) return;
+    if (known <= commitment_.options().epoch) return;
     raise_epoch(epoch_file_, known);
     throw std::runtime_error("peers know epoch " + std::to_string(known) + " of this robot, but " +
-                             epoch_file_ + " said " + std::to_string(commitment_.settings().epoch) +
+                             epoch_file_ + " said " + std::to_string(commitment_.options().epoch) +
                              "; it is set right, and this node starts anew");
   }
 
   void apply(const CommitmentActions& actions) {
-    for (const Promise& promise : actions.promises) network_.send(promise, now_);
-    if (actions.beat) network_.send(*actions.beat, now_);
+    for (const CommittedTrajectory& trajectory : actions.trajectories)
+      network_.send(trajectory, now_);
+    if (actions.heartbeat) network_.send(*actions.heartbeat, now_);
     for (const CommitmentEvent& event : actions.events) report(event);
   }
 
   void report(const CommitmentEvent& event) {
     using Kind = CommitmentEvent::Kind;
+    mocha_ugv::Settlement settlement = settlement_of(event, robot_.map_frame, now_);
+    if (event.refusal != Refusal::kNone) ++refusals_[name_of(event.refusal)];
     if (event.kind == Kind::kBreached) {
       ++breaches_;
-      ROS_WARN("%s: %s", robot_.name.c_str(), describe(event).c_str());
-      return;
-    }
-    if (event.refusal != Refusal::kNone) ++refusals_[name_of(event.refusal)];
-    if (event.kind == Kind::kWithdrawn) return;  // the replanner did that itself
-    const auto status = settlement_of(event, robot_.map_frame, now_);
-    if (event.kind == Kind::kSettled) {
-      // What is executed begins now: until the new motion starts, the one before it is in force.
-      Promise in_force = event.promise;
-      in_force.motion = commitment_.binding().composed(now_.toSec());
-      mocha_ugv::Trajectory committed = to_message(in_force, robot_.map_frame, now_);
-      committed.sequence = event.proposal.tag;
-      committed_.publish(committed);
-      draw(*in_force.motion);
+      ROS_WARN("%s: %s", robot_.name.c_str(), settlement.message.c_str());
+      settlement.sequence = committed_sequence_;
+      publish_fleet();  // what the replanner has to look at
+    } else if (event.kind == Kind::kSettled) {
+      commit(event);
     } else {
-      ROS_INFO_THROTTLE(1.0, "%s: %s", robot_.name.c_str(), status.message.c_str());
+      ROS_INFO_THROTTLE(1.0, "%s: proposal %u: %s", robot_.name.c_str(), settlement.sequence,
+                        settlement.message.c_str());
     }
-    settlements_.publish(status);
+    settlements_.publish(settlement);
+  }
+
+  /// What is executed begins now: until the new motion starts, the one before it is in force.
+  void commit(const CommitmentEvent& event) {
+    CommittedTrajectory in_force = event.trajectory;
+    in_force.motion = commitment_.binding().composed(now_.toSec());
+    mocha_ugv::Trajectory committed = to_message(in_force, robot_.map_frame, now_);
+    committed.sequence = event.proposal.tag;
+    committed_sequence_ = event.proposal.tag;
+    committed_.publish(committed);
+    grant_first_lease(*in_force.motion);
+    draw(*in_force.motion);
+  }
+
+  void grant_first_lease(const Motion& motion) {
+    mocha_ugv::Lease lease;
+    lease.header.stamp = now_;
+    lease.epoch = commitment_.options().epoch;
+    lease.sequence = committed_sequence_;
+    lease.valid_until = now_ + initial_lease_;
+    leases_out_.publish(lease);
+    lease_.commit({lease.epoch, lease.sequence}, motion, lease.valid_until.toSec());
+  }
+
+  /// The tracker brakes now: that is what is promised from now on. What the replanner proposed
+  /// before it hears so was made for another motion.
+  void stop_where_the_lease_ended() {
+    const auto stop = lease_.expire(now_.toSec(), model_.braking_deceleration());
+    if (!stop) return;
+    ++lease_stops_;
+    stop_sequence_ = ++newest_sequence_;
+    ROS_WARN("%s: the lease of motion %u ended: brakes", robot_.name.c_str(), committed_sequence_);
+    try {
+      const auto motion = std::make_shared<const Motion>(quantised(*stop));
+      const double radius_m = model_.footprint.circumscribed_radius_m();
+      apply(commitment_.brake({stop_sequence_, radius_m, motion}, now_.toSec()));
+    } catch (const std::invalid_argument& error) {
+      ROS_ERROR("%s: the stop cannot be said to the others: %s", robot_.name.c_str(), error.what());
+    }
   }
 
   /// The robot, and what it drives.
@@ -261,19 +310,18 @@ class TrajectoryBroadcasterNode {
   }
 
   void publish_fleet() {
-    std::vector<PromiseId> news;
+    std::vector<TrajectoryId> news;
     for (const auto& [name, peer] : commitment_.peers().peers()) {
-      if (!peer.binding.empty()) news.push_back(peer.binding.newest().id);
+      for (const Reservation& reservation : peer.binding.reservations())
+        news.push_back(reservation.trajectory.id);
     }
     if (news == published_ && now_ < next_fleet_) return;
     published_ = std::move(news);
     next_fleet_ = now_ + ros::Duration(kFleetPeriod_s);
     mocha_ugv::FleetTrajectories fleet;
     for (const auto& [name, peer] : commitment_.peers().peers()) {
-      if (peer.binding.empty()) continue;
-      Promise in_force = peer.binding.newest();
-      in_force.motion = peer.binding.composed(now_.toSec());
-      fleet.trajectories.push_back(to_message(in_force, robot_.map_frame, now_));
+      for (const Reservation& part : peer.binding.parts(now_.toSec()))
+        fleet.trajectories.push_back(to_message(part.trajectory, robot_.map_frame, now_));
     }
     fleet.header.stamp = now_;
     fleet.header.frame_id = robot_.map_frame;
@@ -286,12 +334,12 @@ class TrajectoryBroadcasterNode {
     if (breaches_ > 0) {
       status.mergeSummary(DiagnosticStatus::WARN, "peers broke promises that met ours");
     }
-    status.add("epoch", commitment_.settings().epoch);
+    status.add("epoch", commitment_.options().epoch);
     if (!commitment_.binding().empty()) {
       status.add("binding sequence", commitment_.binding().newest().id.sequence);
     }
-    const bool leased = lease_.valid_until > now_;
-    status.addf("lease remaining (s)", "%.2f", leased ? (lease_.valid_until - now_).toSec() : 0.0);
+    status.addf("lease remaining (s)", "%.2f", std::max(0.0, lease_.end_s() - now_.toSec()));
+    status.add("stops as a lease ended", lease_stops_);
     for (const auto& [refusal, count] : refusals_)
       status.add("proposals refused: " + refusal, count);
     status.add("breaches", breaches_);
@@ -303,19 +351,24 @@ class TrajectoryBroadcasterNode {
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, "hears its fleet");
     network_.diagnose(status);
     diagnose_peers(
-        commitment_.peers(), now_.toSec(), commitment_.settings().delta_dc_s,
+        commitment_.peers(), now_.toSec(), commitment_.options().delta_dc_s,
         [this](const std::string& peer) { return network_.loss(peer); }, status);
   }
 
   const RobotIdentity robot_;
   const RobotModel model_;
+  const ros::Duration initial_lease_;
   const std::string epoch_file_;
-  Commitment commitment_;
+  CommitmentProtocol commitment_;
   ros::Time now_;
   ros::Time next_fleet_;
-  std::vector<PromiseId> published_;
+  std::vector<TrajectoryId> published_;
   Motion drawn_;
-  mocha_ugv::Lease lease_;
+  std::uint32_t committed_sequence_ = 0;
+  std::uint32_t stop_sequence_ = 0;    // of the newest stop without a lease
+  std::uint32_t newest_sequence_ = 0;  // heard of, or given to a stop
+  int lease_stops_ = 0;
+  LeaseWatch lease_;
   std::map<std::string, int> refusals_;
   int breaches_ = 0;
   int refused_ = 0;
@@ -324,6 +377,7 @@ class TrajectoryBroadcasterNode {
   ros::Publisher committed_;
   ros::Publisher fleet_;
   ros::Publisher drawings_;
+  ros::Publisher leases_out_;
   ros::Publisher settlements_;
   ros::Publisher requests_out_;
   ros::Subscriber proposals_;

@@ -10,15 +10,15 @@
 #include <string>
 
 #include "control/trajectory_tracker.h"
-#include "ros/conversions.h"
-#include "ros/emergency_stop_listener.h"
-#include "ros/live_parameters.h"
-#include "ros/parameters.h"
-#include "ros/pose_source.h"
-#include "ros/robot_identity.h"
-#include "ros/run_stopping_node.h"
-#include "ros/step_loop.h"
-#include "ros/transport.h"
+#include "ros_bridge/inputs/emergency_stop_listener.h"
+#include "ros_bridge/inputs/pose_source.h"
+#include "ros_bridge/messages/conversions.h"
+#include "ros_bridge/runtime/live_parameters.h"
+#include "ros_bridge/runtime/parameters.h"
+#include "ros_bridge/runtime/robot_identity.h"
+#include "ros_bridge/runtime/run_stopping_node.h"
+#include "ros_bridge/runtime/step_loop.h"
+#include "ros_bridge/runtime/transport.h"
 
 namespace mocha {
 namespace {
@@ -52,7 +52,6 @@ class TrajectoryTrackerNode {
   TrajectoryTrackerNode(ros::NodeHandle& node, const ParameterTable& values)
       : values_(values),
         robot_(robot_identity()),
-        initial_lease_(values.number("initial_lease")),
         max_lease_(values.number("max_lease")),
         tracker_(tracker_parameters(values),
                  load_robot_model(config_path(""), values.text("robot_model"))),
@@ -86,11 +85,9 @@ class TrajectoryTrackerNode {
       if (message.state != Trajectory::COMMITTED && message.state != Trajectory::EMERGENCY) {
         throw std::invalid_argument("is not committed");
       }
-      // From its stamp, not its arrival: an old message that was kept for late joiners gives no
-      // right to drive.
-      const double stamp = std::min(message.header.stamp, ros::Time::now()).toSec();
-      tracker_.offer({message.epoch, message.sequence}, from_message(message),
-                     stamp + initial_lease_);
+      // The lease comes by itself: a message that was kept for late joiners gives no right to
+      // drive.
+      tracker_.offer({message.epoch, message.sequence}, from_message(message), 0.0);
     } catch (const std::exception& error) {
       refuse("committed_trajectory", error.what());
     }
@@ -181,7 +178,6 @@ class TrajectoryTrackerNode {
 
   ParameterTable values_;
   RobotIdentity robot_;
-  double initial_lease_;
   double max_lease_;
   TrajectoryTracker tracker_;
   EmergencyStopListener stop_;

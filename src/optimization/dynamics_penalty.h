@@ -4,7 +4,7 @@
 
 namespace mocha {
 
-/// (32): phi(|v|^2 / v_max^2 - 1) + phi(|a|^2 / a_max^2 - 1).
+/// Paper (32): phi(|v|^2 / v_max^2 - 1) + phi(|a|^2 / a_max^2 - 1).
 template <int D>
 class DynamicsPenalty : public Penalty<D> {
  public:

@@ -8,8 +8,8 @@
 
 namespace mocha {
 
-/// (33)(39): phi(1 - d_n^2 / d_s^2) for each moving disc at the absolute time of the sample, where
-/// d_s is its radius and what is to be kept from its rim.
+/// Paper (33)(39): phi(1 - d_n^2 / d_s^2) for each moving disc at the absolute time of the sample,
+/// where d_s is its radius and what is to be kept from its rim.
 class MovingPenalty : public Penalty<2> {
  public:
   /// `start_time_s`: absolute time at which the trajectory begins.

@@ -10,8 +10,8 @@
 
 namespace mocha {
 
-/// (30): phi(1 - d_r |d_r| / d_s^2), summed over the obstacles r that the field tells apart, at the
-/// centre of each disc that covers the robot along its heading.
+/// Paper (30): phi(1 - d_r |d_r| / d_s^2), summed over the obstacles r that the field tells apart,
+/// at the centre of each disc that covers the robot along its heading.
 ///
 /// d_r is signed, so that a sample inside an obstacle is pushed out as well. The heading is the
 /// direction of travel, v / sqrt(|v|^2 + e^2): near standstill the discs slide together to the

@@ -7,7 +7,7 @@
 
 namespace mocha {
 
-/// phi(x) = max(0, x)^3 (31) and its derivative.
+/// phi(x) = max(0, x)^3, paper (31), and its derivative.
 struct Cubic {
   double value;
   double slope;
@@ -45,7 +45,7 @@ struct PieceSamples {
   const Rows& jerk() const { return derivative[3]; }          ///< [m/s^3]
 
   std::array<Rows, kOrders> derivative;
-  Eigen::VectorXd time_s;  ///< from the start of the trajectory: tau_f of (22)
+  Eigen::VectorXd time_s;  ///< from the start of the trajectory: tau_f of paper (22)
   PieceBounds<D> bounds;   ///< hold for the whole piece
 };
 
@@ -69,11 +69,11 @@ struct PenaltyRows {
   Eigen::VectorXd by_time;
 };
 
-/// One term of J_p (14): what every instant of a trajectory costs (21).
+/// One term of J_p, paper (14): what every instant of a trajectory costs, paper (21).
 ///
-/// Penalties are dimensionless: what is to be avoided is measured against its limit before (31) is
-/// applied, so that one set of weights serves robots of every size. The paper's form follows with
-/// the weight times the limit to the sixth.
+/// Penalties are dimensionless: what is to be avoided is measured against its limit before paper
+/// (31) is applied, so that one set of weights serves robots of every size. The paper's form
+/// follows with the weight times the limit to the sixth.
 template <int D>
 class Penalty {
  public:

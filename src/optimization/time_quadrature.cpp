@@ -122,7 +122,7 @@ double TimeQuadrature<D, S>::add(const Minco<D, S>& curve, const Penalties& pena
     by_time_[i] = tau / kappa_ * by_time.sum();
     by_duration[i] += tau / kappa_ * by_time.dot(alpha_);
   }
-  // (26): a longer piece moves every later sample in absolute time.
+  // Paper (26): a longer piece moves every later sample in absolute time.
   double by_later = 0.0;
   for (int i = curve.pieces() - 1; i >= 0; --i) {
     by_duration[i] += by_later;

@@ -9,8 +9,8 @@
 
 namespace mocha {
 
-/// Integrates penalties over a trajectory by the trapezoid rule with kappa intervals a piece (21),
-/// and their gradient by the pieces' normalised coefficients and durations (23)-(26).
+/// Integrates penalties over a trajectory by the trapezoid rule with kappa intervals a piece, paper
+/// (21), and their gradient by the pieces' normalised coefficients and durations, paper (23)-(26).
 ///
 /// Exact with respect to that rule, but pieces on which a penalty is certainly zero are skipped.
 /// After construction nothing is allocated.

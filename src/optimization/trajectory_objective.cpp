@@ -8,47 +8,47 @@
 namespace mocha {
 
 template <int D, int S>
-TrajectoryObjective<D, S>::TrajectoryObjective(Setup setup)
-    : setup_(std::move(setup)),
-      quadrature_(setup_.kappa, pieces(), setup_.penalties.size()),
+TrajectoryObjective<D, S>::TrajectoryObjective(Options options)
+    : options_(std::move(options)),
+      quadrature_(options_.kappa, pieces(), options_.penalties.size()),
       knots_(D, pieces() - 1),
       by_knot_(D, pieces() - 1),
-      slopes_(setup_.knot_map->variables()),
+      slopes_(options_.knot_map->variables()),
       durations_(pieces()),
       by_duration_(pieces()),
       by_piece_(pieces()),
-      shares_(setup_.penalties.size()) {
+      shares_(options_.penalties.size()) {
   minco_.resize(pieces());
 }
 
 template <int D, int S>
 Eigen::VectorXd TrajectoryObjective<D, S>::initial(const Eigen::VectorXd& durations_s) const {
   Eigen::VectorXd x(variables());
-  x.head(setup_.knot_map->variables()) = setup_.knot_map->initial();
+  x.head(options_.knot_map->variables()) = options_.knot_map->initial();
   for (int i = 0; i < pieces(); ++i) {
-    x[setup_.knot_map->variables() + i] = setup_.metres_per_eta * eta_of(durations_s[i]);
+    x[options_.knot_map->variables() + i] = options_.metres_per_eta * eta_of(durations_s[i]);
   }
   return x;
 }
 
 template <int D, int S>
 double TrajectoryObjective<D, S>::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {
-  const KnotMap<D>& map = *setup_.knot_map;
-  const double eta_per_metre = 1.0 / setup_.metres_per_eta;
+  const KnotMap<D>& map = *options_.knot_map;
+  const double eta_per_metre = 1.0 / options_.metres_per_eta;
   const auto eta = eta_per_metre * x.tail(pieces());
   map.place(x.data(), knots_, slopes_);
   for (int i = 0; i < pieces(); ++i) durations_[i] = duration_of(eta[i]);
-  minco_.solve(setup_.start, setup_.end, knots_, durations_);
+  minco_.solve(options_.start, options_.end, knots_, durations_);
 
   for (Piece& piece : by_piece_) piece.setZero();
   std::fill(shares_.begin(), shares_.end(), 0.0);
   const double total_s = durations_.sum();
-  effort_ = setup_.effort_weight * minco_.effort();
-  duration_ = setup_.duration_cost.value(total_s);
-  by_duration_.setConstant(setup_.duration_cost.slope(total_s));
-  minco_.add_effort_gradient(setup_.effort_weight, by_piece_, by_duration_);
+  effort_ = options_.effort_weight * minco_.effort();
+  duration_ = options_.duration_cost.value(total_s);
+  by_duration_.setConstant(options_.duration_cost.slope(total_s));
+  minco_.add_effort_gradient(options_.effort_weight, by_piece_, by_duration_);
   const double penalty =
-      quadrature_.add(minco_, setup_.penalties, by_piece_, by_duration_, shares_);
+      quadrature_.add(minco_, options_.penalties, by_piece_, by_duration_, shares_);
   minco_.propagate(by_piece_, by_duration_, by_knot_);
 
   map.pull_back(slopes_, by_knot_, gradient.data());
@@ -63,7 +63,7 @@ template <int D, int S>
 CostTerms TrajectoryObjective<D, S>::terms() const {
   CostTerms terms = {{"control_effort", effort_}, {"duration", duration_}};
   for (std::size_t p = 0; p < shares_.size(); ++p) {
-    terms.emplace_back(setup_.penalties[p]->name(), shares_[p]);
+    terms.emplace_back(options_.penalties[p]->name(), shares_[p]);
   }
   return terms;
 }

@@ -15,15 +15,15 @@ namespace mocha {
 /// A cost by its parts, weighted as they enter the sum.
 using CostTerms = std::vector<std::pair<std::string, double>>;
 
-/// J_total (14) over unconstrained variables: those of the knot map first, then one scaled
-/// eta a piece (12). After construction evaluating it allocates nothing.
+/// J_total, paper (14), over unconstrained variables: those of the knot map first, then one scaled
+/// eta a piece, paper (12). After construction evaluating it allocates nothing.
 template <int D, int S>
 class TrajectoryObjective {
  public:
   using State = typename Minco<D, S>::State;
   using Knots = typename Minco<D, S>::Knots;
 
-  struct Setup {
+  struct Options {
     State start;  ///< columns: position, velocity, acceleration ...
     State end;
     std::shared_ptr<const KnotMap<D>> knot_map;
@@ -37,10 +37,10 @@ class TrajectoryObjective {
     double metres_per_eta = 1.0;
   };
 
-  explicit TrajectoryObjective(Setup setup);
+  explicit TrajectoryObjective(Options options);
 
-  int variables() const { return setup_.knot_map->variables() + pieces(); }
-  int pieces() const { return setup_.knot_map->knots() + 1; }
+  int variables() const { return options_.knot_map->variables() + pieces(); }
+  int pieces() const { return options_.knot_map->knots() + 1; }
 
   /// The knots on the prey path, and the given durations [s].
   Eigen::VectorXd initial(const Eigen::VectorXd& durations_s) const;
@@ -55,7 +55,7 @@ class TrajectoryObjective {
  private:
   using Piece = typename Minco<D, S>::Piece;
 
-  Setup setup_;
+  Options options_;
   Minco<D, S> minco_;
   TimeQuadrature<D, S> quadrature_;
   Knots knots_;

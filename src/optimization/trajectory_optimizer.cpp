@@ -18,12 +18,12 @@ struct EndSearch {
 template <int D, int S>
 class WatchedObjective {
  public:
-  WatchedObjective(TrajectoryObjective<D, S>& objective, const OptimizerRules& rules)
-      : objective_(objective), rules_(rules) {}
+  WatchedObjective(TrajectoryObjective<D, S>& objective, const OptimizerOptions& options)
+      : objective_(objective), options_(options) {}
 
   double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {
-    if (evaluations_ >= rules_.max_evaluations) throw EndSearch{StopReason::kBudget};
-    if (rules_.should_stop()) throw EndSearch{StopReason::kStopped};
+    if (evaluations_ >= options_.max_evaluations) throw EndSearch{StopReason::kBudget};
+    if (options_.should_stop()) throw EndSearch{StopReason::kStopped};
     ++evaluations_;
     const double cost = objective_.evaluate(x, gradient);
     if (!std::isfinite(cost) || !gradient.allFinite()) {
@@ -45,19 +45,19 @@ class WatchedObjective {
  private:
   static constexpr double kFarAway = 1e30;
   TrajectoryObjective<D, S>& objective_;
-  const OptimizerRules& rules_;
+  const OptimizerOptions& options_;
   int evaluations_ = 0;
   double best_cost_ = std::numeric_limits<double>::infinity();
   Eigen::VectorXd best_;
 };
 
-LBFGSpp::LBFGSParam<double> solver_parameters(const OptimizerRules& rules) {
+LBFGSpp::LBFGSParam<double> solver_parameters(const OptimizerOptions& options) {
   LBFGSpp::LBFGSParam<double> parameters;
   parameters.m = 12;
-  parameters.epsilon = rules.relative_gradient;
-  parameters.epsilon_rel = rules.relative_gradient;
-  parameters.past = rules.cost_window;
-  parameters.delta = rules.relative_cost;
+  parameters.epsilon = options.relative_gradient;
+  parameters.epsilon_rel = options.relative_gradient;
+  parameters.past = options.cost_window;
+  parameters.delta = options.relative_cost;
   parameters.max_iterations = 0;  // the number of evaluations is what counts
   parameters.max_linesearch = 30;
   parameters.linesearch = LBFGSpp::LBFGS_LINESEARCH_BACKTRACKING_WOLFE;
@@ -68,11 +68,11 @@ LBFGSpp::LBFGSParam<double> solver_parameters(const OptimizerRules& rules) {
 
 template <int D, int S>
 OptimizedTrajectory<D, S> optimize(TrajectoryObjective<D, S>& objective, Eigen::VectorXd x,
-                                   const OptimizerRules& rules) {
+                                   const OptimizerOptions& options) {
   OptimizedTrajectory<D, S> result;
-  WatchedObjective<D, S> watched(objective, rules);
+  WatchedObjective<D, S> watched(objective, options);
   const LBFGSpp::LBFGSParam<double> parameters =
-      solver_parameters(rules);  // the solver refers to it
+      solver_parameters(options);  // the solver refers to it
   LBFGSpp::LBFGSSolver<double, LBFGSpp::LineSearchBracketing> solver(parameters);
   try {
     double cost;
@@ -100,16 +100,16 @@ OptimizedTrajectory<D, S> optimize(TrajectoryObjective<D, S>& objective, Eigen::
 }
 
 template OptimizedTrajectory<2, 2> optimize(TrajectoryObjective<2, 2>&, Eigen::VectorXd,
-                                            const OptimizerRules&);
+                                            const OptimizerOptions&);
 template OptimizedTrajectory<2, 3> optimize(TrajectoryObjective<2, 3>&, Eigen::VectorXd,
-                                            const OptimizerRules&);
+                                            const OptimizerOptions&);
 template OptimizedTrajectory<2, 4> optimize(TrajectoryObjective<2, 4>&, Eigen::VectorXd,
-                                            const OptimizerRules&);
+                                            const OptimizerOptions&);
 template OptimizedTrajectory<3, 2> optimize(TrajectoryObjective<3, 2>&, Eigen::VectorXd,
-                                            const OptimizerRules&);
+                                            const OptimizerOptions&);
 template OptimizedTrajectory<3, 3> optimize(TrajectoryObjective<3, 3>&, Eigen::VectorXd,
-                                            const OptimizerRules&);
+                                            const OptimizerOptions&);
 template OptimizedTrajectory<3, 4> optimize(TrajectoryObjective<3, 4>&, Eigen::VectorXd,
-                                            const OptimizerRules&);
+                                            const OptimizerOptions&);
 
 }  // namespace mocha

@@ -16,7 +16,7 @@ enum class StopReason {
   kInvalidInput      ///< the problem itself is not one: nothing was tried
 };
 
-struct OptimizerRules {
+struct OptimizerOptions {
   int max_evaluations = 400;
   double relative_cost =
       1e-4;  ///< stop when the cost falls by less than this share over `cost_window` iterations
@@ -39,19 +39,19 @@ struct OptimizedTrajectory {
 /// search.
 template <int D, int S>
 OptimizedTrajectory<D, S> optimize(TrajectoryObjective<D, S>& objective, Eigen::VectorXd x,
-                                   const OptimizerRules& rules);
+                                   const OptimizerOptions& options);
 
 extern template OptimizedTrajectory<2, 2> optimize(TrajectoryObjective<2, 2>&, Eigen::VectorXd,
-                                                   const OptimizerRules&);
+                                                   const OptimizerOptions&);
 extern template OptimizedTrajectory<2, 3> optimize(TrajectoryObjective<2, 3>&, Eigen::VectorXd,
-                                                   const OptimizerRules&);
+                                                   const OptimizerOptions&);
 extern template OptimizedTrajectory<2, 4> optimize(TrajectoryObjective<2, 4>&, Eigen::VectorXd,
-                                                   const OptimizerRules&);
+                                                   const OptimizerOptions&);
 extern template OptimizedTrajectory<3, 2> optimize(TrajectoryObjective<3, 2>&, Eigen::VectorXd,
-                                                   const OptimizerRules&);
+                                                   const OptimizerOptions&);
 extern template OptimizedTrajectory<3, 3> optimize(TrajectoryObjective<3, 3>&, Eigen::VectorXd,
-                                                   const OptimizerRules&);
+                                                   const OptimizerOptions&);
 extern template OptimizedTrajectory<3, 4> optimize(TrajectoryObjective<3, 4>&, Eigen::VectorXd,
-                                                   const OptimizerRules&);
+                                                   const OptimizerOptions&);
 
 }  // namespace mocha

@@ -19,9 +19,10 @@ namespace mocha {
 /// Speed, acceleration and yaw rate of drives; yaw rate and yaw acceleration of turns in place.
 Violation check_limits(const Motion& motion, const MotionLimits& limits, double from_s);
 
-/// The footprint's cover discs keep `margin_m` >= 0 to all obstacles of the field.
+/// The footprint's cover discs keep `margin_m` >= 0 to all obstacles of the field, until `until_s`.
 Violation check_clearance(const Motion& motion, const Footprint& footprint,
-                          const ObstacleField<2>& field, double margin_m, double from_s);
+                          const ObstacleField<2>& field, double margin_m, double from_s,
+                          double until_s = std::numeric_limits<double>::infinity());
 
 /// The disc of `own_radius_m` keeps `clearance_m` to the obstacle's disc, until both rest or
 /// `until_s`, whichever is first. Throws std::invalid_argument if neither is finite.

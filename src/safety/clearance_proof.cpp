@@ -135,7 +135,7 @@ class Keepout {
 };
 
 std::optional<double> first_contact(const Motion& motion, int phase, const Keepout& keepout,
-                                    double from_s) {
+                                    double from_s, double until_s) {
   const double start = motion.phase_start_time(phase);
   const Phase& what = motion.phases()[phase];
   if (const auto* turn = std::get_if<TurnPhase>(&what)) {
@@ -147,6 +147,7 @@ std::optional<double> first_contact(const Motion& motion, int phase, const Keepo
     return keepout.clear(stand->pose) ? std::nullopt : std::make_optional(std::max(start, from_s));
   }
   for (const DrivePiece& piece : drive_pieces(motion, phase, from_s)) {
+    if (piece.start_s >= until_s) break;
     const DriveArc arc{
         {piece.position, piece.start_s, piece.duration_s}, piece.course, piece.drive_direction};
     if (const auto t = first_unclear(arc, keepout)) return t;
@@ -170,15 +171,18 @@ Violation report(const Motion& motion, const Keepout& keepout, double t) {
 }  // namespace
 
 Violation check_clearance(const Motion& motion, const Footprint& footprint,
-                          const ObstacleField<2>& field, double margin_m, double from_s) {
+                          const ObstacleField<2>& field, double margin_m, double from_s,
+                          double until_s) {
   const Keepout keepout(footprint, field, margin_m);
   if (from_s >= motion.end_time()) {
     return keepout.clear(motion.end_pose()) ? Violation{} : report(motion, keepout, from_s);
   }
   for (int i = 0; i < static_cast<int>(motion.phases().size()); ++i) {
     if (motion.phase_start_time(i) + duration_s(motion.phases()[i]) <= from_s) continue;
-    if (const auto t = first_contact(motion, i, keepout, from_s))
-      return report(motion, keepout, *t);
+    if (i > 0 && motion.phase_start_time(i) >= until_s) break;
+    const auto t = first_contact(motion, i, keepout, from_s, until_s);
+    if (t && *t < until_s) return report(motion, keepout, *t);
+    if (t) break;
   }
   return {};
 }

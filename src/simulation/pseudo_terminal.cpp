@@ -39,10 +39,10 @@ PseudoTerminal::PseudoTerminal(const std::string& link) {
   path_ = name.data();
   computer_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (computer_ < 0) fail(path_);
-  termios settings{};
-  ::tcgetattr(computer_, &settings);
-  ::cfmakeraw(&settings);  // bytes as they are, before anybody has opened it
-  ::tcsetattr(computer_, TCSANOW, &settings);
+  termios options{};
+  ::tcgetattr(computer_, &options);
+  ::cfmakeraw(&options);  // bytes as they are, before anybody has opened it
+  ::tcsetattr(computer_, TCSANOW, &options);
   if (link.empty()) return;
   make_link(path_, link);
   link_ = link;

@@ -18,7 +18,7 @@ Vehicle::Vehicle(const RobotModel& model, const Pose& start)
       max_wheel_acceleration_(model.max_wheel_acceleration),
       track_m_(model.limits.track_m),
       lag_s_(model.actuator_lag_s),
-      command_age_limit_s_(model.command_age_limit_s),
+      cmd_timeout_s_(model.cmd_timeout_s),
       pose_(start),
       command_time_s_(-std::numeric_limits<double>::infinity()) {}
 
@@ -31,7 +31,7 @@ void Vehicle::command(double now_s, const Twist& twist) {
 }
 
 Vehicle::Wheels Vehicle::wanted(double now_s) const {
-  if (now_s - command_time_s_ > command_age_limit_s_ + kTimeSlack_s) return {};
+  if (now_s - command_time_s_ > cmd_timeout_s_ + kTimeSlack_s) return {};
   const double difference = 0.5 * track_m_ * command_.yaw_rate;
   // The faster wheel runs at the sum of both magnitudes; scaling both keeps the curvature.
   const double fastest = std::abs(command_.speed) + std::abs(difference);

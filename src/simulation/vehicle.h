@@ -43,7 +43,7 @@ class Vehicle {
   double max_wheel_acceleration_;
   double track_m_;
   double lag_s_;
-  double command_age_limit_s_;
+  double cmd_timeout_s_;
   Pose pose_;
   Wheels wheels_;
   double acceleration_ = 0.0;

@@ -7,13 +7,13 @@
 
 namespace mocha {
 
-/// The minimum-control-effort curve (5) through given knots at given durations, and the way back
-/// for gradients.
+/// The minimum-control-effort curve, paper (5), through given knots at given durations, and the way
+/// back for gradients.
 ///
 /// The unknowns are the derivatives 1 .. S-1 at the interior knots. The effort is a quadratic form
-/// in them whose matrix is block-tridiagonal and positive definite (the banded system (6)(10) after
-/// eliminating the coefficients), so one elimination gives the curve and the same factors give the
-/// adjoint, both in O(M) and without pivoting.
+/// in them whose matrix is block-tridiagonal and positive definite (the banded system, paper
+/// (6)(10), after eliminating the coefficients), so one elimination gives the curve and the same
+/// factors give the adjoint, both in O(M) and without pivoting.
 ///
 /// All storage is sized by resize(); after it, nothing allocates. The arithmetic has a fixed order
 /// and fuses nothing, so that every machine gets the same bits from the same numbers.
@@ -39,7 +39,7 @@ class Minco {
   double piece_duration(int i) const { return tau_[i]; }
   Curve curve() const;
 
-  /// Control effort (27) [m^2/s^(2S-1)].
+  /// Control effort, paper (27) [m^2/s^(2S-1)].
   double effort() const;
 
   /// Adds weight times the gradient of the effort to partial gradients as propagate() takes them.

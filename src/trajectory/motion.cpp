@@ -20,6 +20,7 @@ constexpr double kRestAcceleration = 1e-3;  // [m/s^2] likewise
 constexpr double kRestJerk = 1e-3;          // [m/s^3] likewise
 constexpr double kLargest = 1e12;           // [m], [m/s^2] beyond, squares soon overflow
 constexpr double kSliver_s = 2e-3;
+constexpr double kForRounding = 1.001;  // a message that rounds a turn keeps it within its limits
 constexpr double kShortestPhase_s = 1e-5;  // shorter parts of a phase are dropped when cutting
 
 /// Progress of a quintic turn and its rate, u in [0, 1].
@@ -102,7 +103,7 @@ double wrap_angle(double angle_rad) {
 
 double turn_duration_s(double yaw_change_rad, double max_yaw_rate, double max_yaw_acceleration) {
   // Peaks of the quintic: rate 15/8 change/T at the middle, acceleration 10/sqrt(3) change/T^2.
-  const double change = std::abs(yaw_change_rad);
+  const double change = kForRounding * std::abs(yaw_change_rad);
   return std::max(1.875 * change / max_yaw_rate,
                   std::sqrt(10.0 / std::sqrt(3.0) * change / max_yaw_acceleration));
 }
@@ -126,38 +127,84 @@ double heading(const DrivePhase& drive, double t) {
   return std::atan2(drive.direction * along.y(), drive.direction * along.x());
 }
 
+const char* describe(MotionFault fault) {
+  switch (fault) {
+    case MotionFault::kNone:
+      return "is a motion";
+    case MotionFault::kStartTime:
+      return "the start time is not finite";
+    case MotionFault::kNoPhases:
+      return "has no phases";
+    case MotionFault::kDirection:
+      return "a drive's direction is not +1 or -1";
+    case MotionFault::kOutOfRange:
+      return "a drive is empty, not finite, or beyond 1e12 m or m/s^2";
+    case MotionFault::kDuration:
+      return "a duration is negative or not finite";
+    case MotionFault::kNotFinite:
+      return "a phase is not finite";
+    case MotionFault::kPositionJump:
+      return "jumps in position between phases";
+    case MotionFault::kHeadingJump:
+      return "jumps in heading between phases";
+    case MotionFault::kVelocityJump:
+      return "jumps in velocity between phases";
+    case MotionFault::kMoves:
+      return "does not end at rest";
+    case MotionFault::kCutTurn:
+      return "a turn in place cannot be cut";
+  }
+  return "unknown";
+}
+
 Motion::Motion(double start_time_s, std::vector<Phase> phases)
     : start_time_s_(start_time_s), phases_(std::move(phases)) {
-  require(std::isfinite(start_time_s_), "the start time is not finite");
-  require(!phases_.empty(), "has no phases");
-  double t = start_time_s_;
-  phase_starts_.push_back(t);
+  const MotionFault fault = index();
+  require(fault == MotionFault::kNone, describe(fault));
+}
+
+MotionOrFault Motion::make(double start_time_s, std::vector<Phase> phases) {
+  MotionOrFault made;
+  made.motion.start_time_s_ = start_time_s;
+  made.motion.phases_ = std::move(phases);
+  made.fault = made.motion.index();
+  if (made.fault != MotionFault::kNone) made.motion = Motion();
+  return made;
+}
+
+/// Fills in what is kept about the phases, as far as they make a motion.
+MotionFault Motion::index() {
+  if (!std::isfinite(start_time_s_)) return MotionFault::kStartTime;
+  if (phases_.empty()) return MotionFault::kNoPhases;
+  phase_starts_.push_back(start_time_s_);
   for (std::size_t i = 0; i < phases_.size(); ++i) {
-    const Phase& phase = phases_[i];
-    const double duration = duration_s(phase);
-    if (const auto* drive = std::get_if<DrivePhase>(&phase)) {
-      require(drive->direction == 1 || drive->direction == -1,
-              "a drive's direction is not +1 or -1");
-      require(finite(drive->path, box_), "a drive is not finite, or beyond 1e12 m or m/s^2");
-    }
-    require(std::isfinite(duration) && duration >= 0.0, "a duration is negative or not finite");
-    const MotionState begin = state_in(phase, 0.0);
-    const MotionState end = state_in(phase, duration);
-    require(finite(begin) && finite(end), "a phase is not finite");
-    box_.extend(begin.pose.position).extend(end.pose.position);
-    if (i > 0) {
-      const MotionState before = state_in(phases_[i - 1], mocha::duration_s(phases_[i - 1]));
-      require((before.pose.position - begin.pose.position).norm() <= 1e-3,
-              "jumps in position between phases");
-      require(std::abs(wrap_angle(before.pose.yaw_rad - begin.pose.yaw_rad)) <= 0.01,
-              "jumps in heading between phases");
-      require((before.velocity - begin.velocity).norm() <= 0.01,
-              "jumps in velocity between phases");
-    }
-    phase_starts_.push_back(t += duration);
+    const MotionFault fault = index_phase(i);
+    if (fault != MotionFault::kNone) return fault;
+    phase_starts_.push_back(phase_starts_.back() + mocha::duration_s(phases_[i]));
   }
   const MotionState end = state_in(phases_.back(), mocha::duration_s(phases_.back()));
-  require(end.velocity.norm() <= 1e-3, "does not end at rest");
+  return end.velocity.norm() <= 1e-3 ? MotionFault::kNone : MotionFault::kMoves;
+}
+
+MotionFault Motion::index_phase(std::size_t i) {
+  const Phase& phase = phases_[i];
+  const double duration = mocha::duration_s(phase);
+  if (const auto* drive = std::get_if<DrivePhase>(&phase)) {
+    if (drive->direction != 1 && drive->direction != -1) return MotionFault::kDirection;
+    if (drive->path.pieces() == 0 || !finite(drive->path, box_)) return MotionFault::kOutOfRange;
+  }
+  if (!std::isfinite(duration) || duration < 0.0) return MotionFault::kDuration;
+  const MotionState begin = state_in(phase, 0.0);
+  const MotionState end = state_in(phase, duration);
+  if (!finite(begin) || !finite(end)) return MotionFault::kNotFinite;
+  box_.extend(begin.pose.position).extend(end.pose.position);
+  if (i == 0) return MotionFault::kNone;
+  const MotionState before = state_in(phases_[i - 1], mocha::duration_s(phases_[i - 1]));
+  if ((before.pose.position - begin.pose.position).norm() > 1e-3) return MotionFault::kPositionJump;
+  if (std::abs(wrap_angle(before.pose.yaw_rad - begin.pose.yaw_rad)) > 0.01)
+    return MotionFault::kHeadingJump;
+  return (before.velocity - begin.velocity).norm() <= 0.01 ? MotionFault::kNone
+                                                           : MotionFault::kVelocityJump;
 }
 
 double Motion::end_time() const { return phases_.empty() ? start_time_s_ : phase_starts_.back(); }
@@ -213,6 +260,13 @@ double Motion::cut_time(double t) const {
   if (phases_.empty() || t <= start_time_s_ || t >= end_time()) return t;
   const int i = phase_at(t);
   return std::holds_alternative<TurnPhase>(phases_[i]) ? phase_starts_[i] : t;
+}
+
+bool Motion::can_be_cut(double t) const {
+  if (phases_.empty() || t <= start_time_s_ || t >= end_time()) return true;
+  const int i = phase_at(t);
+  return !std::holds_alternative<TurnPhase>(phases_[i]) ||
+         t - phase_starts_[i] < kShortestPhase_s || phase_starts_[i + 1] - t < kShortestPhase_s;
 }
 
 double Motion::clean_cut(double t) const {

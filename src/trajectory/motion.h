@@ -48,6 +48,27 @@ struct MotionState {
   bool at_rest = true;    ///< not moving and not in the middle of a turn
 };
 
+/// Why phases make no motion.
+enum class MotionFault {
+  kNone,
+  kStartTime,  ///< the start time is not finite
+  kNoPhases,
+  kDirection,     ///< a drive's direction is not +1 or -1
+  kOutOfRange,    ///< a drive is empty, not finite, or beyond 1e12 m or m/s^2
+  kDuration,      ///< a duration is negative or not finite
+  kNotFinite,     ///< where a phase begins or ends
+  kPositionJump,  ///< of more than 1 mm between phases
+  kHeadingJump,   ///< of more than 0.01 rad between phases
+  kVelocityJump,  ///< of more than 0.01 m/s between phases
+  kMoves,         ///< does not end at rest
+  kCutTurn,       ///< a turn in place would be cut
+};
+
+/// In words.
+const char* describe(MotionFault fault);
+
+struct MotionOrFault;
+
 /// What a robot does from start_time_s on: phases without gaps; before the first it stands at the
 /// start, after the last it stands at the end.
 class Motion {
@@ -57,6 +78,10 @@ class Motion {
   /// accelerations of a drive beyond 1e12), with a jump between phases (more than 1 mm, 0.01 rad or
   /// 0.01 m/s), or if the motion does not end at rest.
   Motion(double start_time_s, std::vector<Phase> phases);
+
+  /// The same without throwing; where the phases make no motion, it is empty and the fault says
+  /// why.
+  static MotionOrFault make(double start_time_s, std::vector<Phase> phases);
 
   bool empty() const { return phases_.empty(); }
   double start_time() const { return start_time_s_; }
@@ -91,7 +116,12 @@ class Motion {
   /// std::invalid_argument is thrown.
   std::vector<Phase> phases_between(double t0, double t1) const;
 
+  /// Whether phases_between() can begin or end at absolute time t: no turn in place is under way.
+  bool can_be_cut(double t) const;
+
  private:
+  MotionFault index();
+  MotionFault index_phase(std::size_t i);
   int phase_at(double t) const;
 
   double start_time_s_ = 0.0;
@@ -100,11 +130,18 @@ class Motion {
   Eigen::AlignedBox2d box_;
 };
 
+struct MotionOrFault {
+  Motion motion;
+  MotionFault fault = MotionFault::kNone;
+
+  explicit operator bool() const { return fault == MotionFault::kNone; }
+};
+
 /// Heading of a drive phase at time t within it; continuous through points of rest at its ends.
 double heading(const DrivePhase& drive, double t);
 
 /// Duration of the quintic turn by `yaw_change_rad` within the limits of rate [rad/s] and
-/// acceleration [rad/s^2].
+/// acceleration [rad/s^2], with a thousandth to spare for what messages round.
 double turn_duration_s(double yaw_change_rad, double max_yaw_rate, double max_yaw_acceleration);
 
 /// Wraps into (-pi, pi].

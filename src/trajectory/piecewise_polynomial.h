@@ -8,7 +8,7 @@ namespace mocha {
 using Vector2 = Eigen::Vector2d;
 
 /// A D-dimensional curve p(t) [m] over t in [0, duration()] [s], made of polynomial pieces of
-/// degree 2S - 1 (11).
+/// degree 2S - 1, paper (11).
 ///
 /// Coefficients are kept in normalised time u = t / tau in [0, 1] of each piece: p_i(u) = sum_k
 /// c_i[k] u^k. They relate to the paper's by c_paper[k] = c[k] / tau^k, and stay well scaled

@@ -4,8 +4,8 @@
 
 namespace mocha {
 
-/// Speed and yaw rate of a differential-drive robot whose flat output is the position of its base
-/// (2)(3).
+/// Speed and yaw rate of a differential-drive robot whose flat output is the position of its base,
+/// paper (2)(3).
 struct UnicycleState {
   double speed;     ///< [m/s] along the heading; negative backward
   double yaw_rate;  ///< [rad/s]

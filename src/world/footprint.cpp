@@ -1,5 +1,6 @@
 #include "world/footprint.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -32,6 +33,13 @@ Footprint Footprint::rectangle(double length_m, double width_m, int discs) {
 
 Vector2 cover_centre(const Pose& pose, const Footprint::CoverDisc& disc) {
   return pose.position + disc.offset_m * Vector2(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad));
+}
+
+double Footprint::cover_reach_m() const {
+  double reach_m = 0.0;
+  for (const CoverDisc& disc : cover_)
+    reach_m = std::max(reach_m, std::abs(disc.offset_m) + disc.radius_m);
+  return reach_m;
 }
 
 }  // namespace mocha

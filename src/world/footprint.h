@@ -26,6 +26,9 @@ class Footprint {
   /// Radius of the disc about the base that the robot sweeps when it turns in place.
   double circumscribed_radius_m() const { return circumscribed_radius_m_; }
 
+  /// Radius of the disc about the base that holds all cover discs; they stick out of the body.
+  double cover_reach_m() const;
+
   bool is_disc() const { return corners_.empty(); }
   /// Corners of the true shape in the body frame, counter-clockwise; empty for a disc.
   const std::vector<Vector2>& corners() const { return corners_; }

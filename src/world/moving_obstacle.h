@@ -34,6 +34,8 @@ class MovingObstacle {
   /// Holds all that the disc ever covers [m]: the whole plane where nothing less is known.
   virtual Eigen::AlignedBox2d box() const;
   virtual const std::string& name() const = 0;
+  /// The motion that it has promised; none where it promises nothing.
+  virtual const Motion* promised() const { return nullptr; }
 };
 
 /// Something that moves, and how far the centre of a base has to stay from it.
@@ -54,7 +56,7 @@ class PeerObstacle : public MovingObstacle {
   double rest_time() const override;
   Eigen::AlignedBox2d box() const override;
   const std::string& name() const override { return name_; }
-  const Motion& motion() const { return *motion_; }
+  const Motion* promised() const override { return motion_.get(); }
 
  private:
   std::string name_;

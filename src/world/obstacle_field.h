@@ -42,9 +42,9 @@ class ObstacleField {
   virtual Sample sample(const Vector& p) const = 0;
 
   /// Calls `visit` for each obstacle whose surface is closer to p than `radius_m` >= 0, or around
-  /// p: the terms of (30). A distance that is not a number counts as close. A field that does not
-  /// tell its obstacles apart, such as a map, has only its nearest distance to show, which is the
-  /// default.
+  /// p: the terms of paper (30). A distance that is not a number counts as close. A field that does
+  /// not tell its obstacles apart, such as a map, has only its nearest distance to show, which is
+  /// the default.
   virtual void visit_near(const Vector& p, double radius_m, Visitor visit) const {
     const Sample nearest = sample(p);
     if (!(nearest.distance_m >= radius_m)) visit(nearest);

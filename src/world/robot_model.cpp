@@ -1,11 +1,17 @@
 #include "world/robot_model.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "config/parameter_table.h"
 
 namespace mocha {
 namespace {
+
+// Of an acceleration limit. Braking along a path overshoots its deceleration by up to 15 %, and the
+// path may bend.
+constexpr double kBrakingShare = 0.6;
+constexpr double kBrakingOvershoot = 1.15;  // of a braking curve over its deceleration
 
 LidarModel read_lidar(const ParameterTable& values) {
   LidarModel lidar;
@@ -42,6 +48,17 @@ void check_wheels(const RobotModel& model, const std::string& path) {
   check("max_yaw_rate", 0.5 * limits.track_m * limits.max_yaw_rate);
 }
 
+void check_emergency(const RobotModel& model, const std::string& path) {
+  const double least = model.limits.max_acceleration;
+  const double most = model.max_wheel_acceleration;
+  if (model.emergency_acceleration >= least && model.emergency_acceleration <= most) return;
+  std::ostringstream message;
+  message << path << ": emergency_acceleration = " << model.emergency_acceleration
+          << " m/s^2 is not between max_acceleration = " << least
+          << " and max_wheel_acceleration = " << most;
+  throw ParameterError(message.str());
+}
+
 void check_lidar(const LidarModel& lidar, const std::string& path) {
   std::ostringstream message;
   if (lidar.min_range_m >= lidar.max_range_m) {
@@ -59,6 +76,23 @@ void check_lidar(const LidarModel& lidar, const std::string& path) {
 
 }  // namespace
 
+double RobotModel::braking_deceleration() const { return kBrakingShare * limits.max_acceleration; }
+
+double RobotModel::hard_braking_deceleration() const {
+  return emergency_acceleration / kBrakingOvershoot;
+}
+
+MotionLimits RobotModel::emergency_limits() const {
+  MotionLimits harder = limits;
+  harder.max_acceleration = emergency_acceleration;
+  return harder;
+}
+
+std::optional<StopOptions> RobotModel::stop_options() const {
+  if (!stops_checked) return std::nullopt;
+  return StopOptions{braking_deceleration(), peer_reaction_s};
+}
+
 RobotModel load_robot_model(const std::string& config_directory, const std::string& model) {
   const std::string path = config_directory + "/robots/" + model + ".yaml";
   ParameterTable values = ParameterTable::from_schema(config_directory + "/robot.yaml");
@@ -69,18 +103,22 @@ RobotModel load_robot_model(const std::string& config_directory, const std::stri
                   values.number("max_yaw_rate"),    values.number("max_yaw_acceleration"),
                   values.number("max_wheel_speed"), values.number("track")};
   robot.max_wheel_acceleration = values.number("max_wheel_acceleration");
+  robot.emergency_acceleration = values.number("emergency_acceleration");
   robot.actuator_lag_s = values.number("actuator_lag");
-  robot.command_age_limit_s = values.number("command_age_limit");
+  robot.cmd_timeout_s = values.number("cmd_timeout");
   robot.footprint = read_footprint(values);
   robot.lidar = read_lidar(values);
   robot.margins = {values.number("margin_tracking"), values.number("margin_localisation"),
                    values.number("margin_map"), values.number("margin_clock")};
   robot.peer_clearance_m = values.number("peer_clearance");
+  robot.stops_checked = values.flag("stops_checked");
+  robot.peer_reaction_s = values.number("peer_reaction");
   robot.moving_clearance_m = values.number("moving_clearance");
   robot.map_resolution_m = values.number("map_resolution");
   robot.odometry_noise_distance = values.number("odometry_noise_distance");
   robot.odometry_noise_yaw = values.number("odometry_noise_yaw");
   check_wheels(robot, path);
+  check_emergency(robot, path);
   check_lidar(robot.lidar, path);
   return robot;
 }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 
+#include "trajectory/stop_separation.h"
 #include "world/footprint.h"
 
 namespace mocha {
@@ -50,16 +52,30 @@ struct RobotModel {
   std::string name;
   MotionLimits limits;
   double max_wheel_acceleration;  ///< [m/s^2] rim
+  double emergency_acceleration;  ///< [m/s^2] of the base, in emergency motions
   double actuator_lag_s;
-  double command_age_limit_s;
+  double cmd_timeout_s;
   Footprint footprint;
   LidarModel lidar;
   Margins margins;
   double peer_clearance_m;    ///< kept between the discs of two robots, on top of the margins
+  bool stops_checked;         ///< promises keep robots apart where one of them brakes, too
+  double peer_reaction_s;     ///< from a robot's braking until its peers brake because of it
   double moving_clearance_m;  ///< kept from people and the like, on top of the own margins
   double map_resolution_m;
   double odometry_noise_distance;  ///< [m/sqrt(m)]
   double odometry_noise_yaw;       ///< [rad/sqrt(rad)]
+
+  /// Deceleration [m/s^2] of braking in good time: the braking motion stays within the limits.
+  double braking_deceleration() const;
+  /// Deceleration [m/s^2] of braking where that comes too late: within emergency_limits(), for what
+  /// a braking curve adds between its knots.
+  double hard_braking_deceleration() const;
+  /// What an emergency motion may ask of the robot.
+  MotionLimits emergency_limits() const;
+  /// How this robot and its peers, which are taken to brake like it, are to be able to stop for
+  /// each other; nothing where that is not asked.
+  std::optional<StopOptions> stop_options() const;
 };
 
 /// Loads `<config_directory>/robots/<model>.yaml` under the schema `<config_directory>/robot.yaml`.

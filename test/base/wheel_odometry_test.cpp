@@ -91,7 +91,7 @@ TEST(WheelTravel, WhatWasRolledWhileNobodyListenedIsCaughtUp) {
   EXPECT_EQ(travel.restarts(), 0);
 }
 
-WheelOdometry::Options options() { return {kTrack_m, 2.0, 0.01, 0.05}; }
+WheelOdometry::Options options() { return {kTrack_m, 2.0, 0.01, 0.05, 0.0}; }
 
 /// Drives `speed` and `yaw_rate` for `duration_s` at exact speeds; returns the true pose.
 Pose drive(WheelOdometry& odometry, double speed, double yaw_rate, double duration_s) {

@@ -11,13 +11,13 @@
 #include "optimization/dynamics_penalty.h"
 #include "optimization/obstacle_penalty.h"
 #include "optimization/trajectory_objective.h"
-#include "planning/speed_profile.h"
+#include "planning/candidates/speed_profile.h"
 
 namespace mocha {
 
 /// The optimisation of Table I, in the paper's units: its weights belong to penalties with
 /// dimension.
-struct TableRules {
+struct TableOptions {
   double max_speed = 12.0;        ///< [m/s]
   double max_acceleration = 5.0;  ///< [m/s^2]
   int kappa = 20;
@@ -40,10 +40,10 @@ double length_m(const std::vector<Eigen::Matrix<double, D, 1>>& path) {
 /// Knots at uniform time, `spacing_m` apart on average.
 template <int D>
 InitialKnots<D> knots_on(const std::vector<Eigen::Matrix<double, D, 1>>& path, double spacing_m,
-                         const TableRules& rules) {
+                         const TableOptions& options) {
   MotionLimits limits;
-  limits.max_speed = rules.max_speed;
-  limits.max_acceleration = rules.max_acceleration;
+  limits.max_speed = options.max_speed;
+  limits.max_acceleration = options.max_acceleration;
   limits.max_yaw_rate = std::numeric_limits<double>::infinity();
   const SpeedProfile<D> profile(path, 0.0, limits, spacing_m);
   return profile.knots(static_cast<int>(std::round(length_m<D>(path) / spacing_m)));
@@ -53,43 +53,44 @@ InitialKnots<D> knots_on(const std::vector<Eigen::Matrix<double, D, 1>>& path, d
 template <int D>
 Eigen::Matrix<double, D, Eigen::Dynamic> table_references(const BenchmarkWorld<D>& world,
                                                           const InitialKnots<D>& knots,
-                                                          const TableRules& rules) {
-  ReferenceRules reference_rules;
-  reference_rules.side_depth_m = rules.travel_m;
-  const auto references = choose_references<D>(knots.path, world.field, reference_rules);
+                                                          const TableOptions& options) {
+  ReferenceOptions reference_options;
+  reference_options.side_depth_m = options.travel_m;
+  const auto references = choose_references<D>(knots.path, world.field, reference_options);
   if (!references) throw std::runtime_error("table1: no reference points");
   return *references;
 }
 
-/// J of (14) from rest to rest; with camouflage, or with waypoints as variables.
+/// J of paper (14) from rest to rest; with camouflage, or with waypoints as variables.
 template <int D>
-typename TrajectoryObjective<D, 3>::Setup table_setup(const BenchmarkWorld<D>& world,
-                                                      const InitialKnots<D>& knots, bool camouflage,
-                                                      const TableRules& rules) {
+typename TrajectoryObjective<D, 3>::Options table_objective_options(const BenchmarkWorld<D>& world,
+                                                                    const InitialKnots<D>& knots,
+                                                                    bool camouflage,
+                                                                    const TableOptions& options) {
   const auto to_sixth = [](double limit) { return std::pow(limit, 6); };
-  typename TrajectoryObjective<D, 3>::Setup setup;
-  setup.start.setZero();
-  setup.end.setZero();
-  setup.start.col(0) = world.path.front();
-  setup.end.col(0) = world.path.back();
+  typename TrajectoryObjective<D, 3>::Options objective_options;
+  objective_options.start.setZero();
+  objective_options.end.setZero();
+  objective_options.start.col(0) = world.path.front();
+  objective_options.end.col(0) = world.path.back();
   const auto prey = knots.path.middleCols(1, knots.path.cols() - 2);
   if (camouflage) {
-    setup.knot_map = std::make_shared<CamouflageMap<D>>(
-        prey, table_references<D>(world, knots, rules), rules.travel_m);
+    objective_options.knot_map = std::make_shared<CamouflageMap<D>>(
+        prey, table_references<D>(world, knots, options), options.travel_m);
   } else {
-    setup.knot_map = std::make_shared<WaypointMap<D>>(prey);
+    objective_options.knot_map = std::make_shared<WaypointMap<D>>(prey);
   }
-  setup.effort_weight = rules.w_e;
-  setup.duration_cost = DurationCost::total(rules.w_t);
-  setup.kappa = rules.kappa;
-  setup.metres_per_eta = knots.metres_per_eta();
-  setup.penalties.push_back(std::make_unique<ObstaclePenalty<D>>(
-      rules.w_o * to_sixth(rules.d_s_m), world.field,
-      std::vector<typename ObstaclePenalty<D>::Cover>{{0.0, rules.d_s_m}}, 1.0));
-  setup.penalties.push_back(std::make_unique<DynamicsPenalty<D>>(
-      rules.w_d * to_sixth(rules.max_speed), rules.max_speed,
-      rules.w_d * to_sixth(rules.max_acceleration), rules.max_acceleration));
-  return setup;
+  objective_options.effort_weight = options.w_e;
+  objective_options.duration_cost = DurationCost::total(options.w_t);
+  objective_options.kappa = options.kappa;
+  objective_options.metres_per_eta = knots.metres_per_eta();
+  objective_options.penalties.push_back(std::make_unique<ObstaclePenalty<D>>(
+      options.w_o * to_sixth(options.d_s_m), world.field,
+      std::vector<typename ObstaclePenalty<D>::Cover>{{0.0, options.d_s_m}}, 1.0));
+  objective_options.penalties.push_back(std::make_unique<DynamicsPenalty<D>>(
+      options.w_d * to_sixth(options.max_speed), options.max_speed,
+      options.w_d * to_sixth(options.max_acceleration), options.max_acceleration));
+  return objective_options;
 }
 
 }  // namespace mocha

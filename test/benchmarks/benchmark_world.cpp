@@ -3,9 +3,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "topology/grid_path.h"
-#include "topology/map_terrain.h"
-#include "topology/path_shortening.h"
+#include "topology/paths/grid_path.h"
+#include "topology/paths/path_shortcutting.h"
+#include "topology/static_map/grid_static_map.h"
 
 namespace mocha {
 namespace {
@@ -24,18 +24,19 @@ std::vector<Vector2> front_end(const std::vector<Circle>& circles, double side_m
   for (const Circle& circle : circles) {
     fill_disc(map, circle.centre, circle.radius_m, OccupancyGrid::kOccupied);
   }
-  TravelRules rules;
-  rules.required_clearance_m = clearance_m;
-  rules.preferred_clearance_m = clearance_m;
-  const MapTerrain terrain(std::make_shared<DistanceField>(map, DistanceField::Solid::kOccupied));
+  TravelOptions options;
+  options.required_clearance_m = clearance_m;
+  options.preferred_clearance_m = clearance_m;
+  const GridStaticMap static_map(
+      std::make_shared<DistanceField>(map, DistanceField::Solid::kOccupied));
   const Vector2 start(0.0, 0.0);
   const Vector2 goal(side_m, side_m);
-  const TravelCost cost(terrain, start, {}, rules);
-  const GridPath path = find_grid_path(terrain, start, goal, cost, kLattice_m);
+  const TravelCost cost(static_map, start, {}, options);
+  const GridPath path = find_grid_path(static_map, start, goal, cost, kLattice_m);
   if (path.outcome != GridPath::Outcome::kFound) {
-    throw std::runtime_error("benchmark world: there is no way through");
+    throw std::runtime_error("benchmark world: there is no path through");
   }
-  return shortened(path.points, cost, Cuts<2>({}));
+  return with_shortcuts(path.points, cost, Cuts<2>({}));
 }
 
 /// Start and goal.
@@ -64,24 +65,25 @@ std::vector<Circle> scatter(const Ground& ground, double gap_m, const std::vecto
   throw std::runtime_error("benchmark world: the circles do not fit");
 }
 
-BenchmarkWorld<2> circle_world(int seed, const BenchmarkRules& rules) {
+BenchmarkWorld<2> circle_world(int seed, const BenchmarkOptions& options) {
   std::mt19937 random(seed);
   const Ground ground{100.0, 65, 1.0, 4.0};
-  const std::vector<Circle> circles = scatter(ground, rules.gap_m, corners(ground), random);
+  const std::vector<Circle> circles = scatter(ground, options.gap_m, corners(ground), random);
   return {PrimitiveField<2>({circles.begin(), circles.end()}, 2.0),
-          front_end(circles, ground.side_m, rules.front_end_clearance_m)};
+          front_end(circles, ground.side_m, options.front_end_clearance_m)};
 }
 
-BenchmarkWorld<3> forest_world(int seed, const BenchmarkRules& rules) {
+BenchmarkWorld<3> forest_world(int seed, const BenchmarkOptions& options) {
   constexpr double kStartHeight_m = 2.0;
   constexpr double kClimb_m = 8.0;
   std::mt19937 random(1000 + seed);
   const Ground ground{122.0, 150, 0.4, 1.2};
-  const std::vector<Circle> trunks = scatter(ground, rules.gap_m, corners(ground), random);
+  const std::vector<Circle> trunks = scatter(ground, options.gap_m, corners(ground), random);
   std::vector<Cylinder> cylinders;
   for (const Circle& trunk : trunks) cylinders.push_back({trunk.centre, trunk.radius_m});
   // Trunks have no end, so the way round them is that of the plane, climbing evenly.
-  const std::vector<Vector2> level = front_end(trunks, ground.side_m, rules.front_end_clearance_m);
+  const std::vector<Vector2> level =
+      front_end(trunks, ground.side_m, options.front_end_clearance_m);
   double length_m = 0.0;
   for (std::size_t i = 1; i < level.size(); ++i) length_m += (level[i] - level[i - 1]).norm();
   std::vector<Eigen::Vector3d> path;

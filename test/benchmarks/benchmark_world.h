@@ -29,17 +29,17 @@ struct BenchmarkWorld {
 };
 
 /// What the worlds are made with.
-struct BenchmarkRules {
+struct BenchmarkOptions {
   double front_end_clearance_m = 1.5;  ///< of the path
   double gap_m = 3.2;                  ///< between two obstacles at least
 };
 
 /// 65 circles of 1 to 4 m radius in 100 m x 100 m, crossed from corner to corner: a path of about
 /// 146 m.
-BenchmarkWorld<2> circle_world(int seed, const BenchmarkRules& rules);
+BenchmarkWorld<2> circle_world(int seed, const BenchmarkOptions& options);
 
 /// A forest of upright trunks of 0.4 to 1.2 m radius in 122 m x 122 m, crossed from corner to
 /// corner while climbing: a path of about 178 m.
-BenchmarkWorld<3> forest_world(int seed, const BenchmarkRules& rules);
+BenchmarkWorld<3> forest_world(int seed, const BenchmarkOptions& options);
 
 }  // namespace mocha

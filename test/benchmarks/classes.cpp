@@ -1,4 +1,4 @@
-// Plans on a world file or a saved map and prints, as JSON, the ways of all classes, for
+// Plans on a world file or a saved map and prints, as JSON, the paths of all classes, for
 // scripts/plots classes.
 
 #include <cstdlib>
@@ -8,17 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "perception/map_image.h"
-#include "planning/global_planner.h"
-#include "topology/map_terrain.h"
-#include "topology/primitive_terrain.h"
+#include "perception/mapping/map_image.h"
+#include "planning/global/global_planner.h"
+#include "topology/static_map/grid_static_map.h"
+#include "topology/static_map/primitive_static_map.h"
 #include "world/world_file.h"
 
 namespace mocha {
 namespace {
 
 struct Task {
-  std::shared_ptr<const Terrain> terrain;
+  std::shared_ptr<const StaticMap> static_map;
   RobotModel robot;
   Pose start;
   Vector2 goal;
@@ -33,7 +33,7 @@ Task world_task(const std::string& path, const std::string& config) {
   obstacles.insert(obstacles.end(), world.keep_out.begin(), world.keep_out.end());
   const auto field = std::make_shared<PrimitiveField<2>>(std::move(obstacles), 1.0);
   const WorldRobot& robot = world.robots.front();
-  return {std::make_shared<PrimitiveTerrain>(field, world.bounds), robot.model, robot.start,
+  return {std::make_shared<PrimitiveStaticMap>(field, world.bounds), robot.model, robot.start,
           robot.goal->position};
 }
 
@@ -42,7 +42,7 @@ Task map_task(const std::string& path, const std::string& config, const Vector2&
   const OccupancyGrid map = grown_to_hold(load_map_image(path), {start, goal}, 1.0);
   const auto field = std::make_shared<DistanceField>(map, DistanceField::Solid::kOccupied);
   const Vector2 ahead = goal - start;
-  return {std::make_shared<MapTerrain>(field),
+  return {std::make_shared<GridStaticMap>(field),
           load_robot_model(config, "rover"),
           {start, std::atan2(ahead.y(), ahead.x())},
           goal};
@@ -55,18 +55,19 @@ PlanQuery query_of(const Task& task) {
   return query;
 }
 
-std::vector<PlanCandidate> plan_all(const Task& task, const PlannerRules& rules) {
-  return GlobalPlanner(task.robot, rules)
-      .plan(query_of(task), {task.terrain, {}}, [] { return false; })
+std::vector<PlanCandidate> plan_all(const Task& task, const PlannerOptions& options) {
+  return GlobalPlanner(task.robot, options)
+      .plan(query_of(task), {task.static_map, {}}, [] { return false; })
       .candidates;
 }
 
 /// What is found from the straight line, as planners do that know one class only.
-PlanCandidate plan_straight(const Task& task, const PlannerRules& rules) {
-  const CandidatePlanner planner(task.robot, rules);
+PlanCandidate plan_straight(const Task& task, const PlannerOptions& options) {
+  const CandidatePlanner planner(task.robot, options);
   const std::vector<Vector2> line = {task.start.position, task.goal};
-  const Approach straight{planner.front_end().openings().from_rest({}, task.start, line), 0.0, {}};
-  return planner.plan(query_of(task), straight, {task.terrain, {}}, [] { return false; });
+  const CandidateSeed straight{
+      planner.front_end().start_maneuvers().from_rest({}, task.start, line), 0.0, {}};
+  return planner.plan(query_of(task), straight, {task.static_map, {}}, [] { return false; });
 }
 
 void print(const std::vector<Vector2>& path) {
@@ -86,7 +87,7 @@ void print(const char* key, const std::vector<PlanCandidate>& candidates) {
               << (candidate.reason == PlanReason::kCannotWin ? "true" : "false")
               << ", \"T\": " << (candidate.motion.empty() ? 0.0 : candidate.motion.end_time())
               << ", \"selected\": " << (candidate.selected ? "true" : "false") << ", \"path\": ";
-    print(candidate.motion.empty() ? candidate.way : path_of(candidate.motion, 0.0, 1.0));
+    print(candidate.motion.empty() ? candidate.path : path_of(candidate.motion, 0.0, 1.0));
     std::cout << "}";
     first = false;
   }
@@ -101,15 +102,15 @@ void run(const std::vector<std::string>& arguments) {
   const Task task = arguments.size() == 3 ? world_task(arguments[2], config)
                                           : map_task(arguments[2], config, {number(3), number(4)},
                                                      {number(5), number(6)});
-  PlannerRules rules =
-      PlannerRules::from(ParameterTable::from_schema(config + "/global_planner.yaml"));
-  rules.classes = std::stoi(arguments[1]);
-  rules.threads = 1;  // which of them are cut short does not depend on the machine
+  PlannerOptions options =
+      PlannerOptions::from(ParameterTable::from_schema(config + "/global_planner.yaml"));
+  options.classes = std::stoi(arguments[1]);
+  options.threads = 1;  // which of them are cut short does not depend on the machine
   std::cout << "{\"start\": [" << task.start.position.x() << ", " << task.start.position.y()
             << "], \"goal\": [" << task.goal.x() << ", " << task.goal.y() << "], ";
-  print("candidates", plan_all(task, rules));
+  print("candidates", plan_all(task, options));
   std::cout << ", ";
-  print("straight", {plan_straight(task, rules)});
+  print("straight", {plan_straight(task, options)});
   std::cout << "}\n";
 }
 

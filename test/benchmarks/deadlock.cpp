@@ -13,7 +13,7 @@ constexpr double kLongest_s = 240.0;
 
 FleetScene scene_of(const char* path, int seed) {
   FleetScene scene = fleet_of(load_world(path, "config"), seed);
-  scene.rules.planning_threads = 1;
+  scene.options.planning_threads = 1;
   scene.link = {0.0, 0.03, 0.05};
   scene.longest_s = kLongest_s;
   return scene;

@@ -26,9 +26,10 @@ double seconds_each(const std::function<void()>& work) {
 /// Solves for the curve and maps the gradient of its effort and duration back to the knots.
 class SplineAlone {
  public:
-  SplineAlone(const TrajectoryObjective<2, 3>::Setup& setup, const InitialKnots<2>& knots)
-      : start_(setup.start),
-        end_(setup.end),
+  SplineAlone(const TrajectoryObjective<2, 3>::Options& objective_options,
+              const InitialKnots<2>& knots)
+      : start_(objective_options.start),
+        end_(objective_options.end),
         knots_(knots.path.middleCols(1, knots.path.cols() - 2)),
         durations_(knots.durations_s),
         by_piece_(durations_.size()),
@@ -62,21 +63,21 @@ class SplineAlone {
 
 /// Where an optimisation is after a while: what evaluations are usually made of.
 Eigen::VectorXd halfway(TrajectoryObjective<2, 3>& objective, const InitialKnots<2>& knots) {
-  OptimizerRules rules;
-  rules.max_evaluations = 60;
-  return optimize<2, 3>(objective, objective.initial(knots.durations_s), rules).variables;
+  OptimizerOptions options;
+  options.max_evaluations = 60;
+  return optimize<2, 3>(objective, objective.initial(knots.durations_s), options).variables;
 }
 
 void run() {
-  const TableRules rules;
+  const TableOptions options;
   std::printf("{\"rows\": [");
   for (const bool camouflage : {true, false}) {
     for (int seed = 1; seed <= 3; ++seed) {
       const BenchmarkWorld<2> world = circle_world(seed, {});
-      const InitialKnots<2> knots = knots_on<2>(world.path, kSpacing_m, rules);
-      auto setup = table_setup<2>(world, knots, camouflage, rules);
-      SplineAlone spline(setup, knots);
-      TrajectoryObjective<2, 3> objective(std::move(setup));
+      const InitialKnots<2> knots = knots_on<2>(world.path, kSpacing_m, options);
+      auto objective_options = table_objective_options<2>(world, knots, camouflage, options);
+      SplineAlone spline(objective_options, knots);
+      TrajectoryObjective<2, 3> objective(std::move(objective_options));
       const Eigen::VectorXd x = halfway(objective, knots);
       Eigen::VectorXd gradient(x.size());
       double sum = 0.0;

@@ -1,4 +1,4 @@
-// Robots that cross each other's ways over networks that delay and lose, under the two-phase
+// Robots that cross each other's paths over networks that delay and lose, under the two-phase
 // protocol of this package and the one-phase one of the paper. Prints JSON. Arguments: protocol
 // (one_phase or two_phase), delay [s], loss, first seed, number of seeds.
 
@@ -16,14 +16,14 @@ constexpr double kJitter_s = 0.02;  // of the delay, upward
 
 /// Settling takes a message to each peer and its answer; a lost one is sent again with the next
 /// heartbeat.
-FleetRules rules_for(Protocol protocol, double delay_s, double loss) {
-  FleetRules rules;
-  rules.protocol = protocol;
-  rules.delta_dc_s = delay_s + kJitter_s + 0.04;
-  rules.settle_s = 0.25 + 2.0 * (delay_s + kJitter_s) + 1.5 * loss;
-  rules.tracking_error_m = kTrackingError_m;
-  rules.planning_threads = 1;
-  return rules;
+FleetOptions rules_for(Protocol protocol, double delay_s, double loss) {
+  FleetOptions options;
+  options.protocol = protocol;
+  options.delta_dc_s = delay_s + kJitter_s + 0.04;
+  options.settle_s = 0.25 + 2.0 * (delay_s + kJitter_s) + 1.5 * loss;
+  options.tracking_error_m = kTrackingError_m;
+  options.planning_threads = 1;
+  return options;
 }
 
 /// By how much each robot arrives later than alone, with nobody to ask, on average.
@@ -32,7 +32,7 @@ double time_lost_s(const FleetWorld& world, const FleetRun& run) {
   for (std::size_t i = 0; i < run.agents.size(); ++i) {
     FleetScene alone;
     alone.agents = {world.scene.agents[i]};
-    alone.rules.planning_threads = 1;
+    alone.options.planning_threads = 1;
     lost_s += run.agents[i].time_s - run_fleet(alone).agents[0].time_s;
   }
   return lost_s / run.agents.size();
@@ -40,7 +40,7 @@ double time_lost_s(const FleetWorld& world, const FleetRun& run) {
 
 void print_row(Protocol protocol, const char* name, double delay_s, double loss, int seed) {
   FleetWorld world = crossing_robots(seed);
-  world.scene.rules = rules_for(protocol, delay_s, loss);
+  world.scene.options = rules_for(protocol, delay_s, loss);
   world.scene.link = {delay_s, delay_s + kJitter_s, loss};
   const FleetRun run = run_fleet(world.scene);
   int breaches = 0;

@@ -4,15 +4,18 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "benchmarks/one_phase.h"
-#include "fleet/commitment.h"
-#include "fleet/datagram_link.h"
-#include "planning/global_planner.h"
-#include "planning/local_replanner.h"
-#include "planning/pursuit.h"
+#include "control/lease.h"
+#include "fleet/protocol/commitment_protocol.h"
+#include "fleet/wire/datagram_link.h"
+#include "planning/executive/goal_executive.h"
+#include "planning/global/global_planner.h"
+#include "planning/replanner/local_replanner.h"
+#include "world/distance_field.h"
 #include "world/occupancy_grid.h"
 
 namespace mocha {
@@ -23,7 +26,7 @@ struct FleetMap {
 
   std::shared_ptr<const DistanceField> obstacles;
   std::shared_ptr<const DistanceField> unseen;
-  std::shared_ptr<const Terrain> terrain;
+  std::shared_ptr<const StaticMap> static_map;
 };
 
 struct FleetAgent {
@@ -35,7 +38,7 @@ struct FleetAgent {
 enum class Protocol { kOnePhase, kTwoPhase };
 
 /// How a fleet runs; whatever is not named here is as config/ says.
-struct FleetRules {
+struct FleetOptions {
   Protocol protocol = Protocol::kTwoPhase;
   double delta_dc_s = 0.06;
   double settle_s = 0.3;          ///< settle_time of the local replanner
@@ -61,7 +64,7 @@ class FleetRobot {
  public:
   using Bytes = std::vector<std::uint8_t>;
 
-  FleetRobot(std::string name, const FleetAgent& agent, const FleetRules& rules);
+  FleetRobot(std::string name, const FleetAgent& agent, const FleetOptions& options);
 
   // Each returns the datagrams for all others.
   std::vector<Bytes> hear(const Bytes& datagram, double now_s);
@@ -71,8 +74,10 @@ class FleetRobot {
   /// A step of the global planner.
   std::vector<Bytes> pursue(double now_s);
 
-  /// Where it really is, and how it moves. Brakes from here on where its lease has expired.
-  RobotState state(double now_s);
+  /// Where it really is, and how it moves.
+  RobotState state(double now_s) const;
+  /// It has heard of a promise that meets its own since its last step: another is due at once.
+  bool breached() const { return breached_; }
 
   bool reached() const { return reached_; }
   const PlanningRecord& record() const { return record_; }
@@ -82,10 +87,12 @@ class FleetRobot {
   std::vector<Bytes> apply(const CommitmentActions& actions, double now_s);
   void report(const CommitmentEvent& event, double now_s);
   void adopt(std::uint32_t sequence, const Motion& committed, double now_s);
+  Proposal proposal(std::uint32_t sequence, const Motion& motion) const;
   void refresh_peers(double now_s);
   PlanResult plan(const PlanQuery& query);
+  PlanningScene scene() const { return {agent_.map->static_map, others_}; }
   const PeerTable& peers() const;
-  const PromiseChain& binding() const;
+  const ReservationChain& binding() const;
   template <typename Call>
   auto timed(double& took_s, Call call) const;
   template <typename Call>
@@ -94,18 +101,19 @@ class FleetRobot {
   const std::string name_;
   const RobotModel robot_;
   const FleetAgent agent_;
-  const FleetRules rules_;
+  const FleetOptions options_;
   const GlobalPlanner planner_;
-  Pursuit pursuit_;
+  GoalExecutive executive_;
   LocalReplanner replanner_;
-  std::variant<Commitment, OnePhase> protocol_;
+  std::variant<CommitmentProtocol, OnePhase> protocol_;
   DatagramLink link_;
   const double lease_s_;
   Motion driven_;  // what the tracker follows
-  double leased_until_s_ = 0.0;
-  bool brakes_ = false;  // since the lease expired, until the next motion
+  MotionId driven_id_;
+  LeaseWatch lease_;
+  bool breached_ = false;
   std::uint32_t proposed_ = 0;
-  std::map<std::string, PromiseId> known_;
+  std::vector<std::pair<std::string, TrajectoryId>> known_;
   std::vector<std::shared_ptr<const MovingObstacle>> others_;
   double refresh_at_s_ = 0.0;
   bool reached_ = false;

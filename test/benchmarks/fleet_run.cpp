@@ -14,7 +14,7 @@ namespace {
 constexpr double kBegin_s = 1.7e9;
 constexpr int kStep_ms = 10;  // of the network and of what is watched
 constexpr int kTick_ms = 20;  // as the nodes' periods
-constexpr int kPursuit_ms = 50;
+constexpr int kExecutive_ms = 50;
 constexpr int kProposal_ms = 100;
 constexpr int kSample_ms = 100;
 constexpr double kStanding_mps = 1e-3;
@@ -27,7 +27,7 @@ class Fleet {
     for (std::size_t i = 0; i < scene.agents.size(); ++i) {
       std::string number = std::to_string(i + 1);
       number.insert(0, digits - number.size(), '0');
-      robots_.emplace_back("ugv" + number, scene.agents[i], scene.rules);
+      robots_.emplace_back("ugv" + number, scene.agents[i], scene.options);
       // Nobody looks at the same moment as all the others.
       late_ms_.push_back(static_cast<int>(random_() % (kProposal_ms / kStep_ms)) * kStep_ms);
     }
@@ -71,8 +71,8 @@ class Fleet {
     const int ms = ms_ + late_ms_[i];
     const bool was_there = robot.reached();
     if (ms % kTick_ms == 0) send(i, robot.tick(now_s()));
-    if (ms % kPursuit_ms == 0) send(i, robot.pursue(now_s()));
-    if (ms % kProposal_ms == 0) send(i, robot.propose(now_s()));
+    if (ms % kExecutive_ms == 0) send(i, robot.pursue(now_s()));
+    if (ms % kProposal_ms == 0 || robot.breached()) send(i, robot.propose(now_s()));
     if (!was_there) run_.agents[i].time_s = run_.time_s;
   }
 

@@ -13,7 +13,7 @@ namespace mocha {
 /// A fleet in one process: robots with all their planners, no ROS, simulated time.
 struct FleetScene {
   std::vector<FleetAgent> agents;
-  FleetRules rules;
+  FleetOptions options;
   NetworkLink link;
   /// Who is farther away hears nothing.
   double reach_m = std::numeric_limits<double>::infinity();

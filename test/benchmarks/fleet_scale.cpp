@@ -24,7 +24,7 @@ void print_row(double time_s, double reach_m, int seed, int count) {
   FleetWorld world = spread_robots(count, seed);
   world.scene.longest_s = time_s;
   world.scene.reach_m = reach_m;
-  world.scene.rules.planning_threads = 1;
+  world.scene.options.planning_threads = 1;
   const std::size_t before = memory_bytes();
   std::size_t after = before;
   const FleetRun run = run_fleet(world.scene, [&] { after = memory_bytes(); });

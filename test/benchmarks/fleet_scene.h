@@ -24,7 +24,7 @@ FleetWorld crossing_robots(int seed);
 /// what the network does follows the seed. Every robot is a rover.
 FleetScene fleet_of(const World& world, int seed);
 
-/// So many robots, each on 40 m^2 with a pillar, on their ways to places 8 m away; each knows the
+/// So many robots, each on 40 m^2 with a pillar, on their way to places 8 m away; each knows the
 /// map around its own way.
 FleetWorld spread_robots(int count, int seed);
 

@@ -7,8 +7,8 @@
 #include <cstdlib>
 
 #include "benchmarks/median.h"
-#include "perception/localisation_scene.h"
-#include "perception/scan_localizer.h"
+#include "perception/localization/localisation_scene.h"
+#include "perception/localization/scan_localizer.h"
 
 namespace mocha {
 namespace {
@@ -65,16 +65,16 @@ void print_run(const char* kind, int seed, const Run& run, bool first) {
 }
 
 void print_rows(const std::string& world_path, const std::string& model_name, int first, int count,
-                const std::vector<Vector2>& way) {
-  World world = one_robot_world(world_path, {way[0], 0.0}, model_name);
+                const std::vector<Vector2>& path) {
+  World world = one_robot_world(world_path, {path[0], 0.0}, model_name);
   world.moving.clear();
   const RobotModel& model = world.robots[0].model;
   const auto options =
       ScanLocalizerOptions::from(ParameterTable::from_schema("config/scan_localizer.yaml"), model);
-  const OccupancyGrid map = map_of(drive_through(world, way, 1000), model);
+  const OccupancyGrid map = map_of(drive_through(world, path, 1000), model);
   std::printf("{\"rows\": [");
   for (int seed = first; seed < first + count; ++seed) {
-    const std::vector<DriveScan> drive = drive_through(world, way, seed);
+    const std::vector<DriveScan> drive = drive_through(world, path, seed);
     ScanLocalizer localizer(options);
     localizer.set_map(map);
     print_run("drive", seed, follow(localizer, drive, model.lidar, 0), seed == first);
@@ -93,12 +93,12 @@ void print_rows(const std::string& world_path, const std::string& model_name, in
 
 int main(int argc, char** argv) {
   if (argc < 7) return 2;
-  std::vector<mocha::Vector2> way;
+  std::vector<mocha::Vector2> path;
   for (int i = 5; i < argc; ++i) {
     double x = 0.0;
     double y = 0.0;
     if (std::sscanf(argv[i], "%lf,%lf", &x, &y) != 2) return 2;
-    way.emplace_back(x, y);
+    path.emplace_back(x, y);
   }
-  mocha::print_rows(argv[1], argv[2], std::atoi(argv[3]), std::atoi(argv[4]), way);
+  mocha::print_rows(argv[1], argv[2], std::atoi(argv[3]), std::atoi(argv[4]), path);
 }

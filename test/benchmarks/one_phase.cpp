@@ -11,9 +11,9 @@ constexpr double kRounding_m = 1e-3;  // who is too close already may come no cl
 
 }  // namespace
 
-OnePhase::OnePhase(CommitmentSettings settings)
-    : settings_(std::move(settings)),
-      peers_(settings_.agent, settings_.epoch, settings_.reach_timeout_s) {}
+OnePhase::OnePhase(CommitmentOptions options)
+    : options_(std::move(options)),
+      peers_(options_.agent, options_.epoch, options_.reach_timeout_s) {}
 
 CommitmentActions OnePhase::propose(const Proposal& proposal, double now) {
   CommitmentActions actions = tick(now);
@@ -29,58 +29,59 @@ CommitmentActions OnePhase::propose(const Proposal& proposal, double now) {
       event.conflict = *found;
     }
   }
-  if (event.refusal == Refusal::kNone) event = bind(proposal, PromiseState::kCommitted, actions);
+  if (event.refusal == Refusal::kNone) event = bind(proposal, TrajectoryState::kCommitted, actions);
   actions.events.push_back(std::move(event));
   return actions;
 }
 
 CommitmentActions OnePhase::brake(const Proposal& proposal, double now) {
   CommitmentActions actions = tick(now);
-  actions.events.push_back(bind(proposal, PromiseState::kEmergency, actions));
+  actions.events.push_back(bind(proposal, TrajectoryState::kEmergency, actions));
   return actions;
 }
 
-CommitmentActions OnePhase::receive(const Promise& promise, double now) {
+CommitmentActions OnePhase::receive(const CommittedTrajectory& promise, double now) {
   const bool news = peers_.receive(promise, now) == PeerTable::Verdict::kNews;
   CommitmentActions actions = tick(now);
   if (!news || !is_binding(promise.state) || binding_.empty()) return actions;
-  const Promise& mine = binding_.newest();
+  const CommittedTrajectory& mine = binding_.newest();
   if (auto found = conflict({0, mine.footprint_radius_m, mine.motion}, promise.agent, now)) {
     CommitmentEvent event;
     event.kind = CommitmentEvent::Kind::kBreached;
-    event.promise = mine;
+    event.trajectory = mine;
     event.conflict = *found;
     actions.events.push_back(std::move(event));
   }
   return actions;
 }
 
-CommitmentActions OnePhase::receive(const Beat&, double now) { return tick(now); }
+CommitmentActions OnePhase::receive(const Heartbeat&, double now) { return tick(now); }
 
 CommitmentActions OnePhase::tick(double now) {
-  if (!listen_until_s_) listen_until_s_ = now + settings_.reach_timeout_s;
+  if (!listen_until_s_) listen_until_s_ = now + options_.reach_timeout_s;
   peers_.prune(now);
   binding_.prune(now);
   CommitmentActions actions;
   if (binding_.empty() || now < next_resend_s_) return actions;
-  next_resend_s_ = now + settings_.resend_period_s;
-  for (const Claim& claim : binding_.claims()) actions.promises.push_back(claim.promise);
+  next_resend_s_ = now + options_.resend_period_s;
+  for (const Reservation& reservation : binding_.reservations())
+    actions.trajectories.push_back(reservation.trajectory);
   return actions;
 }
 
-CommitmentEvent OnePhase::bind(const Proposal& proposal, PromiseState state,
+CommitmentEvent OnePhase::bind(const Proposal& proposal, TrajectoryState state,
                                CommitmentActions& actions) {
-  Promise promise;
-  promise.agent = settings_.agent;
-  promise.id = {settings_.epoch, ++sequence_};
+  CommittedTrajectory promise;
+  promise.agent = options_.agent;
+  promise.id = {options_.epoch, ++sequence_};
   promise.state = state;
   promise.footprint_radius_m = proposal.footprint_radius_m;
   promise.motion = proposal.motion;
   binding_.bind(promise);
-  actions.promises.push_back(promise);
+  actions.trajectories.push_back(promise);
   CommitmentEvent event;
   event.kind = CommitmentEvent::Kind::kSettled;
-  event.promise = std::move(promise);
+  event.trajectory = std::move(promise);
   event.proposal = proposal;
   return event;
 }
@@ -96,16 +97,17 @@ Refusal OnePhase::refusal_by_itself(const Motion& motion, double now) const {
 
 std::optional<Conflict> OnePhase::conflict(const Proposal& proposal, const std::string& name,
                                            double now) const {
-  const Promise mine{settings_.agent, {}, PromiseState::kProposed, 0, proposal.footprint_radius_m,
-                     proposal.motion};
+  const CommittedTrajectory mine{
+      options_.agent, {}, TrajectoryState::kProposed, 0, proposal.footprint_radius_m,
+      proposal.motion};
   const Vector2 here = binding_.empty() ? proposal.motion->position(now) : binding_.position(now);
   const Peer& peer = peers_.peers().at(name);
-  for (const Claim& theirs : peer.binding.claims()) {
-    const double demanded = proposal.footprint_radius_m + theirs.promise.footprint_radius_m +
-                            settings_.peer_clearance_m;
+  for (const Reservation& theirs : peer.binding.reservations()) {
+    const double demanded = proposal.footprint_radius_m + theirs.trajectory.footprint_radius_m +
+                            options_.peer_clearance_m;
     const double apart = (here - peer.binding.position(now)).norm();
     auto found =
-        first_conflict(claim_of(mine), theirs, std::min(demanded, apart - kRounding_m), now);
+        first_conflict(reservation_of(mine), theirs, std::min(demanded, apart - kRounding_m), now);
     if (found) return found;
   }
   return std::nullopt;

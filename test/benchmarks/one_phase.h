@@ -1,36 +1,36 @@
 #pragma once
 
-#include "fleet/commitment.h"
+#include "fleet/protocol/commitment_protocol.h"
 
 namespace mocha {
 
-/// The paper's protocol (IV-D 4), to be measured against: a trajectory that meets nothing known so
-/// far is binding at once, and then broadcast. Nobody is asked, so that of two robots that promise
-/// within one message's delay neither knows of the other. Calls and answers are those of
+/// The paper's protocol (paper IV-D 4), to be measured against: a trajectory that meets nothing
+/// known so far is binding at once, and then broadcast. Nobody is asked, so that of two robots that
+/// promise within one message's delay neither knows of the other. Calls and answers are those of
 /// Commitment; what is in force is sent again every resend_period, heartbeats there are none.
 class OnePhase {
  public:
-  /// Of the settings, those about settling have no meaning.
-  explicit OnePhase(CommitmentSettings settings);
+  /// Of the options, those about settling have no meaning.
+  explicit OnePhase(CommitmentOptions options);
 
   CommitmentActions propose(const Proposal& proposal, double now);
   CommitmentActions brake(const Proposal& proposal, double now);
-  CommitmentActions receive(const Promise& promise, double now);
-  CommitmentActions receive(const Beat& beat, double now);
+  CommitmentActions receive(const CommittedTrajectory& promise, double now);
+  CommitmentActions receive(const Heartbeat& heartbeat, double now);
   CommitmentActions tick(double now);
 
   const PeerTable& peers() const { return peers_; }
-  const PromiseChain& binding() const { return binding_; }
+  const ReservationChain& binding() const { return binding_; }
 
  private:
-  CommitmentEvent bind(const Proposal& proposal, PromiseState state, CommitmentActions& actions);
+  CommitmentEvent bind(const Proposal& proposal, TrajectoryState state, CommitmentActions& actions);
   Refusal refusal_by_itself(const Motion& motion, double now) const;
   std::optional<Conflict> conflict(const Proposal& proposal, const std::string& peer,
                                    double now) const;
 
-  CommitmentSettings settings_;
+  CommitmentOptions options_;
   PeerTable peers_;
-  PromiseChain binding_;
+  ReservationChain binding_;
   std::uint32_t sequence_ = 0;
   std::optional<double> listen_until_s_;
   double next_resend_s_ = 0.0;

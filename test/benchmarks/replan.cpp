@@ -36,17 +36,17 @@ struct Case {
   ReplanRun run;
 };
 
-SolverRules solver_rules(double undisturbed_s) {
+SolverOptions solver_options(double undisturbed_s) {
   const RobotModel robot = rover();
   const MarginBudget margins = MarginBudget::of(robot);
-  SolverRules rules;
-  rules.to_walls_m = margins.static_margin_m();
-  rules.to_movers_m = robot.moving_clearance_m + margins.own_margin_m();
-  rules.max_speed = robot.limits.max_speed;
-  rules.max_acceleration = robot.limits.max_acceleration;
-  rules.max_yaw_rate = robot.limits.max_yaw_rate;
-  rules.longest_s = undisturbed_s + kSolverLost_s;
-  return rules;
+  SolverOptions options;
+  options.to_walls_m = margins.static_margin_m();
+  options.to_movers_m = robot.moving_clearance_m + margins.own_margin_m();
+  options.max_speed = robot.limits.max_speed;
+  options.max_acceleration = robot.limits.max_acceleration;
+  options.max_yaw_rate = robot.limits.max_yaw_rate;
+  options.longest_s = undisturbed_s + kSolverLost_s;
+  return options;
 }
 
 const char* text(bool value) { return value ? "true" : "false"; }
@@ -61,7 +61,7 @@ void print_number(const char* key, double value, bool known) {
 
 void print_row(int number) {
   const Case found(number);
-  const auto solved_s = arrival_time_s(found.scene, solver_rules(found.undisturbed.time_s));
+  const auto solved_s = arrival_time_s(found.scene, solver_options(found.undisturbed.time_s));
   double worst_s = 0.0;
   for (const Replan& replan : found.run.replans) worst_s = std::max(worst_s, replan.t_plan_s);
   std::printf("\n  {\"scene\": %d, \"group\": \"%s\", \"solvable\": %s, \"contact\": %s", number,
@@ -145,15 +145,16 @@ Eigen::MatrixXd columns_of(const std::vector<Vector2>& places) {
   return columns;
 }
 
-/// Of each local plan that was taken, the drive up to the anchor, and the ways of the front end.
+/// Of each local plan that was taken, the drive up to the rejoin point, and the paths of the front
+/// end.
 void print_replans(const ReplanRun& run) {
   constexpr int kPlaces = 80;
   std::printf(",\n\"replans\": [");
   const char* comma = "";
   for (const Replan& replan : run.replans) {
     if (!replan.taken) continue;
-    std::printf("%s{\"t\": %g, \"anchor\": [%g, %g]", comma, replan.t, replan.anchor.x(),
-                replan.anchor.y());
+    std::printf("%s{\"t\": %g, \"rejoin_point\": [%g, %g]", comma, replan.t,
+                replan.rejoin_point.x(), replan.rejoin_point.y());
     comma = ",\n";
     std::vector<Vector2> path;
     const double begin_s = replan.motion.start_time();
@@ -162,10 +163,10 @@ void print_replans(const ReplanRun& run) {
       path.push_back(replan.motion.at(t).pose.position);
     }
     print_columns("path", columns_of(path));
-    std::printf(", \"ways\": [");
-    for (const auto& way : replan.ways) {
-      std::printf("%s{\"points\": %zu", &way == &replan.ways.front() ? "" : ", ", way.size());
-      print_columns("path", columns_of(way));
+    std::printf(", \"paths\": [");
+    for (const auto& path : replan.paths) {
+      std::printf("%s{\"points\": %zu", &path == &replan.paths.front() ? "" : ", ", path.size());
+      print_columns("path", columns_of(path));
       std::printf("}");
     }
     std::printf("]}");
@@ -175,13 +176,13 @@ void print_replans(const ReplanRun& run) {
 
 void print_trace(int number) {
   const Case found(number);
-  const SolverRules rules = solver_rules(found.undisturbed.time_s);
+  const SolverOptions options = solver_options(found.undisturbed.time_s);
   std::printf("{\"scene\": %d, \"group\": \"%s\", \"kind\": \"%s\", \"robot_radius\": %g", number,
               found.scene.group.c_str(), found.scene.kind.c_str(), ReplanScene::kRobotRadius_m);
   std::printf(
       ", \"max_speed\": %g, \"required_m\": %g, \"wall_margin_m\": %g, \"contact\": %s, "
       "\"reached\": %s",
-      rules.max_speed, rules.to_movers_m, rules.to_walls_m, text(found.run.contact),
+      options.max_speed, options.to_movers_m, options.to_walls_m, text(found.run.contact),
       text(found.run.reached));
   std::printf(", \"goal\": [%g, %g]", found.scene.goal.x(), found.scene.goal.y());
   print_obstacles(found.scene);

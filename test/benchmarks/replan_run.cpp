@@ -74,14 +74,15 @@ class StageClock {
 Replan replan_of(const ClosedLoop& loop, double t) {
   const auto& local = loop.output.local;
   if (!local) return {t, loop.replanner_took_s, false, Vector2::Zero(), 0.0, {}, false, {}};
-  Replan replan{t, loop.replanner_took_s, false, local->anchor.place(), local->rejoins_s, {}, false,
-                {}};
+  Replan replan{
+      t, loop.replanner_took_s, false, local->rejoin_point.place(), local->rejoins_s, {}, false,
+      {}};
   replan.taken = loop.output.swerves;
   replan.other_class = replan.taken && local->switches_class;
   if (replan.taken) replan.motion = local->motion;
   for (const LocalCandidate& candidate : local->candidates) {
-    replan.ways.emplace_back();
-    for (const TimedPoint& point : candidate.way) replan.ways.back().push_back(point.position);
+    replan.paths.emplace_back();
+    for (const TimedPoint& point : candidate.path) replan.paths.back().push_back(point.position);
   }
   return replan;
 }

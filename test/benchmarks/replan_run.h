@@ -17,16 +17,16 @@ struct RunSample {
   double to_movers_m;  ///< footprint to the nearest true disc
 };
 
-/// A step in which the replanner planned locally; without ways where nothing came of it.
+/// A step in which the replanner planned locally; without paths where nothing came of it.
 struct Replan {
   double t;
-  double t_plan_s;                         ///< wall time of the step
-  bool taken;                              ///< a way was found, proved and proposed
-  Vector2 anchor;                          ///< of the way taken
-  double rejoins_s;                        ///< absolute time at which that is at the anchor
-  Motion motion;                           ///< absolute times; empty unless taken
-  bool other_class;                        ///< than what was followed before
-  std::vector<std::vector<Vector2>> ways;  ///< of the front end
+  double t_plan_s;                          ///< wall time of the step
+  bool taken;                               ///< a way was found, proved and proposed
+  Vector2 rejoin_point;                     ///< of the way taken
+  double rejoins_s;                         ///< absolute time at which that is at the rejoin point
+  Motion motion;                            ///< absolute times; empty unless taken
+  bool other_class;                         ///< than what was followed before
+  std::vector<std::vector<Vector2>> paths;  ///< of the front end
 };
 
 /// How a scene went in closed loop.

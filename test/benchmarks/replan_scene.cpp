@@ -80,7 +80,7 @@ class Maker {
     draw_pillars();
   }
 
-  /// Openings opposite each other, for those who cross.
+  /// StartManeuvers opposite each other, for those who cross.
   void draw_doors() {
     const int doors = scene_.kind == "crossing" ? draw_.integer(1, 2) : draw_.integer(0, 1);
     for (int i = 0; i < doors; ++i) {

@@ -100,14 +100,14 @@ class Walls {
 
 class Search {
  public:
-  Search(const ReplanScene& scene, const SolverRules& rules)
+  Search(const ReplanScene& scene, const SolverOptions& options)
       : scene_(scene),
-        rules_(rules),
-        walls_(scene, ReplanScene::kRobotRadius_m + rules.to_walls_m),
-        last_step_(std::min(255, static_cast<int>(rules.longest_s / kStep_s))) {
+        options_(options),
+        walls_(scene, ReplanScene::kRobotRadius_m + options.to_walls_m),
+        last_step_(std::min(255, static_cast<int>(options.longest_s / kStep_s))) {
     for (int i = 0; i <= last_step_ * kChecks; ++i) {
       for (const SceneMover& mover : scene.movers) {
-        const double keep_m = mover.radius_m + ReplanScene::kRobotRadius_m + rules.to_movers_m;
+        const double keep_m = mover.radius_m + ReplanScene::kRobotRadius_m + options.to_movers_m;
         movers_.push_back({truth(mover, i * kStep_s / kChecks).centre, keep_m * keep_m});
       }
     }
@@ -142,18 +142,18 @@ class Search {
 
   bool arrived(const State& state) const {
     return state.vx == 0 && state.vy == 0 &&
-           (state.place() - scene_.goal).norm() <= rules_.goal_tolerance_m;
+           (state.place() - scene_.goal).norm() <= options_.goal_tolerance_m;
   }
 
   /// Least time to stand at the goal, if nothing were in the way and the speed pointed there.
   double to_go_s(const State& state) const {
     const double far_m =
-        std::max(0.0, (state.place() - scene_.goal).norm() - rules_.goal_tolerance_m);
+        std::max(0.0, (state.place() - scene_.goal).norm() - options_.goal_tolerance_m);
     const double push = std::sqrt(2.0) * kPush;
     const double speed = state.velocity().norm();
     const double brake_m = 0.5 * speed * speed / push;
     if (far_m <= brake_m) return speed / push;
-    const double top = std::min(rules_.max_speed, std::sqrt(push * far_m + 0.5 * speed * speed));
+    const double top = std::min(options_.max_speed, std::sqrt(push * far_m + 0.5 * speed * speed));
     const double ramps_m = (top * top - 0.5 * speed * speed) / push;
     return (2.0 * top - speed) / push + std::max(0.0, far_m - ramps_m) / top;
   }
@@ -165,15 +165,15 @@ class Search {
 
   void add(const State& state) {
     const double bound_s = state.step * kStep_s + to_go_s(state);
-    if (bound_s > rules_.longest_s || state.step > last_step_) return;
+    if (bound_s > options_.longest_s || state.step > last_step_) return;
     if (seen_.insert(key(state)).second) open_.push({bound_s, state});
   }
 
   void expand(const State& state, int ax, int ay) {
     if (state.step == 0 && (ax != 0 || ay != 0)) return;  // who promises first reacts no sooner
-    if (kPush * std::hypot(ax, ay) > rules_.max_acceleration) return;
+    if (kPush * std::hypot(ax, ay) > options_.max_acceleration) return;
     const State next = state.pushed(ax, ay);
-    if (next.velocity().norm() > rules_.max_speed + 1e-9 || next.step > last_step_) return;
+    if (next.velocity().norm() > options_.max_speed + 1e-9 || next.step > last_step_) return;
     if (seen_.count(key(next)) > 0 || !turns(state, next) || !clear(state, ax, ay)) return;
     add(next);
   }
@@ -187,11 +187,12 @@ class Search {
     if (b.isZero()) return true;
     if (from.stands()) {
       const int apart = (State::eighths(to.vx, to.vy) - from.heading + 8) % 4;
-      const double turn_s = 1.875 * 0.25 * M_PI * std::min(apart, 4 - apart) / rules_.max_yaw_rate;
+      const double turn_s =
+          1.875 * 0.25 * M_PI * std::min(apart, 4 - apart) / options_.max_yaw_rate;
       return from.rest >= std::lround(turn_s / kStep_s);
     }
     const double cross = a.x() * b.y() - a.y() * b.x();
-    return std::abs(std::atan2(cross, a.dot(b))) <= rules_.max_yaw_rate * kStep_s;
+    return std::abs(std::atan2(cross, a.dot(b))) <= options_.max_yaw_rate * kStep_s;
   }
 
   bool clear(const State& from, int ax, int ay) const {
@@ -209,7 +210,7 @@ class Search {
   }
 
   const ReplanScene& scene_;
-  const SolverRules rules_;
+  const SolverOptions options_;
   const Walls walls_;
   const int last_step_;
   std::vector<Kept> movers_;  // all of them at each check, one check after the other
@@ -219,8 +220,8 @@ class Search {
 
 }  // namespace
 
-std::optional<double> arrival_time_s(const ReplanScene& scene, const SolverRules& rules) {
-  return Search(scene, rules).arrival_time_s();
+std::optional<double> arrival_time_s(const ReplanScene& scene, const SolverOptions& options) {
+  return Search(scene, options).arrival_time_s();
 }
 
 }  // namespace mocha

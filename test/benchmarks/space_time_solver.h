@@ -7,7 +7,7 @@
 namespace mocha {
 
 /// What a solution must keep to.
-struct SolverRules {
+struct SolverOptions {
   double to_walls_m = 0.1;   ///< footprint to static obstacle
   double to_movers_m = 0.2;  ///< footprint to the true disc of a mover
   double max_speed = 1.0;
@@ -26,6 +26,6 @@ struct SolverRules {
 /// one is followed up, all of them near the goal. The first half second goes on as it began, as no
 /// motion is driven before it is promised, and who stands has to turn before he drives off. A way
 /// that is found is a proof; that none is found is strong evidence.
-std::optional<double> arrival_time_s(const ReplanScene& scene, const SolverRules& rules);
+std::optional<double> arrival_time_s(const ReplanScene& scene, const SolverOptions& options);
 
 }  // namespace mocha

@@ -32,13 +32,13 @@ class Rows {
  public:
   template <int D>
   void add(int world, double spacing_m, bool camouflage, const BenchmarkWorld<D>& where,
-           const TableRules& rules) {
-    const TablePlan<D> run = plan<D>(where, spacing_m, camouflage, rules);
+           const TableOptions& options) {
+    const TablePlan<D> run = plan<D>(where, spacing_m, camouflage, options);
     const double length_m = arc_length(run.curve);
     const double total_s = run.curve.duration();
     const double kinematic_s =
-        length_m / rules.max_speed + rules.max_speed / rules.max_acceleration;
-    const double own_s = time_optimal_s(run.curve, rules.max_speed, rules.max_acceleration);
+        length_m / options.max_speed + options.max_speed / options.max_acceleration;
+    const double own_s = time_optimal_s(run.curve, options.max_speed, options.max_acceleration);
     std::printf(
         "%s\n  {\"world\": %d, \"dim\": %d, \"method\": \"%s\", \"spacing_m\": %g, "
         "\"max_speed\": %g, \"max_acceleration\": %g, \"t_plan_s\": %.5g, \"evaluations\": %d, "
@@ -46,10 +46,10 @@ class Rows {
         "\"excess_speed\": %.4g, \"excess_acceleration\": %.4g, "
         "\"T_over_kinematic_limit\": %.5g, \"T_over_own_optimum\": %.5g}",
         first_ ? "" : ",", world, D, camouflage ? "camouflage" : "minco", spacing_m,
-        rules.max_speed, rules.max_acceleration, run.t_plan_s, run.found.evaluations,
-        run.found.cost, total_s, length_m, clearance_m<D>(run.curve, where.field, rules.radius_m),
-        run.feasible ? "true" : "false", max_speed(run.found.curve).value / rules.max_speed - 1.0,
-        max_acceleration(run.found.curve).value / rules.max_acceleration - 1.0,
+        options.max_speed, options.max_acceleration, run.t_plan_s, run.found.evaluations,
+        run.found.cost, total_s, length_m, clearance_m<D>(run.curve, where.field, options.radius_m),
+        run.feasible ? "true" : "false", max_speed(run.found.curve).value / options.max_speed - 1.0,
+        max_acceleration(run.found.curve).value / options.max_acceleration - 1.0,
         total_s / kinematic_s, total_s / own_s);
     first_ = false;
   }
@@ -58,7 +58,7 @@ class Rows {
   void add_table(int world, const BenchmarkWorld<D>& where) {
     for (const double spacing_m : kSpacings_m) {
       for (const bool camouflage : {false, true}) {
-        add<D>(world, spacing_m, camouflage, where, TableRules());
+        add<D>(world, spacing_m, camouflage, where, TableOptions());
       }
     }
   }
@@ -68,12 +68,12 @@ class Rows {
 };
 
 /// Effort hardly counts: as fast as the limits allow.
-TableRules fast_rules(double max_speed, double max_acceleration) {
-  TableRules rules;
-  rules.w_e = 1e-3;
-  rules.max_speed = max_speed;
-  rules.max_acceleration = max_acceleration;
-  return rules;
+TableOptions fast_options(double max_speed, double max_acceleration) {
+  TableOptions options;
+  options.w_e = 1e-3;
+  options.max_speed = max_speed;
+  options.max_acceleration = max_acceleration;
+  return options;
 }
 
 void run(int worlds) {
@@ -85,8 +85,8 @@ void run(int worlds) {
   Rows fast;
   for (int seed = 1; seed <= worlds; ++seed) {
     const BenchmarkWorld<2> world = circle_world(seed, {});
-    fast.add<2>(seed, 5.0, true, world, fast_rules(3.0, 2.0));
-    fast.add<2>(seed, 5.0, true, world, fast_rules(12.0, 5.0));
+    fast.add<2>(seed, 5.0, true, world, fast_options(3.0, 2.0));
+    fast.add<2>(seed, 5.0, true, world, fast_options(12.0, 5.0));
   }
   std::printf("]}\n");
 }

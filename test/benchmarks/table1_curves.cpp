@@ -44,14 +44,14 @@ Eigen::MatrixXd knot_columns(const PiecewisePolynomial<D, 3>& curve) {
 
 template <int D>
 void print_trajectory(const BenchmarkWorld<D>& world, const Choice& choice) {
-  const TableRules rules;
-  const TablePlan<D> planned = plan<D>(world, choice.spacing_m, choice.camouflage, rules);
+  const TableOptions options;
+  const TablePlan<D> planned = plan<D>(world, choice.spacing_m, choice.camouflage, options);
   std::printf("{\"method\": \"%s\", \"spacing_m\": %g, \"feasible\": %s",
               choice.camouflage ? "camouflage" : "minco", choice.spacing_m,
               planned.feasible ? "true" : "false");
   if (choice.camouflage) {
-    const InitialKnots<D> knots = knots_on<D>(world.path, choice.spacing_m, rules);
-    print_columns("references", table_references<D>(world, knots, rules));
+    const InitialKnots<D> knots = knots_on<D>(world.path, choice.spacing_m, options);
+    print_columns("references", table_references<D>(world, knots, options));
   }
   print_columns("knots", knot_columns<D>(planned.curve));
   print_columns("samples", samples<D>(planned.curve));
@@ -74,9 +74,9 @@ void print_scene(const char* key, int seed, const BenchmarkWorld<D>& world) {
 }
 
 void run(int seed) {
-  const TableRules rules;
-  std::printf("{\"max_speed\": %g, \"max_acceleration\": %g", rules.max_speed,
-              rules.max_acceleration);
+  const TableOptions options;
+  std::printf("{\"max_speed\": %g, \"max_acceleration\": %g", options.max_speed,
+              options.max_acceleration);
   print_scene<2>("plane", seed, circle_world(seed, {}));
   print_scene<3>("space", seed, forest_world(seed, {}));
   std::printf("}\n");

@@ -3,8 +3,8 @@
 #include <chrono>
 #include <memory>
 
-#include "planning/global_planner.h"
-#include "topology/primitive_terrain.h"
+#include "planning/global/global_planner.h"
+#include "topology/static_map/primitive_static_map.h"
 
 namespace mocha {
 namespace {
@@ -21,29 +21,29 @@ RobotModel robot() {
 }
 
 /// The planner's defaults, but for sizes that belong to a robot of 3 m/s among circles of 1 to 4 m.
-PlannerRules rules() {
-  PlannerRules rules{};
-  rules.weight_effort = 0.01;
-  rules.weight_duration = 1.0;
-  rules.weight_obstacle = 200.0;
-  rules.weight_dynamics = 5000.0;
-  rules.weight_turning = 5000.0;
-  rules.samples_per_piece = 12;
-  rules.knot_spacing_m = 6.0;
-  rules.open_knot_spacing_m = 8.0;
-  rules.knot_travel_m = 4.0;
-  rules.soft_margin_m = 0.1;
-  rules.preferred_clearance_m = 0.1;
-  rules.clearance_weight = 3.0;
-  rules.max_evaluations = 300;
-  rules.smooth_start_rad = 1.5;
-  rules.goal_search_radius_m = 0.4;
-  rules.back_out_m = 1.0;
-  rules.roadmap = roadmap_kind("best");
-  rules.classes = 5;
-  rules.longest_ratio = 2.0;
-  rules.switch_margin = 0.0;
-  return rules;
+PlannerOptions options() {
+  PlannerOptions options{};
+  options.weight_effort = 0.01;
+  options.weight_duration = 1.0;
+  options.weight_obstacle = 200.0;
+  options.weight_dynamics = 5000.0;
+  options.weight_turning = 5000.0;
+  options.samples_per_piece = 12;
+  options.knot_spacing_m = 6.0;
+  options.open_knot_spacing_m = 8.0;
+  options.knot_travel_m = 4.0;
+  options.soft_margin_m = 0.1;
+  options.preferred_clearance_m = 0.1;
+  options.clearance_weight = 3.0;
+  options.max_evaluations = 300;
+  options.smooth_start_rad = 1.5;
+  options.goal_search_radius_m = 0.4;
+  options.backup_distance_m = 1.0;
+  options.roadmap = roadmap_kind("best");
+  options.classes = 5;
+  options.longest_ratio = 2.0;
+  options.switch_margin = 0.0;
+  return options;
 }
 
 PlanarPath drive_of(const Motion& motion) {
@@ -56,7 +56,7 @@ PlanarPath drive_of(const Motion& motion) {
 }  // namespace
 
 Table2Plan plan_with_mocha(const Table2World& world, const Vector2& target) {
-  static const GlobalPlanner planner(robot(), rules());
+  static const GlobalPlanner planner(robot(), options());
   const Vector2 ahead = target - world.start;
   PlanQuery query;
   query.committed =
@@ -66,7 +66,7 @@ Table2Plan plan_with_mocha(const Table2World& world, const Vector2& target) {
   const Eigen::AlignedBox2d bounds(-border, Vector2::Constant(Table2World::kSide_m) + border);
   const auto begin = std::chrono::steady_clock::now();
   const auto field = std::make_shared<PrimitiveField<2>>(obstacle_field(world));
-  const PlanningScene scene{std::make_shared<PrimitiveTerrain>(field, bounds), {}};
+  const PlanningScene scene{std::make_shared<PrimitiveStaticMap>(field, bounds), {}};
   const PlanResult found = planner.plan(query, scene, [] { return false; });
   Table2Plan result;
   result.t_plan_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

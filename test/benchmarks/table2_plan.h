@@ -11,7 +11,7 @@ namespace mocha {
 /// What a planner found from rest at the start to a target of Table II.
 struct Table2Plan {
   double t_plan_s = 0.0;               ///< wall time, from the list of circles to `curve`
-  int classes = 0;                     ///< of ways, that were optimised
+  int classes = 0;                     ///< of paths, that were optimised
   PlanarPath curve;                    ///< without pieces if nothing was found
   std::vector<PlanarPath> candidates;  ///< of all classes, to be drawn; the selected one included
 };

@@ -21,22 +21,23 @@ struct TablePlan {
 /// From the front-end path to a certified trajectory.
 template <int D>
 TablePlan<D> plan(const BenchmarkWorld<D>& world, double spacing_m, bool camouflage,
-                  const TableRules& rules) {
+                  const TableOptions& options) {
   constexpr double kLongestStretch = 1.5;
-  OptimizerRules stopping;
+  OptimizerOptions stopping;
   stopping.max_evaluations = 20000;
   stopping.relative_cost = 1e-5;
   TablePlan<D> plan;
   const auto begin = std::chrono::steady_clock::now();
-  const InitialKnots<D> knots = knots_on<D>(world.path, spacing_m, rules);
-  TrajectoryObjective<D, 3> objective(table_setup<D>(world, knots, camouflage, rules));
+  const InitialKnots<D> knots = knots_on<D>(world.path, spacing_m, options);
+  TrajectoryObjective<D, 3> objective(
+      table_objective_options<D>(world, knots, camouflage, options));
   plan.found = optimize<D, 3>(objective, objective.initial(knots.durations_s), stopping);
-  const auto stretch = smallest_stretch(plan.found.curve,
-                                        {rules.max_speed, rules.max_acceleration, kLongestStretch});
+  const auto stretch = smallest_stretch(
+      plan.found.curve, {options.max_speed, options.max_acceleration, kLongestStretch});
   plan.curve = plan.found.curve.stretched(stretch.value_or(1.0));
   const CurveCertificate<D, 3> certificate(plan.curve);
-  plan.feasible = !certificate.check_limits(rules.max_speed, rules.max_acceleration) &&
-                  !certificate.check_clearance(rules.radius_m, world.field, 0.0);
+  plan.feasible = !certificate.check_limits(options.max_speed, options.max_acceleration) &&
+                  !certificate.check_clearance(options.radius_m, world.field, 0.0);
   plan.t_plan_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return plan;
 }

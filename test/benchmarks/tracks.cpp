@@ -11,8 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "perception/scan_sorter.h"
-#include "ros/sensor_conversions.h"
+#include "perception/tracking/moving_object_filter.h"
+#include "ros_bridge/messages/sensor_conversions.h"
+#include "world/robot_model.h"
 
 namespace mocha {
 namespace {
@@ -52,9 +53,10 @@ void run(const std::vector<std::string>& arguments) {
   if (arguments.size() < 2) throw std::runtime_error("usage: CONFIG BAG [FRAME:X,Y,YAW ...]");
   Mounts mounts;
   for (std::size_t i = 2; i < arguments.size(); ++i) mounts.insert(parse_mount(arguments[i]));
-  ScanSorter sorter(
-      ScanSorterOptions::from(ParameterTable::from_schema(arguments[0] + "/perception.yaml")));
-  OccupancyMap map({});
+  const auto values = ParameterTable::from_schema(arguments[0] + "/perception.yaml");
+  MovingObjectFilter filter(MovingObjectFilterOptions::from(values));
+  OccupancyMap map(OccupancyMapOptions::from(
+      values, load_robot_model(arguments[0], values.text("robot_model")).map_resolution_m));
   std::vector<Sighted> hits;
   double begin_s = 0.0;
   bool first = true;
@@ -67,7 +69,7 @@ void run(const std::vector<std::string>& arguments) {
     const Eigen::Isometry3d pose =
         mount == mounts.end() ? Eigen::Isometry3d::Identity() : mount->second;
     auto beams = to_beams(from_message(*scan), {pose, pose}, {30.0, 10.0});
-    sorter.sort(beams, map);
+    filter.sort(beams, map);
     map.insert_scan(beams);
     const double end_s = from_message(*scan).end_time_s();
     if (begin_s == 0.0) begin_s = end_s;
@@ -75,7 +77,7 @@ void run(const std::vector<std::string>& arguments) {
       if (beam.kind == BeamEnd::kIgnored)
         hits.push_back({beam.time_s - begin_s, beam.end.head<2>()});
     }
-    for (const TrackedObstacle& thing : sorter.moving(end_s)) {
+    for (const TrackedObstacle& thing : filter.moving(end_s)) {
       print(first, {static_cast<double>(thing.id), thing.time_s - begin_s, thing.position.x(),
                     thing.position.y(), thing.velocity.x(), thing.velocity.y(), thing.radius_m});
     }

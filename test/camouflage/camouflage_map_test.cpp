@@ -47,7 +47,7 @@ void expect_camouflage() {
     for (int k = 0; k < 4; ++k) {
       const Eigen::Matrix<double, D, 1> ray = example.prey.col(k) - example.references.col(k);
       const Eigen::Matrix<double, D, 1> expected =
-          example.references.col(k) + map.lambda(k, xi[k]) * ray;  // (9)
+          example.references.col(k) + map.lambda(k, xi[k]) * ray;  // paper (9)
       EXPECT_LT((knots.col(k) - expected).norm(), 1e-12);
       EXPECT_LT((knots.col(k) - example.prey.col(k)).norm(), kTravel_m);
     }

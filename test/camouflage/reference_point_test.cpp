@@ -69,21 +69,21 @@ TEST(ReferencePoint, StandsOnTheSideWithFewerObstacles) {
 }
 
 TEST(ReferencePoint, DistanceIsAParameter) {
-  ReferenceRules rules;
-  rules.apex_height = 2.0;
-  EXPECT_NEAR(std::abs(choose_references(straight(11), kOpen, rules)->col(0).y()), 10.0, 1e-12);
+  ReferenceOptions options;
+  options.apex_height = 2.0;
+  EXPECT_NEAR(std::abs(choose_references(straight(11), kOpen, options)->col(0).y()), 10.0, 1e-12);
 }
 
 TEST(ReferencePoint, WindingPathsAreSplitSoThatEveryRayKeepsItsAngle) {
-  const ReferenceRules rules;
+  const ReferenceOptions options;
   int split = 0;
   for (int seed = 1; seed <= 200; ++seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> noise(0.0, 0.3);
     const auto path = path_of(25, 0.5, [&](int) { return noise(random); });
-    const auto references = choose_references(path, kOpen, rules);
+    const auto references = choose_references(path, kOpen, options);
     ASSERT_TRUE(references) << "seed " << seed;
-    EXPECT_GE(smallest_angle(path, *references), rules.min_angle_rad - 1e-9) << "seed " << seed;
+    EXPECT_GE(smallest_angle(path, *references), options.min_angle_rad - 1e-9) << "seed " << seed;
     split += (references->colwise() - references->col(0)).norm() > 1e-9;
     EXPECT_NO_THROW(CamouflageMap<2>(path.middleCols(1, 23), *references, 1.0));
   }
@@ -94,7 +94,7 @@ TEST(ReferencePoint, UTurnIsSplit) {
   const auto path = path_of(31, 0.3, [](int i) { return i > 10 && i <= 20 ? 0.1 * M_PI : 0.0; });
   const auto references = choose_references(path, kOpen, {});
   ASSERT_TRUE(references);
-  EXPECT_GE(smallest_angle(path, *references), ReferenceRules().min_angle_rad - 1e-9);
+  EXPECT_GE(smallest_angle(path, *references), ReferenceOptions().min_angle_rad - 1e-9);
   EXPECT_GT((references->col(0) - references->col(28)).norm(), 0.5);
 }
 
@@ -104,7 +104,7 @@ TEST(ReferencePoint, ClosedPathsAreSplitToo) {
   const auto references = choose_references(circle, kOpen, {});
   ASSERT_TRUE(references);
   EXPECT_TRUE(references->allFinite());
-  EXPECT_GE(smallest_angle(circle, *references), ReferenceRules().min_angle_rad - 1e-9);
+  EXPECT_GE(smallest_angle(circle, *references), ReferenceOptions().min_angle_rad - 1e-9);
 }
 
 TEST(ReferencePoint, NothingWhereNoRayHasLeverage) {

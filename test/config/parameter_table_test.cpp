@@ -30,7 +30,7 @@ class TextFile {
 };
 
 const char kSchema[] = R"(
-speed: {default: 1.0, min: 0.1, max: 2.5, live: true, unit: m/s, about: How fast.}
+speed: {was: velocity, default: 1.0, min: 0.1, max: 2.5, live: true, unit: m/s, about: How fast.}
 beams: {default: 360, min: 3, max: 1000, live: true, unit: "-", about: How many.}
 enabled: {default: true, live: true, unit: "-", about: Whether.}
 shape: {default: disc, choices: [disc, rectangle], live: true, unit: "-", about: What.}
@@ -89,6 +89,7 @@ TEST(ParameterTable, LimitsThemselvesAreAllowed) {
 
 TEST(ParameterTable, RefusesValuesNamingSourceKeyValueAndRange) {
   expect_refused("{sped: 1.0}", {"/ugv1/node", "unknown parameter", "sped"});
+  expect_refused("{velocity: 1.0}", {"/ugv1/node", "`velocity` is called `speed` now"});
   expect_refused("{speed: 2.6}", {"/ugv1/node", "speed", "2.6", "0.1", "2.5", "m/s"});
   expect_refused("{speed: 0.0}", {"speed", "0.1 to 2.5"});
   expect_refused("{speed: .nan}", {"speed", "nan", "0.1 to 2.5"});

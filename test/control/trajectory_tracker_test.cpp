@@ -86,7 +86,7 @@ TEST(TrajectoryTracker, ExpiredLeaseStopsAlongThePath) {
         if (samples[i].t > expiry)
           braked += (samples[i].pose.position - samples[i - 1].pose.position).norm();
       }
-      EXPECT_LT(braked, speed * speed / (2.0 * model.limits.max_acceleration) + 0.2 * speed + 0.03)
+      EXPECT_LT(braked, speed * speed / (2.0 * model.braking_deceleration()) + 0.2 * speed + 0.03)
           << "run " << run;
       EXPECT_LT(worst_position_error(samples), 0.06) << "run " << run;
       EXPECT_LT(std::abs(samples.back().twist.speed), 1e-3);
@@ -100,6 +100,28 @@ TEST(TrajectoryTracker, ExpiredLeaseStopsAlongThePath) {
       EXPECT_LT(beside, 0.04) << "run " << run;
     }
   }
+}
+
+TEST(TrajectoryTracker, DrivesWithoutALeaseWhatTheOthersAreTold) {
+  const Motion motion(0.0, {straight({}, 1, 4.0, 9.0)});
+  const RobotModel model = rover();
+  LeaseWatch watch;
+  watch.commit({1, 1}, motion, 3.0);
+  ClosedLoop loop(model, {}, 1);
+  loop.tracker.offer({1, 1}, motion, 3.0);
+  loop.run(3.1);
+  ASSERT_EQ(loop.tracker.mode(), TrackerMode::kBraking);
+  const auto told = watch.expire(3.015, model.braking_deceleration());
+  ASSERT_TRUE(told);
+  for (double t = 3.0; t < told->end_time(); t += 0.1)
+    EXPECT_NEAR((told->position(t) - loop.tracker.motion().position(t)).norm(), 0.0, 1e-9);
+  // The promise comes back as a committed motion, and its first lease ends on the way.
+  loop.tracker.offer({1, 2}, *told, 3.6);
+  loop.run(3.3);
+  EXPECT_EQ(loop.tracker.mode(), TrackerMode::kTracking);
+  loop.run(told->end_time() + 1.0);
+  EXPECT_EQ(loop.tracker.mode(), TrackerMode::kHolding);
+  EXPECT_LT((loop.robot.pose().position - told->end_pose().position).norm(), 0.03);
 }
 
 TEST(TrajectoryTracker, RenewedLeaseAloneDoesNotResume) {

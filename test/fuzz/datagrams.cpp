@@ -12,9 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "fleet/commitment.h"
-#include "fleet/datagram_link.h"
-#include "fleet/motions.h"
+#include "fleet/protocol/commitment_protocol.h"
+#include "fleet/protocol/motions.h"
+#include "fleet/wire/datagram_link.h"
+#include "fuzz/oddities.h"
 
 namespace mocha {
 namespace {
@@ -30,19 +31,13 @@ constexpr std::size_t kNumberAt = kBodyAt + 10;
 constexpr int kLifetime =
     2000;  // datagrams, after which a robot that hears nobody any more is replaced
 
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "fuzz_datagrams: %s\n", what);
-  std::exit(1);
-}
-
 class Fuzzer {
  public:
   Fuzzer(unsigned seed, bool keyed)
       : random_(seed),
         key_(FleetKey::Secret{7}),
         keyed_(keyed),
-        robot_(settings()),
+        robot_(options()),
         link_("ugv1", keyed ? std::optional<FleetKey>(key_) : std::nullopt) {
     robot_.brake({1, 0.3, test::shared(test::stand(now_s_, {0.0, 0.0}))}, now_s_);
     for (int i = 0; i < 40; ++i) corpus_.push_back(sound());
@@ -60,10 +55,10 @@ class Fuzzer {
   double slowest_s() const { return slowest_s_; }
 
  private:
-  static CommitmentSettings settings() {
-    CommitmentSettings settings;
-    settings.agent = "ugv1";
-    return settings;
+  static CommitmentOptions options() {
+    CommitmentOptions options;
+    options.agent = "ugv1";
+    return options;
   }
   int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
 
@@ -71,18 +66,19 @@ class Fuzzer {
     const std::string agent = "ugv" + std::to_string(1 + below(5));
     const auto epoch = static_cast<std::uint32_t>(1 + below(3));
     if (below(3) == 0) {
-      Beat beat{agent, epoch, now_s_ - 0.01 * below(100), {}, {}};
+      Heartbeat heartbeat{agent, epoch, now_s_ - 0.01 * below(100), {}, {}};
       for (int i = below(4); i > 0; --i) {
-        const auto state = static_cast<PromiseState>(1 + below(4));
-        beat.seen.push_back({"ugv" + std::to_string(1 + below(5)), {epoch, 1U + below(9)}, state});
-        beat.echoes.push_back(
+        const auto state = static_cast<TrajectoryState>(1 + below(4));
+        heartbeat.acknowledgements.push_back(
+            {"ugv" + std::to_string(1 + below(5)), {epoch, 1U + below(9)}, state});
+        heartbeat.echoes.push_back(
             {"ugv" + std::to_string(1 + below(3)), now_s_ - 0.1, 0.01 * below(9)});
       }
-      return beat;
+      return heartbeat;
     }
     if (below(4) == 0) {
-      WayRequest request{agent, epoch, {below(2) == 0, below(3), "ugv2"}, 0.3, 1.0, {}};
-      for (int i = below(20); i > 0; --i) request.way.emplace_back(below(40), below(40));
+      YieldRequest request{agent, epoch, {below(2) == 0, below(3), "ugv2"}, 0.3, 1.0, {}};
+      for (int i = below(20); i > 0; --i) request.path.emplace_back(below(40), below(40));
       return request;
     }
     if (below(4) == 0) {
@@ -94,13 +90,13 @@ class Fuzzer {
       }
       return stops;
     }
-    Promise promise{
-        agent,  {epoch, 1U + below(9)}, static_cast<PromiseState>(1 + below(4)), below(3), 0.3,
+    CommittedTrajectory trajectory{
+        agent,  {epoch, 1U + below(9)}, static_cast<TrajectoryState>(1 + below(4)), below(3), 0.3,
         nullptr};
-    if (promise.state != PromiseState::kWithdrawn)
-      promise.motion =
+    if (trajectory.state != TrajectoryState::kWithdrawn)
+      trajectory.motion =
           test::shared(test::random_drive(random_, now_s_ + 0.1 * below(20), 2 + below(8), 4.0));
-    return promise;
+    return trajectory;
   }
 
   Bytes sound() { return encode({0, any_message()}, keyed_ ? &key_ : nullptr); }
@@ -180,24 +176,24 @@ class Fuzzer {
   }
 
   void take(const FleetMessage& message) {
-    if (const auto* promise = std::get_if<Promise>(&message)) {
-      answer(robot_.receive(*promise, now_s_));
-    } else if (const auto* beat = std::get_if<Beat>(&message)) {
-      answer(robot_.receive(*beat, now_s_));
+    if (const auto* trajectory = std::get_if<CommittedTrajectory>(&message)) {
+      answer(robot_.receive(*trajectory, now_s_));
+    } else if (const auto* heartbeat = std::get_if<Heartbeat>(&message)) {
+      answer(robot_.receive(*heartbeat, now_s_));
     } else if (const auto* stops = std::get_if<FleetStops>(&message)) {
       validate(*stops);
       stop_.receive(*stops, now_s_);
       require(stop_.record().fleet.size() <= EmergencyStop::kMostAgents,
               "too many stops are known");
     } else {
-      validate(std::get<WayRequest>(message));
+      validate(std::get<YieldRequest>(message));
     }
   }
 
   /// Its own words are those of a sound robot, whatever it hears.
   void answer(const CommitmentActions& actions) {
-    for (const Promise& promise : actions.promises) link_.pack(promise);
-    if (actions.beat) link_.pack(*actions.beat);
+    for (const CommittedTrajectory& trajectory : actions.trajectories) link_.pack(trajectory);
+    if (actions.heartbeat) link_.pack(*actions.heartbeat);
   }
 
   void advance() {
@@ -218,7 +214,7 @@ class Fuzzer {
   const FleetKey key_;
   const bool keyed_;
   double now_s_ = kNow_s;
-  Commitment robot_;
+  CommitmentProtocol robot_;
   EmergencyStop stop_{"ugv1", 1, {}};
   DatagramLink link_;
   std::vector<Bytes> corpus_;

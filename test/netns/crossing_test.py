@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Two robots on separate hosts, whose ways cross, keep apart by promises that come late or never."""
+"""Two robots on separate hosts, whose paths cross, keep apart by promises that come late or never."""
 import os
 import unittest
 

@@ -1,10 +1,8 @@
 """For the tests here: skipped, with the reason, where this machine cannot play several hosts."""
-import os
 import sys
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../scripts"))
-from mocha_scripts import netns  # noqa: E402
+import netns
 
 
 def run_tests():

@@ -10,7 +10,7 @@ import time
 import unittest
 
 from hosts_needed import netns, run_tests
-from mocha_scripts.relay import RelayProcess
+from relay import RelayProcess
 
 GROUP, PORT = "239.255.76.67", 7667
 BATCH = 50  # fewer than a socket's buffer holds
@@ -156,12 +156,12 @@ class HostsTest(unittest.TestCase):
         self.assertIsNotNone(sleeper.poll())
 
     def test_what_a_killed_run_left_behind_is_removed(self):
-        program = ("import subprocess, sys, time; sys.path.insert(0, sys.argv[1]); from mocha_scripts.netns import Hosts\n"
+        program = ("import subprocess, sys, time; sys.path.insert(0, sys.argv[1]); from netns import Hosts\n"
                    "with Hosts(['ugv1']) as hosts:\n"
                    "  print(hosts.popen('ugv1', ['sleep', '1000'], stdout=subprocess.DEVNULL).pid, flush=True)\n"
                    "  time.sleep(1000)")
-        scripts = os.path.dirname(os.path.dirname(netns.__file__))
-        killed = subprocess.Popen([sys.executable, "-c", program, scripts], stdout=subprocess.PIPE, text=True)
+        folder = os.path.dirname(os.path.abspath(netns.__file__))
+        killed = subprocess.Popen([sys.executable, "-c", program, folder], stdout=subprocess.PIPE, text=True)
         sleeper = int(killed.stdout.readline())
         while not self.is_in_namespace(sleeper, f"mocha{killed.pid}-1-ugv1"):
             time.sleep(0.02)

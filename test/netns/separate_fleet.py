@@ -17,10 +17,9 @@ from mocha_ugv.msg import FleetTrajectories, GroundTruth, PlannerStatus, StepAck
 from rosgraph_msgs.msg import Clock
 
 from hosts_needed import netns
-from mocha_scripts.relay import RelayProcess
+from relay import RelayProcess
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-SCRIPTS = os.path.join(ROOT, "scripts", "mocha_scripts")
 
 LCM_URL = "udpm://239.255.76.67:7667?ttl=1"
 DELTA_DC_S = 0.25  # longer than any message takes in these tests
@@ -109,7 +108,7 @@ class Robot:
 class SeparateFleet:
     """From `with` to its end. The process that makes it stands on the simulator's host from then on; one fleet a process.
 
-    `keys`: robot -> path of its fleet key. `network`: delay_s and loss of every robot's link, as mocha_scripts.relay has them. Logs go to
+    `keys`: robot -> path of its fleet key. `network`: delay_s and loss of every robot's link, as relay has them. Logs go to
     the directory `out`, which is emptied first."""
 
     def __init__(self, world, names, out, keys=None, network=None):
@@ -193,7 +192,7 @@ class SeparateFleet:
         self._adapters[name].kill()
 
     def _adapter(self, end, name, host):
-        return self._popen(host, [sys.executable, os.path.join(SCRIPTS, "adapter.py"), end, name,
+        return self._popen(host, [sys.executable, os.path.join(ROOT, "test/netns/adapter.py"), end, name,
                                   self._hosts.management_addresses(name)[0]], "adapter-" + name)
 
     def _popen(self, host, command, log=None):

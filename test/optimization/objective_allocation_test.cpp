@@ -36,28 +36,28 @@ TrajectoryObjective<2, 3> full_objective(const DistanceField& field, bool camouf
   for (int k = 0; k < kKnots; ++k) prey(0, k) = 0.5 * (k + 1);
   Eigen::Matrix2Xd references = prey;
   references.row(1).setConstant(-3.0);
-  TrajectoryObjective<2, 3>::Setup setup;
-  setup.start.setZero();
-  setup.end.setZero();
-  setup.start(1, 1) = 0.3;
-  setup.end(0, 0) = 0.5 * (kKnots + 1);
+  TrajectoryObjective<2, 3>::Options options;
+  options.start.setZero();
+  options.end.setZero();
+  options.start(1, 1) = 0.3;
+  options.end(0, 0) = 0.5 * (kKnots + 1);
   if (camouflage) {
-    setup.knot_map = std::make_shared<CamouflageMap<2>>(prey, references, 1.0);
+    options.knot_map = std::make_shared<CamouflageMap<2>>(prey, references, 1.0);
   } else {
-    setup.knot_map = std::make_shared<WaypointMap<2>>(prey);
+    options.knot_map = std::make_shared<WaypointMap<2>>(prey);
   }
-  setup.effort_weight = 0.01;
-  setup.duration_cost = DurationCost::total(1.0);
-  setup.kappa = 12;
+  options.effort_weight = 0.01;
+  options.duration_cost = DurationCost::total(1.0);
+  options.kappa = 12;
   const auto peer =
       std::make_shared<PredictedDisc>("peer", 0.0, Vector2(2.0, 0.3), Vector2(0.1, 0.0), 0.3, 0.05);
-  setup.penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
+  options.penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
       100.0, field, std::vector<ObstaclePenalty<2>::Cover>{{0.1, 0.5}, {-0.1, 0.5}}, 0.05));
-  setup.penalties.push_back(std::make_unique<DynamicsPenalty<2>>(100.0, 0.5, 0.5));
-  setup.penalties.push_back(std::make_unique<TurningPenalty>(100.0, 0.1, 0.05));
-  setup.penalties.push_back(std::make_unique<MovingPenalty>(
+  options.penalties.push_back(std::make_unique<DynamicsPenalty<2>>(100.0, 0.5, 0.5));
+  options.penalties.push_back(std::make_unique<TurningPenalty>(100.0, 0.1, 0.05));
+  options.penalties.push_back(std::make_unique<MovingPenalty>(
       100.0, 0.0, std::vector<MovingThing>{{peer, 0.6, std::numeric_limits<double>::infinity()}}));
-  return TrajectoryObjective<2, 3>(std::move(setup));
+  return TrajectoryObjective<2, 3>(std::move(options));
 }
 
 TEST(TrajectoryObjective, EvaluationAllocatesNothing) {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <random>
 
-#include "fleet/motions.h"
+#include "fleet/protocol/motions.h"
 #include "optimization/dynamics_penalty.h"
 #include "optimization/moving_penalty.h"
 #include "optimization/obstacle_penalty.h"
@@ -68,14 +68,14 @@ class RandomSamples {
   std::normal_distribution<double> unit_{0.0, 1.0};
 };
 
-TEST(Cubic, IsZeroUpToZero) {  // (31)
+TEST(Cubic, IsZeroUpToZero) {  // paper (31)
   EXPECT_EQ(cubic(-1.0).value, 0.0);
   EXPECT_EQ(cubic(0.0).slope, 0.0);
   EXPECT_DOUBLE_EQ(cubic(2.0).value, 8.0);
   EXPECT_DOUBLE_EQ(cubic(2.0).slope, 12.0);
 }
 
-TEST(DynamicsPenalty, HasTheValuesOfHand) {  // (32)
+TEST(DynamicsPenalty, HasTheValuesOfHand) {  // paper (32)
   const DynamicsPenalty<2> penalty(10.0, 2.0, 3.0);
   EXPECT_EQ(value_of(penalty, sample_at({9.0, 9.0}, {1.2, 1.6}, {0.0, 3.0})),
             0.0);  // just at both limits
@@ -198,7 +198,7 @@ TEST(WheelPenalty, IsNotWantedWhereTheWheelsAreFastEnough) {
   EXPECT_NE(penalty.wanted(bounds), kNone);
 }
 
-TEST(ObstaclePenalty, HasTheValuesOfHand) {  // (30)
+TEST(ObstaclePenalty, HasTheValuesOfHand) {  // paper (30)
   const CircleField field({{{0.0, 0.0}, 1.0}});
   const ObstaclePenalty<2> disc(10.0, field, {{0.0, 0.5}}, 0.05);
   EXPECT_EQ(value_of(disc, sample_at({1.5, 0.0}, kZero, kZero)), 0.0);
@@ -236,7 +236,7 @@ MovingPenalty moving(double until_s) {
   return MovingPenalty(10.0, 100.0, {{walker, 0.7, until_s}});
 }
 
-TEST(MovingPenalty, HasTheValuesOfHandWhileTheRadiusGrows) {  // (33)
+TEST(MovingPenalty, HasTheValuesOfHandWhileTheRadiusGrows) {  // paper (33)
   const MovingPenalty penalty = moving(kForever);
   const auto expected = [](double distance_m, double time_s) {
     const double safety_m = 0.4 + 0.3 + 0.3 + 0.2 * time_s;

@@ -110,7 +110,7 @@ double fine_integral(const PlanarMinco& minco, const Penalty<2>& penalty) {
   return sum;
 }
 
-TEST(TimeQuadrature, ApproachesTheIntegralWithTheSquareOfTheStep) {  // (21)
+TEST(TimeQuadrature, ApproachesTheIntegralWithTheSquareOfTheStep) {  // paper (21)
   const PlanarMinco minco = curve();
   Penalties penalties;
   penalties.push_back(std::make_unique<SmoothPenalty>());
@@ -187,7 +187,7 @@ double value_with(const PlanarMinco& minco, int piece, int row, int column, doub
   return total;
 }
 
-TEST(TimeQuadrature, GradientMatchesDifferences) {  // (23)-(26)
+TEST(TimeQuadrature, GradientMatchesDifferences) {  // paper (23)-(26)
   const PlanarMinco minco = curve();
   Penalties penalties;
   penalties.push_back(std::make_unique<SmoothPenalty>());

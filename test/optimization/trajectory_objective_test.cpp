@@ -59,23 +59,23 @@ Eigen::Matrix<double, D, Eigen::Dynamic> prey_knots(int count, std::mt19937& ran
 }
 
 template <int D, int S = 3>
-typename TrajectoryObjective<D, S>::Setup basic_setup(std::shared_ptr<const KnotMap<D>> map,
-                                                      const ObstacleField<D>& field) {
-  typename TrajectoryObjective<D, S>::Setup setup;
-  setup.start.setZero();
-  setup.end.setZero();
-  setup.end(0, 0) = map->knots() + 1.0;
-  setup.start(0, 1) = 0.7;
-  if constexpr (S > 2) setup.start(1, 2) = 0.1;
-  setup.knot_map = map;
-  setup.effort_weight = 0.1;
-  setup.duration_cost = DurationCost::total(2.0);
-  setup.kappa = 12;
-  setup.penalties.push_back(std::make_unique<DynamicsPenalty<D>>(7.0, 0.9, 0.6));
-  setup.penalties.push_back(std::make_unique<ObstaclePenalty<D>>(
+typename TrajectoryObjective<D, S>::Options basic_options(std::shared_ptr<const KnotMap<D>> map,
+                                                          const ObstacleField<D>& field) {
+  typename TrajectoryObjective<D, S>::Options options;
+  options.start.setZero();
+  options.end.setZero();
+  options.end(0, 0) = map->knots() + 1.0;
+  options.start(0, 1) = 0.7;
+  if constexpr (S > 2) options.start(1, 2) = 0.1;
+  options.knot_map = map;
+  options.effort_weight = 0.1;
+  options.duration_cost = DurationCost::total(2.0);
+  options.kappa = 12;
+  options.penalties.push_back(std::make_unique<DynamicsPenalty<D>>(7.0, 0.9, 0.6));
+  options.penalties.push_back(std::make_unique<ObstaclePenalty<D>>(
       11.0, field, std::vector<typename ObstaclePenalty<D>::Cover>{{0.15, 0.6}, {-0.15, 0.7}},
       0.05));
-  return setup;
+  return options;
 }
 
 template <int D, int S>
@@ -143,13 +143,13 @@ TYPED_TEST(Objectives, GradientMatchesDifferences) {
     Eigen::Matrix<double, D, Eigen::Dynamic> references = prey;
     references.row(1).array() -= 3.0;
     const Balls<D> balls = random_balls<D>(random);
-    auto setup =
-        basic_setup<D, S>(std::make_shared<CamouflageMap<D>>(prey, references, 1.5), balls);
-    setup.metres_per_eta = 0.7;
-    TrajectoryObjective<D, S> reduced(std::move(setup));
+    auto options =
+        basic_options<D, S>(std::make_shared<CamouflageMap<D>>(prey, references, 1.5), balls);
+    options.metres_per_eta = 0.7;
+    TrajectoryObjective<D, S> reduced(std::move(options));
     expect_gradient(reduced, random_start(reduced.variables(), 0.4, random));
     TrajectoryObjective<D, S> full(
-        basic_setup<D, S>(std::make_shared<WaypointMap<D>>(prey), balls));
+        basic_options<D, S>(std::make_shared<WaypointMap<D>>(prey), balls));
     expect_gradient(full, full.initial(Eigen::VectorXd::Constant(6, 1.2)));
   }
 }
@@ -183,15 +183,15 @@ TYPED_TEST(Objectives, SkippingChangesNothing) {
     std::mt19937 random(seed);
     const auto prey = prey_knots<D>(5, random);
     const Balls<D> balls = random_balls<D>(random);
-    const auto setup = [&] {
-      return basic_setup<D, S>(std::make_shared<WaypointMap<D>>(prey), balls);
+    const auto options = [&] {
+      return basic_options<D, S>(std::make_shared<WaypointMap<D>>(prey), balls);
     };
-    auto unskipped_setup = setup();
-    for (auto& penalty : unskipped_setup.penalties) {
+    auto unskipped_options = options();
+    for (auto& penalty : unskipped_options.penalties) {
       penalty = std::make_unique<Unskipped<D>>(std::move(penalty));
     }
-    TrajectoryObjective<D, S> skipping(setup());
-    TrajectoryObjective<D, S> unskipped(std::move(unskipped_setup));
+    TrajectoryObjective<D, S> skipping(options());
+    TrajectoryObjective<D, S> unskipped(std::move(unskipped_options));
     const Eigen::VectorXd x = skipping.initial(Eigen::VectorXd::Constant(6, 0.8 + 0.05 * seed));
     Eigen::VectorXd gradient(x.size());
     Eigen::VectorXd expected(x.size());
@@ -209,13 +209,13 @@ TEST(TrajectoryObjective, GradientMatchesDifferencesWithTurningAndMovingTerms) {
     const auto prey = prey_knots<2>(5, random);
     auto map = std::make_shared<WaypointMap<2>>(prey);
     const Balls<2> balls = random_balls<2>(random);
-    auto setup = basic_setup<2>(map, balls);
-    setup.penalties.push_back(std::make_unique<TurningPenalty>(3.0, 0.4, 0.1));
+    auto options = basic_options<2>(map, balls);
+    options.penalties.push_back(std::make_unique<TurningPenalty>(3.0, 0.4, 0.1));
     const auto walker = std::make_shared<PredictedDisc>("walker", 10.0, Vector2(4.0, -1.0),
                                                         Vector2(-0.2, 0.4), 0.3, 0.1);
-    setup.penalties.push_back(
+    options.penalties.push_back(
         std::make_unique<MovingPenalty>(5.0, 10.0, std::vector<MovingThing>{{walker, 0.7, 1e9}}));
-    TrajectoryObjective<2, 3> objective(std::move(setup));
+    TrajectoryObjective<2, 3> objective(std::move(options));
     expect_gradient(objective, objective.initial(Eigen::VectorXd::Constant(6, 0.9)));
   }
 }
@@ -226,11 +226,11 @@ TEST(TrajectoryObjective, GradientMatchesDifferencesWhereADriveStartsAtRest) {
     const auto prey = prey_knots<2>(5, random);
     auto map = std::make_shared<WaypointMap<2>>(prey);
     const Balls<2> balls = random_balls<2>(random);
-    auto setup = basic_setup<2>(map, balls);
-    setup.start.col(1).setZero();
-    setup.start.col(2) = Vector2(0.3, -0.4);
-    setup.penalties.push_back(std::make_unique<TurningPenalty>(3.0, 0.05, 0.1));
-    TrajectoryObjective<2, 3> objective(std::move(setup));
+    auto options = basic_options<2>(map, balls);
+    options.start.col(1).setZero();
+    options.start.col(2) = Vector2(0.3, -0.4);
+    options.penalties.push_back(std::make_unique<TurningPenalty>(3.0, 0.05, 0.1));
+    TrajectoryObjective<2, 3> objective(std::move(options));
     Eigen::VectorXd gradient(objective.variables());
     const Eigen::VectorXd x = objective.initial(Eigen::VectorXd::Constant(6, 0.9));
     objective.evaluate(x, gradient);
@@ -243,7 +243,7 @@ TEST(TrajectoryObjective, TermsAddUpToTheCost) {
   std::mt19937 random(3);
   const Balls<2> balls = random_balls<2>(random);
   auto map = std::make_shared<WaypointMap<2>>(prey_knots<2>(5, random));
-  TrajectoryObjective<2, 3> objective(basic_setup<2>(map, balls));
+  TrajectoryObjective<2, 3> objective(basic_options<2>(map, balls));
   Eigen::VectorXd gradient(objective.variables());
   const double cost =
       objective.evaluate(objective.initial(Eigen::VectorXd::Constant(6, 1.0)), gradient);
@@ -258,13 +258,13 @@ TEST(TrajectoryOptimizer, AvoidsAnObstacleOnThePreyPath) {
   Eigen::Matrix2Xd references = prey;
   references.row(1).setConstant(-3.0);
   const Balls<2> balls({{{3.0, -0.2}, 0.3}});
-  auto setup = basic_setup<2>(std::make_shared<CamouflageMap<2>>(prey, references, 1.5), balls);
-  setup.start.rightCols<2>().setZero();
-  setup.penalties.clear();
-  setup.penalties.push_back(std::make_unique<DynamicsPenalty<2>>(1e3, 1.0, 1.0));
-  setup.penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
+  auto options = basic_options<2>(std::make_shared<CamouflageMap<2>>(prey, references, 1.5), balls);
+  options.start.rightCols<2>().setZero();
+  options.penalties.clear();
+  options.penalties.push_back(std::make_unique<DynamicsPenalty<2>>(1e3, 1.0, 1.0));
+  options.penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
       1e3, balls, std::vector<ObstaclePenalty<2>::Cover>{{0.0, 0.5}}, 0.05));
-  TrajectoryObjective<2, 3> objective(std::move(setup));
+  TrajectoryObjective<2, 3> objective(std::move(options));
   const auto result =
       optimize<2, 3>(objective, objective.initial(Eigen::VectorXd::Constant(6, 1.3)), {});
   EXPECT_EQ(result.stop, StopReason::kConverged);
@@ -282,16 +282,16 @@ TEST(TrajectoryOptimizer, ReportsWhyItStopped) {
   std::mt19937 random(3);
   const Balls<2> balls = random_balls<2>(random);
   auto map = std::make_shared<WaypointMap<2>>(prey_knots<2>(5, random));
-  TrajectoryObjective<2, 3> objective(basic_setup<2>(map, balls));
+  TrajectoryObjective<2, 3> objective(basic_options<2>(map, balls));
   const Eigen::VectorXd x = objective.initial(Eigen::VectorXd::Constant(6, 1.0));
-  OptimizerRules rules;
-  rules.max_evaluations = 5;
-  const auto exhausted = optimize<2, 3>(objective, x, rules);
+  OptimizerOptions options;
+  options.max_evaluations = 5;
+  const auto exhausted = optimize<2, 3>(objective, x, options);
   EXPECT_EQ(exhausted.stop, StopReason::kBudget);
   EXPECT_EQ(exhausted.evaluations, 5);
   EXPECT_EQ(exhausted.curve.pieces(), 6);
-  rules.should_stop = [] { return true; };
-  EXPECT_EQ((optimize<2, 3>(objective, x, rules).stop), StopReason::kStopped);
+  options.should_stop = [] { return true; };
+  EXPECT_EQ((optimize<2, 3>(objective, x, options).stop), StopReason::kStopped);
 }
 
 }  // namespace

@@ -22,16 +22,17 @@ TrajectoryObjective<2, 3> straight_line(int pieces, double duration_weight,
                                         double spacing_m = 1.0) {
   Eigen::Matrix2Xd prey = Eigen::Matrix2Xd::Zero(2, pieces - 1);
   for (int k = 0; k + 1 < pieces; ++k) prey(0, k) = spacing_m * (k + 1);
-  TrajectoryObjective<2, 3>::Setup setup;
-  setup.start.setZero();
-  setup.end.setZero();
-  setup.end(0, 0) = spacing_m * pieces;
-  setup.knot_map = std::make_shared<WaypointMap<2>>(prey);
-  setup.effort_weight = 1e-3;
-  setup.duration_cost = DurationCost::total(duration_weight);
-  setup.kappa = 16;
-  setup.penalties.push_back(std::make_unique<DynamicsPenalty<2>>(1e4, kMaxSpeed, kMaxAcceleration));
-  return TrajectoryObjective<2, 3>(std::move(setup));
+  TrajectoryObjective<2, 3>::Options options;
+  options.start.setZero();
+  options.end.setZero();
+  options.end(0, 0) = spacing_m * pieces;
+  options.knot_map = std::make_shared<WaypointMap<2>>(prey);
+  options.effort_weight = 1e-3;
+  options.duration_cost = DurationCost::total(duration_weight);
+  options.kappa = 16;
+  options.penalties.push_back(
+      std::make_unique<DynamicsPenalty<2>>(1e4, kMaxSpeed, kMaxAcceleration));
+  return TrajectoryObjective<2, 3>(std::move(options));
 }
 
 Eigen::VectorXd slow_start(const TrajectoryObjective<2, 3>& objective) {
@@ -40,10 +41,10 @@ Eigen::VectorXd slow_start(const TrajectoryObjective<2, 3>& objective) {
 
 TEST(TrajectoryOptimizer, StraightLineIsNearlyTimeOptimal) {
   auto objective = straight_line(8, 1.0, 2.5);
-  OptimizerRules rules;
-  rules.max_evaluations = 4000;
-  rules.relative_cost = 1e-6;
-  const auto result = optimize<2, 3>(objective, slow_start(objective), rules);
+  OptimizerOptions options;
+  options.max_evaluations = 4000;
+  options.relative_cost = 1e-6;
+  const auto result = optimize<2, 3>(objective, slow_start(objective), options);
   EXPECT_EQ(result.stop, StopReason::kConverged) << result.evaluations << " evaluations";
   const double kinematic_s = 20.0 / kMaxSpeed + kMaxSpeed / kMaxAcceleration;
   // Penalties let the limits be passed a little; smooth starts and stops cost a little more.
@@ -69,9 +70,9 @@ TEST(TrajectoryOptimizer, ReturnsTheBestSeenWithItsOwnCostAndTerms) {
   Eigen::VectorXd gradient(objective.variables());
   double last = objective.evaluate(x, gradient);
   for (const int budget : {1, 3, 10, 40, 400}) {
-    OptimizerRules rules;
-    rules.max_evaluations = budget;
-    const auto result = optimize<2, 3>(objective, x, rules);
+    OptimizerOptions options;
+    options.max_evaluations = budget;
+    const auto result = optimize<2, 3>(objective, x, options);
     EXPECT_LE(result.evaluations, budget);
     EXPECT_LE(result.cost, last + 1e-9) << "more evaluations made it worse";
     last = result.cost;
@@ -87,10 +88,10 @@ TEST(TrajectoryOptimizer, ReturnsTheBestSeenWithItsOwnCostAndTerms) {
 
 TEST(TrajectoryOptimizer, StopsWhenTheCallerSaysSo) {
   auto objective = straight_line(8, 1.0);
-  OptimizerRules rules;
+  OptimizerOptions options;
   int calls = 0;
-  rules.should_stop = [&calls] { return ++calls > 7; };
-  const auto result = optimize<2, 3>(objective, slow_start(objective), rules);
+  options.should_stop = [&calls] { return ++calls > 7; };
+  const auto result = optimize<2, 3>(objective, slow_start(objective), options);
   EXPECT_EQ(result.stop, StopReason::kStopped);
   EXPECT_EQ(result.evaluations, 7);
   EXPECT_EQ(result.curve.pieces(), 8);
@@ -98,9 +99,9 @@ TEST(TrajectoryOptimizer, StopsWhenTheCallerSaysSo) {
 
 TEST(TrajectoryOptimizer, WithoutABudgetThereIsNoCurve) {
   auto objective = straight_line(8, 1.0);
-  OptimizerRules rules;
-  rules.max_evaluations = 0;
-  const auto result = optimize<2, 3>(objective, slow_start(objective), rules);
+  OptimizerOptions options;
+  options.max_evaluations = 0;
+  const auto result = optimize<2, 3>(objective, slow_start(objective), options);
   EXPECT_EQ(result.stop, StopReason::kBudget);
   EXPECT_EQ(result.curve.pieces(), 0);
 }
@@ -120,9 +121,9 @@ TEST(TrajectoryOptimizer, SurvivesDurationsThatAreFarOff) {
   for (const double duration_s : {1e-3, 1e3}) {
     auto objective = straight_line(8, 1.0);
     const Eigen::VectorXd x = objective.initial(Eigen::VectorXd::Constant(8, duration_s));
-    OptimizerRules rules;
-    rules.max_evaluations = 4000;
-    const auto result = optimize<2, 3>(objective, x, rules);
+    OptimizerOptions options;
+    options.max_evaluations = 4000;
+    const auto result = optimize<2, 3>(objective, x, options);
     ASSERT_EQ(result.curve.pieces(), 8);
     EXPECT_TRUE(std::isfinite(result.cost));
     EXPECT_LT(result.curve.duration(), 1e3);
@@ -145,17 +146,17 @@ TEST(TrajectoryOptimizer, StaysWhereTheCostIsFinite) {
   prey.row(0) << 1.0, 2.0, 3.0;
   Eigen::Matrix2Xd references = prey;
   references.row(1).setConstant(-3.0);
-  TrajectoryObjective<2, 3>::Setup setup;
-  setup.start.setZero();
-  setup.end.setZero();
-  setup.end(0, 0) = 4.0;
-  setup.knot_map = std::make_shared<CamouflageMap<2>>(prey, references, 2.0);
-  setup.effort_weight = 1e-3;
-  setup.duration_cost = DurationCost::total(1.0);
-  setup.kappa = 8;
-  setup.penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
+  TrajectoryObjective<2, 3>::Options options;
+  options.start.setZero();
+  options.end.setZero();
+  options.end(0, 0) = 4.0;
+  options.knot_map = std::make_shared<CamouflageMap<2>>(prey, references, 2.0);
+  options.effort_weight = 1e-3;
+  options.duration_cost = DurationCost::total(1.0);
+  options.kappa = 8;
+  options.penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
       1e5, cliff, std::vector<ObstaclePenalty<2>::Cover>{{0.0, 1.0}}, 0.05));
-  TrajectoryObjective<2, 3> objective(std::move(setup));
+  TrajectoryObjective<2, 3> objective(std::move(options));
   const auto result =
       optimize<2, 3>(objective, objective.initial(Eigen::VectorXd::Constant(4, 1.0)), {});
   ASSERT_EQ(result.curve.pieces(), 4);

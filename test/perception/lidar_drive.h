@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "perception/planar_scan.h"
-#include "perception/scan_hits.h"
+#include "perception/sensor/planar_scan.h"
+#include "perception/sensor/scan_hits.h"
 #include "simulation/world_simulator.h"
 #include "trajectory/frame_change.h"
 

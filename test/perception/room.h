@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "perception/planar_scan.h"
+#include "perception/sensor/planar_scan.h"
 #include "trajectory/motion.h"
 
 namespace mocha {

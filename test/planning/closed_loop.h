@@ -9,16 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "fleet/promise_chain.h"
-#include "planning/global_planner.h"
-#include "planning/local_replanner.h"
+#include "fleet/protocol/reservation_chain.h"
+#include "planning/global/global_planner.h"
+#include "planning/replanner/local_replanner.h"
 #include "planning/worlds.h"
 
 namespace mocha {
 
-inline LocalReplannerRules default_replanner_rules(const RobotModel& robot) {
-  return LocalReplannerRules::from(ParameterTable::from_schema("config/local_replanner.yaml"),
-                                   robot);
+inline LocalReplannerOptions default_replanner_options(const RobotModel& robot) {
+  return LocalReplannerOptions::from(ParameterTable::from_schema("config/local_replanner.yaml"),
+                                     robot);
 }
 
 /// The planners of one robot in simulated time, with a perfect tracker and a broadcaster that
@@ -36,8 +36,8 @@ class ClosedLoop {
       : world(world),
         goal(goal),
         robot_(robot),
-        planner_(robot, default_rules()),
-        replanner_(robot, default_replanner_rules(robot), default_local_rules(), watch) {
+        planner_(robot, default_options()),
+        replanner_(robot, default_replanner_options(robot), default_local_options(), watch) {
     pose_.position = start;
   }
 
@@ -45,7 +45,7 @@ class ClosedLoop {
     now_s += kStep_s;
     answer();
     move();
-    const PromiseScene scene = this->scene();
+    const LocalScene scene = this->scene();
     plan(scene);
     deliver_plan();
     const auto begin = std::chrono::steady_clock::now();
@@ -115,15 +115,15 @@ class ClosedLoop {
   std::map<PlanReason, int> reasons;
 
  private:
-  PromiseScene scene() {
+  LocalScene scene() {
     const OccupancyGrid seen = see(state_.pose.position);
     if (!scene_.obstacles || seen.cells != seen_.cells) {
       seen_ = seen;
-      scene_ = {occupied_field(seen), unseen_field(seen), {}};
+      scene_ = scene_of(seen);
     }
-    scene_.others = others;
-    scene_.moving = moving;
-    scene_.expected = expected;
+    scene_.peers = others;
+    scene_.confident = moving;
+    scene_.likely = expected;
     scene_.predicted_until_s = now_s + kPredicted_s;
     return scene_;
   }
@@ -159,7 +159,7 @@ class ClosedLoop {
   }
 
   void bind(const Motion& motion) {
-    Promise promise;
+    CommittedTrajectory promise;
     promise.agent = "ugv1";
     promise.motion = std::make_shared<const Motion>(motion);
     chain_.bind(promise);
@@ -182,7 +182,7 @@ class ClosedLoop {
     least_clearance_m = std::min(least_clearance_m, clearance_m());
   }
 
-  void plan(const PromiseScene& scene) {
+  void plan(const LocalScene& scene) {
     if (committed().empty() || !plan_.empty()) return;
     const bool has_plan = now_s < plan_end_s_ + 0.5;
     const double wait_s = requested_ ? 0.2 : has_plan ? kForever_s : 0.5;
@@ -192,7 +192,7 @@ class ClosedLoop {
     query.start_time_s = committed().switch_time(now_s + kPlanningTime_s);
     query.goal = goal;
     const PlanResult result =
-        planner_.plan(query, {terrain_of(scene.obstacles), scene.others}, [] { return false; });
+        planner_.plan(query, {scene.static_map, scene.peers}, [] { return false; });
     planned_s_ = now_s + planning_takes_s;
     requested_ = false;
     ++plans;
@@ -211,9 +211,9 @@ class ClosedLoop {
   const RobotModel robot_;
   GlobalPlanner planner_;
   LocalReplanner replanner_;
-  PromiseChain chain_;
+  ReservationChain chain_;
   OccupancyGrid seen_;
-  PromiseScene scene_;
+  LocalScene scene_;
   std::vector<int8_t> true_cells_;
   std::shared_ptr<const DistanceField> true_field_;
   RobotState state_;

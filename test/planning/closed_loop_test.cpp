@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "safety/margin_budget.h"
+
 namespace mocha {
 namespace {
 
@@ -96,7 +98,7 @@ TEST_F(ReplannerLoop, DrivesIntoUnseenSpaceOnlyAsFarAsItHasSeen) {
   ClosedLoop loop(robot_, with_pillars(), {0.0, 0.0}, {9.0, 0.0});
   OccupancyGrid seen = loop.world;
   std::fill(seen.cells.begin(), seen.cells.end(), OccupancyGrid::kUnknown);
-  loop.see = [&loop, seen](const Vector2& here) mutable {
+  loop.see = [&loop, seen, this](const Vector2& here) mutable {
     for (int y = 0; y < seen.height; ++y) {
       for (int x = 0; x < seen.width; ++x) {
         if ((seen.cell_centre(x, y) - here).norm() < 2.5) seen.at(x, y) = loop.world.at(x, y);
@@ -105,7 +107,8 @@ TEST_F(ReplannerLoop, DrivesIntoUnseenSpaceOnlyAsFarAsItHasSeen) {
     // Nothing promised may reach what has not been seen.
     if (!loop.committed().empty()) {
       const DistanceField unseen(seen, DistanceField::Solid::kOccupiedOrUnknown);
-      EXPECT_GE(unseen.distance_bound(loop.committed().end_pose().position), 0.3 - 1e-3);
+      EXPECT_GE(unseen.distance_bound(loop.committed().end_pose().position),
+                0.3 + margin_m_ - 1e-3);
     }
     return seen;
   };
@@ -122,7 +125,7 @@ TEST_F(ReplannerLoop, BlindItStopsAtTheFrontier) {
   loop.see = [seen](const Vector2&) { return seen; };
   loop.run(20.0);
   EXPECT_TRUE(loop.standing());
-  EXPECT_LT(loop.state().pose.position.x(), 5.0 - 0.3);
+  EXPECT_LT(loop.state().pose.position.x(), 5.0 - 0.3 - margin_m_ + 1e-3);
   EXPECT_GT(loop.state().pose.position.x(), 5.0 - 0.3 - 0.3);
   EXPECT_LT(loop.proposals, 15);  // while it waits it says nothing new
   expect_sound(loop);
@@ -161,17 +164,17 @@ TEST_F(ReplannerLoop, LetsAPeerCross) {
 }
 
 TEST_F(ReplannerLoop, RandomWorldsAreDrivenToTheEnd) {
-  int ways = 0;
+  int paths = 0;
   for (int seed = 1; seed <= 12; ++seed) {
     const Vector2 start(0.6, 0.6);
     const Vector2 goal(7.4, 5.4);
     const OccupancyGrid grid = random_world(seed, 24, start, goal, 0.6);
-    TravelRules front_end;
+    TravelOptions front_end;
     front_end.required_clearance_m = 0.3 + margin_m_ + 0.01;
-    if (find_grid_way(occupied_field(grid), start, goal, {}, front_end).outcome !=
+    if (find_path_on_grid(occupied_field(grid), start, goal, {}, front_end).outcome !=
         GridPath::Outcome::kFound)
       continue;
-    ++ways;
+    ++paths;
     OccupancyGrid wide = grown_to_hold(grid, {start, goal}, 3.0);
     std::replace(wide.cells.begin(), wide.cells.end(), OccupancyGrid::kUnknown,
                  OccupancyGrid::kFree);
@@ -182,7 +185,7 @@ TEST_F(ReplannerLoop, RandomWorldsAreDrivenToTheEnd) {
     EXPECT_GE(loop.least_clearance_m, margin_m_ - robot_.margins.map_m - 1e-3) << seed;
     EXPECT_EQ(loop.steps_without_lease, 0) << seed;
   }
-  EXPECT_GT(ways, 6);
+  EXPECT_GT(paths, 6);
 }
 
 }  // namespace

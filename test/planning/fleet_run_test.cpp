@@ -10,8 +10,8 @@ namespace {
 
 FleetWorld two_that_cross() {
   FleetWorld world = crossing_robots(3);
-  world.scene.rules.delta_dc_s = 0.15;
-  world.scene.rules.settle_s = 0.8;
+  world.scene.options.delta_dc_s = 0.15;
+  world.scene.options.settle_s = 0.8;
   world.scene.link = {0.0, 0.1, 0.1};
   return world;
 }
@@ -41,12 +41,12 @@ TEST(FleetRun, IsTheSameForTheSameScene) {
 TEST(FleetRun, WhoHearsNothingDrivesIntoTheOthersAndThatIsSeen) {
   FleetWorld world = two_that_cross();
   world.scene.link.loss = 1.0;
-  world.scene.rules.protocol = Protocol::kOnePhase;
+  world.scene.options.protocol = Protocol::kOnePhase;
   int contacts = 0;
   for (const int seed : {0, 3, 6, 9}) {
     FleetWorld deaf = crossing_robots(seed);
     deaf.scene.link = world.scene.link;
-    deaf.scene.rules = world.scene.rules;
+    deaf.scene.options = world.scene.options;
     const FleetRun run = run_fleet(deaf.scene);
     contacts += run.contacts;
     EXPECT_TRUE(run.all_reached());
@@ -59,7 +59,7 @@ class NarrowPlaces : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(NarrowPlaces, AllArriveWithoutContact) {
   FleetScene scene = fleet_of(load_world(GetParam(), "config"), 1);
-  scene.rules.planning_threads = 1;
+  scene.options.planning_threads = 1;
   scene.link = {0.0, 0.05, 0.1};
   scene.longest_s = 150.0;
   const FleetRun run = run_fleet(scene);

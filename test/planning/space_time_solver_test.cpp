@@ -61,11 +61,11 @@ TEST(SpaceTimeSolver, PassesWhereTheClearanceAllowsIt) {
   ReplanScene scene = corridor();
   scene.movers.push_back(
       {0.4, {5.0, -0.5}, 0.0, 0.0, {}});  // leaves 0.9 m to a robot along the wall
-  SolverRules rules;
-  rules.to_movers_m = 0.75;
-  EXPECT_TRUE(arrival_time_s(scene, rules));
-  rules.to_movers_m = 0.95;
-  EXPECT_FALSE(arrival_time_s(scene, rules));
+  SolverOptions options;
+  options.to_movers_m = 0.75;
+  EXPECT_TRUE(arrival_time_s(scene, options));
+  options.to_movers_m = 0.95;
+  EXPECT_FALSE(arrival_time_s(scene, options));
 }
 
 TEST(SpaceTimeSolver, WaitsForAGapThatOpens) {

@@ -98,7 +98,7 @@ class Street {
   int yaw_swings = 0;          ///< from turning one way to turning the other
   int swerves_tried = 0;
   int swerves = 0;   ///< taken
-  int switches = 0;  ///< to another class in the midst of a swerve
+  int switches = 0;  ///< to another class in the midst of a detour
   int candidates = 0;
 
  private:

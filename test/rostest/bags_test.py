@@ -1,13 +1,12 @@
 #!/usr/bin/python3
 """The recorded drives of test/bags go through perception, localiser, planner and replanner: the map is as the world is, the robot knows
-where it is, plans go the ways that were driven and keep clear of everything, and a second replay says the same."""
+where it is, plans go the paths that were driven and keep clear of everything, and a second replay says the same."""
 
 import bisect
 import math
 import os
 import subprocess
 import sys
-import time
 import unittest
 
 import numpy as np
@@ -29,7 +28,7 @@ INPUTS = ["/tf", "/tf_static", "/ugv1/scan", "/ugv1/odom", "/ugv1/fleet/trajecto
           "/ugv1/move_base/goal"]
 NEAR_M = 0.08  # of a cell to what it shows: cells, noise, and where the robot believes to be
 BODY_M = 0.125  # half the rover's width
-ASIDE_M = 2.5  # what is farther off a way does not tell ways apart
+ASIDE_M = 2.5  # what is farther off a way does not tell paths apart
 NEAR_ENOUGH_M = 4.0  # to have been seen well
 
 
@@ -48,7 +47,6 @@ class Replay:
                                  stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT)
         try:
             LockstepPlayer(os.path.join(BAGS, name + ".bag"), INPUTS, "ugv1", NODES).play()
-            time.sleep(0.5)
         finally:
             stack.terminate()
             stack.wait(30.0)
@@ -59,7 +57,7 @@ class Replay:
         self.map = message
 
     def chosen_ways(self):
-        """The ways that the planner selected, one after the other."""
+        """The paths that the planner selected, one after the other."""
         return [path_of(candidate) for message in self.candidates for candidate in message.candidates if candidate.selected]
 
 
@@ -134,7 +132,7 @@ class BagsTest(unittest.TestCase):
         driven = sides(np.array([(pose.x, pose.y) for _, pose in recorded.truth]), circles)
         decided = decisions(ways, circles)
         both = set(driven) & set(decided)
-        print("ways: %d plans, decided on %d circles" % (len(ways), len(both)))
+        print("paths: %d plans, decided on %d circles" % (len(ways), len(both)))
         self.assertGreaterEqual(len(both), 2)
         self.assertEqual({number: decided[number] for number in both}, {number: driven[number] for number in both})
         for way in ways:

@@ -1,122 +1,140 @@
 #!/usr/bin/python3
-"""Two trajectory_broadcaster nodes settle crossing motions; this test proposes for both robots."""
+"""Two trajectory_broadcaster nodes settle crossing motions; this test proposes for both robots, and is their clock."""
 
 import math
+import signal
 import sys
-import threading
-import time
 import unittest
 
-import rosnode
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Point
-from mocha_ugv.msg import FleetTrajectories, Heartbeat, MotionPhase, PlannerStatus, Trajectory, WayRequest
+from mocha_ugv.msg import FleetTrajectories, Lease, MotionPhase, Settlement, Trajectory, YieldRequest
+
+from lockstep_clock import LockstepClock
+from node_process import end, is_connected
+from waiting import wait_until
 
 RADIUS_M = 0.3
-LEAD_S = 1.5  # long, so that a busy machine does not decide the test
+LEAD_S = 1.0
+LEASE_S = 2.0  # as the launch file grants at first: what this test hears and says may take many steps of its quick clock
+SHORT_LEASE_S = 0.5
+LISTENING_S = 2.0  # at least reach_timeout
+NODES = {("race1", "trajectory_broadcaster"), ("race2", "trajectory_broadcaster")}
 
 
 class Robot:
     """The local replanner's side of one broadcaster."""
 
-    def __init__(self, name):
+    def __init__(self, name, clock):
         self.name = name
+        self.clock = clock
         self.sequence = 0
         self.committed = []
         self.settlements = {}
+        self.breaches = []
         self.fleet = None
-        self.ways = []
+        self.yields = []
         self.diagnosis = {}
-        self.changed = threading.Condition()
-        self.proposals = rospy.Publisher("/%s/proposed_trajectory" % name, Trajectory, queue_size=10)
-        rospy.Subscriber("/%s/committed_trajectory" % name, Trajectory, self.on_committed)
-        rospy.Subscriber("/%s/settlement" % name, PlannerStatus, self.on_settlement)
-        rospy.Subscriber("/%s/fleet/trajectories" % name, FleetTrajectories, self.on_fleet)
-        self.way_requests = rospy.Publisher("/%s/way_request" % name, WayRequest, queue_size=10)
-        rospy.Subscriber("/%s/fleet/way_requests" % name, WayRequest, self.on_way)
+        self.proposals = rospy.Publisher("/%s/proposed_trajectory" % name, Trajectory, queue_size=10, tcp_nodelay=True)
+        rospy.Subscriber("/%s/committed_trajectory" % name, Trajectory, self.on_committed, tcp_nodelay=True)
+        rospy.Subscriber("/%s/settlement" % name, Settlement, self.on_settlement, tcp_nodelay=True)
+        rospy.Subscriber("/%s/fleet/trajectories" % name, FleetTrajectories, self.on_fleet, tcp_nodelay=True)
+        self.yield_requests = rospy.Publisher("/%s/yield_request" % name, YieldRequest, queue_size=10, tcp_nodelay=True)
+        rospy.Subscriber("/%s/fleet/yield_requests" % name, YieldRequest, self.on_yield_request, tcp_nodelay=True)
         rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics)
+        self.renews = True
+        self.lease_s = LEASE_S
+        self.leased_until = rospy.Time()
+        self.leases = rospy.Publisher("/%s/lease" % name, Lease, queue_size=10, tcp_nodelay=True)
+        clock.after_step.append(self.renew)
 
     def on_committed(self, message):
-        with self.changed:
-            self.committed.append(message)
-            self.changed.notify_all()
+        self.committed.append(message)
 
-    def on_settlement(self, status):
-        with self.changed:
-            self.settlements[int(status.message.split()[1].rstrip(":"))] = status
-            self.changed.notify_all()
+    def renew(self):
+        """The lease of what is driven, at every step of the clock."""
+        if not self.renews or not self.committed:
+            return
+        committed = self.committed[-1]
+        lease = Lease(epoch=committed.epoch, sequence=committed.sequence)
+        lease.header.stamp = self.clock.stamp()
+        self.leased_until = lease.valid_until = self.clock.stamp() + rospy.Duration(self.lease_s)
+        self.leases.publish(lease)
+
+    def on_settlement(self, settlement):
+        if settlement.result == Settlement.BREACHED:
+            self.breaches.append(settlement)
+        else:
+            self.settlements[settlement.sequence] = settlement
 
     def on_fleet(self, fleet):
-        with self.changed:
-            self.fleet = fleet
-            self.changed.notify_all()
+        self.fleet = fleet
 
-    def on_way(self, request):
-        with self.changed:
-            self.ways.append(request)
-            self.changed.notify_all()
+    def on_yield_request(self, request):
+        self.yields.append(request)
 
     def on_diagnostics(self, array):
         for status in array.status:
             if status.hardware_id == self.name:
-                with self.changed:
-                    self.diagnosis.update({value.key: value.value for value in status.values})
-                    self.changed.notify_all()
+                self.diagnosis.update({value.key: value.value for value in status.values})
 
     def refused(self):
         return sum(int(self.diagnosis.get("refused " + what, 0)) for what in ("proposals", "messages"))
 
-    def wait_for(self, condition, timeout_s=10.0):
-        with self.changed:
-            return self.changed.wait_for(condition, timeout_s)
+    def diagnosed_refusals(self):
+        """How many, once diagnostics have come round."""
+        self.clock.run(1.2)
+        self.clock.settle()
+        return self.refused()
 
     def propose(self, start, end, state=Trajectory.PROPOSED, **changes):
         """A straight drive from rest to rest at about 1 m/s; returns its sequence."""
         self.sequence += 1
-        message = drive(start, end)
+        message = drive(self.clock, start, end)
         message.agent = self.name
         message.sequence = self.sequence
         message.state = state
         for field, value in changes.items():
             setattr(message, field, value)
         self.proposals.publish(message)
+        self.clock.settle()
         return self.sequence
 
     def settlement(self, sequence):
-        assert self.wait_for(lambda: sequence in self.settlements), "no settlement of %d" % sequence
+        self.clock.run_until(lambda: sequence in self.settlements, 10.0, "%d is settled" % sequence)
         return self.settlements[sequence]
 
     def await_committed(self, sequence):
         """The settlement may be heard before it: they are two topics."""
-        drives = lambda: self.committed and self.committed[-1].sequence == sequence
-        assert self.wait_for(drives), "%d is not committed" % sequence
+        self.clock.run_until(lambda: self.committed and self.committed[-1].sequence == sequence, 10.0, "%d is committed" % sequence)
 
     def set_down(self, place):
         """Puts the robot at rest somewhere, whatever it has promised: only an emergency may jump."""
         sequence = self.propose(place, place, Trajectory.EMERGENCY)
         self.settlement(sequence)
         self.await_committed(sequence)
+        self.clock.run(LEAD_S + 0.2)  # until that has begun
         return sequence
 
     def bind(self, start, end):
         """Proposes until it is binding: a broadcaster that has just started refuses for a while."""
         for _ in range(20):
             sequence = self.propose(start, end)
-            if self.settlement(sequence).reason == PlannerStatus.SOLVED:
+            if self.settlement(sequence).result == Settlement.SETTLED:
                 self.await_committed(sequence)
                 return sequence
-            time.sleep(0.3)
+            self.clock.run(0.3)
         raise AssertionError("never binding: " + self.settlements[sequence].message)
 
 
-def drive(start, end):
+def drive(clock, start, end):
     message = Trajectory()
-    message.header.stamp = rospy.Time.now()
+    message.header.stamp = clock.stamp()
     message.header.frame_id = "map"
     message.footprint_radius = RADIUS_M
-    message.start = rospy.Time.now() + rospy.Duration(LEAD_S)
+    message.start = clock.stamp() + rospy.Duration(LEAD_S)
     message.s = 3
     phase = MotionPhase()
     phase.kind = MotionPhase.DRIVE
@@ -129,10 +147,10 @@ def drive(start, end):
     return message
 
 
-def way_request(**changes):
-    request = WayRequest(agent="race1", stuck=True, priority=-3, behalf="race0", radius=RADIUS_M, speed=1.0)
+def yield_request(**changes):
+    request = YieldRequest(agent="race1", stuck=True, priority=-3, behalf="race0", radius=RADIUS_M, speed=1.0)
     request.header.frame_id = "map"
-    request.way = [Point(1.5, 2.0, 0.0), Point(3.0, -4.25, 0.0)]
+    request.path = [Point(1.5, 2.0, 0.0), Point(3.0, -4.25, 0.0)]
     for field, value in changes.items():
         setattr(request, field, value)
     return request
@@ -141,111 +159,159 @@ def way_request(**changes):
 class BroadcasterTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.first, cls.second = Robot("race1"), Robot("race2")
+        cls.clock = LockstepClock(NODES)
+        cls.first, cls.second = Robot("race1", cls.clock), Robot("race2", cls.clock)
         cls.promises = rospy.Publisher("/fleet/promises", Trajectory, queue_size=10)
-        for robot in (cls.first, cls.second):
-            deadline = time.time() + 20.0
-            while robot.proposals.get_num_connections() == 0 and time.time() < deadline:
-                time.sleep(0.05)
-        rospy.wait_for_message("/fleet/heartbeats", Heartbeat, 20.0)
-        time.sleep(2.0)  # the listening
+        cls.start()
 
-    def test_1_exactly_one_of_two_crossing_motions_is_binding(self):
+    @classmethod
+    def start(cls):
+        """Until both broadcasters are there, and have listened for as long as they do at first."""
+        cls.clock.start()
+        wait_until(lambda: all(is_connected("/%s/%s" % node) for node in NODES), "the broadcasters are connected")
+        cls.clock.run(LISTENING_S)
+
+    def test_exactly_one_of_two_crossing_motions_is_binding(self):
         for trial in range(5):
             y = 100.0 * trial
             begun = {robot.name: len(robot.committed) for robot in (self.first, self.second)}
             self.first.set_down((-3.0, y))
             self.second.set_down((0.0, y - 3.0))
-            time.sleep(LEAD_S + 0.2)
             one = self.first.propose((-3.0, y), (3.0, y))
             two = self.second.propose((0.0, y - 3.0), (0.0, y + 3.0))
             winner = self.first.settlement(one)
             loser = self.second.settlement(two)
-            solved = [status.reason == PlannerStatus.SOLVED for status in (winner, loser)]
+            solved = [each.result == Settlement.SETTLED for each in (winner, loser)]
             self.assertEqual(sum(solved), 1, (winner.message, loser.message))
             # The second may have been settled before the first was proposed.
             robot, sequence = (self.second, two) if solved[1] else (self.first, one)
             robot.await_committed(sequence)
             if solved[1]:
                 loser = winner
-            self.assertEqual(loser.reason, PlannerStatus.PEER_CONFLICT)
-            self.assertEqual(loser.violated, PlannerStatus.SEPARATION)
+            self.assertEqual(loser.result, Settlement.REJECTED)
+            self.assertIn(loser.refusal, (Settlement.PEER_PROMISE, Settlement.PEER_PROPOSAL))
             self.assertIn(loser.peer, ("race1", "race2"))
-            self.assertGreater(loser.limit, 2 * RADIUS_M)
-            self.assertLess(loser.value, loser.limit)
+            self.assertGreater(loser.required, 2 * RADIUS_M)
+            self.assertLess(loser.distance, loser.required)
             self.assertLess(math.hypot(loser.place.x, loser.place.y - y), 1.5)
             total = sum(len(robot.committed) - begun[robot.name] for robot in (self.first, self.second))
             self.assertEqual(total, 3)  # two set down, one driven
 
-    def test_2_the_peer_is_told(self):
+    def test_the_peer_is_told(self):
         sequence = self.first.set_down((50.0, 50.0))
         told = lambda: self.second.fleet and any(
             each.agent == "race1" and abs(each.phases[-1].x[-1] - 50.0) < 1e-6
             for each in self.second.fleet.trajectories)
-        self.assertTrue(self.second.wait_for(told))
+        self.clock.run_until(told, 10.0, "the second one knows")
         self.assertFalse(any(each.agent == "race2" for each in self.second.fleet.trajectories))
         committed = self.first.committed[-1]
         self.assertEqual(committed.state, Trajectory.EMERGENCY)
         self.assertEqual(committed.sequence, sequence)
         self.assertEqual(committed.agent, "race1")
 
-    def test_3_bad_messages_are_refused_and_counted(self):
+    def test_bad_messages_are_refused_and_counted(self):
         here = (70.0, 70.0)
         self.first.set_down(here)
-        before = self.first.refused()
+        before = self.first.diagnosed_refusals()
         count = len(self.first.committed)
         for changes in ({"footprint_radius": -1.0}, {"footprint_radius": float("nan")}, {"agent": "race2"},
                         {"phases": []}, {"state": Trajectory.PLANNED}, {"s": 2}):
             status = self.first.settlement(self.first.propose(here, (72.0, 70.0), **changes))
-            self.assertEqual(status.reason, PlannerStatus.INVALID_INPUT, status.message)
+            self.assertEqual(status.result, Settlement.INVALID, status.message)
         status = self.first.settlement(self.first.propose((75.0, 70.0), (76.0, 70.0)))
-        self.assertEqual(status.reason, PlannerStatus.INVALID_INPUT)
-        self.assertIn("does not begin", status.message)
-        impostor = drive(here, (72.0, 70.0))
+        self.assertEqual((status.result, status.refusal), (Settlement.REJECTED, Settlement.DISCONTINUOUS), status.message)
+        impostor = drive(self.clock, here, (72.0, 70.0))
         impostor.agent, impostor.epoch, impostor.sequence = "race1", 0, 1
         impostor.state = Trajectory.COMMITTED
         self.promises.publish(impostor)
         impostor.agent = "race3"
         impostor.phases[0].x = [70.0, float("nan")]
         self.promises.publish(impostor)
-        counted = lambda: self.first.refused() >= before + 8
-        self.assertTrue(self.first.wait_for(counted), self.first.diagnosis)
+        self.clock.run_until(lambda: self.first.refused() >= before + 8, 10.0, lambda: "all are counted: %s" % self.first.diagnosis)
+        self.assertEqual(self.first.refused(), before + 8)
         self.assertEqual(len(self.first.committed), count)
 
-    def test_4_way_requests_reach_the_others_in_the_own_name_only(self):
-        before = self.first.refused()
+    def test_yield_requests_reach_the_others_in_the_own_name_only(self):
+        before = self.first.diagnosed_refusals()
         for changes in ({"agent": "race2"}, {"behalf": ""}, {"radius": float("nan")}, {"speed": 0.0},
-                        {"way": [Point()] * 65}, {"way": [Point(float("inf"), 0.0, 0.0)]}):
-            self.first.way_requests.publish(way_request(**changes))
-        counted = lambda: self.first.refused() >= before + 6
-        self.assertTrue(self.first.wait_for(counted), self.first.diagnosis)
-        self.first.way_requests.publish(way_request())
-        self.assertTrue(self.second.wait_for(lambda: self.second.ways))
-        heard, = self.second.ways
+                        {"path": [Point()] * 65}, {"path": [Point(float("inf"), 0.0, 0.0)]}):
+            self.first.yield_requests.publish(yield_request(**changes))
+        self.clock.run_until(lambda: self.first.refused() >= before + 6, 10.0, lambda: "all are counted: %s" % self.first.diagnosis)
+        self.first.yield_requests.publish(yield_request())
+        self.clock.run_until(lambda: self.second.yields, 10.0, "the request is heard")
+        heard, = self.second.yields
         self.assertEqual((heard.agent, heard.behalf, heard.stuck, heard.priority), ("race1", "race0", True, -3))
-        self.assertEqual([(point.x, point.y) for point in heard.way], [(1.5, 2.0), (3.0, -4.25)])
+        self.assertEqual([(point.x, point.y) for point in heard.path], [(1.5, 2.0), (3.0, -4.25)])
         self.assertGreater(heard.epoch, 0)
-        self.assertFalse(self.first.ways)  # its own
+        self.assertFalse(self.first.yields)  # its own
 
-    def test_5_a_killed_broadcaster_comes_back_with_a_new_epoch(self):
+    def test_a_killed_broadcaster_comes_back_with_a_new_epoch(self):
         self.second.set_down((-20.0, -20.0))
-        time.sleep(LEAD_S + 0.2)
         self.second.bind((-20.0, -20.0), (-15.0, -20.0))
         epoch = self.second.committed[-1].epoch
-        rosnode.kill_nodes(["/race2/trajectory_broadcaster"])
-        time.sleep(1.0)
-        deadline = time.time() + 20.0
-        while self.second.proposals.get_num_connections() == 0 and time.time() < deadline:
-            time.sleep(0.05)
-        time.sleep(0.5)
+        end("/race2/trajectory_broadcaster", signal.SIGTERM)
+        self.start()
         # Elsewhere: nothing is known to be binding any more, so no continuity is asked.
         self.second.bind((-20.0, -30.0), (-15.0, -30.0))
         self.assertEqual(self.second.committed[-1].epoch, epoch + 1)
         heard = lambda: any(each.agent == "race2" and each.epoch == epoch + 1
                             for each in self.first.fleet.trajectories)
-        self.assertTrue(self.first.wait_for(heard))
+        self.clock.run_until(heard, 10.0, "the first one knows")
+
+    def test_a_settlement_says_which_proposal(self):
+        here = (-60.0, 60.0)
+        self.first.set_down(here)
+        replaced = self.first.propose(here, (-58.0, 60.0))
+        dropped = self.first.propose(here, (-57.0, 60.0))
+        stop = self.first.propose(here, here, Trajectory.EMERGENCY)
+        for sequence, result, refusal in ((replaced, Settlement.REJECTED, Settlement.REPLACED),
+                                          (dropped, Settlement.REJECTED, Settlement.EMERGENCY),
+                                          (stop, Settlement.SETTLED, Settlement.NONE)):
+            settlement = self.first.settlement(sequence)
+            self.assertEqual((settlement.result, settlement.refusal), (result, refusal), settlement.message)
+            self.assertEqual(settlement.epoch, self.first.committed[-1].epoch)
+
+    def test_a_breach_is_told(self):
+        self.first.set_down((80.0, -80.0))
+        self.second.set_down((-20.0, -30.0))
+        self.first.breaches.clear()
+        self.second.set_down((80.4, -80.0))
+        self.clock.run_until(lambda: self.first.breaches, 10.0, "the breach is told")
+        breach = self.first.breaches[0]
+        self.assertEqual((breach.peer, breach.sequence), ("race2", self.first.sequence))
+        self.assertAlmostEqual(breach.distance, 0.4, delta=0.01)
+        self.second.set_down((-20.0, -30.0))
+
+    def test_when_the_leases_cease_the_peers_hear_the_stop(self):
+        start, end = (30.0, -60.0), (38.0, -60.0)
+        self.first.set_down(start)
+        driven = self.first.bind(start, end)
+        self.clock.run(LEAD_S + 2.0)  # on its way
+        self.assertEqual(self.first.committed[-1].sequence, driven)
+        self.first.lease_s = SHORT_LEASE_S
+        self.clock.step()
+        self.first.renews = False
+        try:
+            self.first.await_committed(driven + 1)
+        finally:
+            self.first.renews, self.first.lease_s = True, LEASE_S
+        stop = self.first.committed[-1]
+        self.assertEqual(stop.state, Trajectory.EMERGENCY)
+        self.assertAlmostEqual((stop.start - self.first.leased_until).to_sec(), 0.0, delta=1e-5)
+        x = stop.phases[-1].x
+        self.assertGreater(x[0], start[0] + 0.5)
+        self.assertLess(x[-1] - x[0], 2.5)
+        self.assertLess(x[-1], end[0] - 1.0)
+        heard = lambda: any(each.agent == "race1" and abs(each.phases[-1].x[-1] - x[-1]) < 1e-4
+                            for each in self.second.fleet.trajectories)
+        self.clock.run_until(heard, 10.0, "the stop is heard")
+        # What was proposed before the stop was known is void; numbers go on after it.
+        del self.first.settlements[driven + 1]
+        late = self.first.settlement(self.first.propose((x[-1], end[1]), end))
+        self.assertEqual((late.sequence, late.result), (driven + 1, Settlement.INVALID))
+        self.first.bind((x[-1], end[1]), end)
 
 
 if __name__ == "__main__":
-    rospy.init_node("broadcaster_test")
+    rospy.init_node("broadcaster_test", disable_rostime=True)
     rostest.rosrun("mocha_ugv", "broadcaster_test", BroadcasterTest, sys.argv)

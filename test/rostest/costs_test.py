@@ -15,7 +15,7 @@ import rostest
 from mocha_ugv.msg import MotionPhase
 
 ROOT = rospkg.RosPack().get_path("mocha_ugv")
-sys.path.insert(0, os.path.join(ROOT, "scripts"))
+sys.path[:0] = [os.path.join(ROOT, "scripts"), os.path.join(ROOT, "test")]
 from mocha_scripts import costs_plots  # noqa: E402
 
 WORLD = os.path.join(ROOT, "config/worlds/corridor_meet.yaml")
@@ -25,7 +25,7 @@ DEARER = 1.1  # than before the promise, at least by this factor
 
 
 def run(module, *arguments, out):
-    environment = dict(os.environ, PYTHONPATH=ROOT + "/scripts:" + os.environ["PYTHONPATH"], ROS_HOME=out)
+    environment = dict(os.environ, PYTHONPATH=ROOT + "/scripts:" + ROOT + "/test:" + os.environ["PYTHONPATH"], ROS_HOME=out)
     return subprocess.run(["/usr/bin/python3", "-m", "mocha_scripts." + module, *arguments, "--out", out],
                           env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120.0)
 

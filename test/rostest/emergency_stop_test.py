@@ -5,18 +5,19 @@ import math
 import os
 import shutil
 import sys
-import time
 import unittest
 
 import rospy
 import rostest
 from geometry_msgs.msg import Twist
-from mocha_ugv.msg import EmergencyStopState, FleetTrajectories
+from mocha_ugv.msg import EmergencyStopState, FleetTrajectories, PlannerStatus
 from std_msgs.msg import Bool
 from std_srvs.srv import SetBool
 from visualization_msgs.msg import MarkerArray
 
-from simulated_robot import SimulatedRobot, pose
+from node_process import is_connected
+from simulated_robot import NODES, SimulatedRobot, pose
+from waiting import wait_until
 
 ENDS = (-4.5, 4.5)  # of the lanes, x
 LANES = {"ugv1": -1.5, "ugv2": 1.5}  # y
@@ -24,8 +25,6 @@ PERIOD_S = 0.02  # of control
 WHEEL_ACCELERATION = 2.5  # [m/s^2] of the rover
 STANDS_S = 0.9 / WHEEL_ACCELERATION + 0.3  # from the order on: wheels of 0.05 s lag, and a step or two
 STANDS_M = 0.9 * 0.9 / (2.0 * WHEEL_ACCELERATION) + 0.15 * 0.9
-STORE = "/tmp/mocha_emergency_stop_test/%s.stops"
-NODES = ("trajectory_broadcaster", "trajectory_tracker", "local_replanner", "global_planner", "perception")
 
 
 class Robot(SimulatedRobot):
@@ -75,6 +74,7 @@ class Robot(SimulatedRobot):
 class EmergencyStopTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        cls.store = os.path.splitext(rospy.get_param("/ugv1/trajectory_broadcaster/epoch_file"))[0] + ".stops"
         cls.robots = cls.first, cls.second = Robot("ugv1"), Robot("ugv2")
         cls.second._until = math.inf  # the first keeps the time
         cls.first.start()
@@ -87,6 +87,10 @@ class EmergencyStopTest(unittest.TestCase):
         cls.first.call(False, "fleet/")
         cls.first.run(2.0)
 
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(os.path.dirname(cls.store))
+
     def tearDown(self):
         self.reset_all()
         self.assertEqual([robot.truth.contacts for robot in self.robots], [0, 0])
@@ -96,9 +100,9 @@ class EmergencyStopTest(unittest.TestCase):
     def run_for(self, seconds):
         self.first.run(seconds)
 
-    def settle(self):
-        """Lets what was published arrive; simulated time stands."""
-        time.sleep(0.3)
+    def settle(self, *dead):
+        """Lets what was published arrive everywhere but at nodes that are dead; simulated time stands."""
+        self.first.settle(set.union(*(robot.pairs() for robot in self.robots)) - set(dead))
 
     def drive_to_speed(self, *robots):
         for robot in robots:
@@ -124,16 +128,17 @@ class EmergencyStopTest(unittest.TestCase):
             self.assertLess(math.dist(robot.place(), place), STANDS_M)
             self.assertLess(robot.off_lane_m(), 0.1)
             self.assertEqual(robot.outcome()[0], "ABORTED", robot.report())
-            self.assertIn("emergency stop", robot.outcome()[1])
+            self.assertTrue(robot.reported(PlannerStatus.EMERGENCY_STOP, ordered_s), robot.reasons[-5:])
 
     def check_stopped(self, robot):
         """And that it takes no goal."""
+        self.settle()
         place = robot.place()
         robot.send(0.0, LANES[robot.name])
         robot.simple_goals.publish(pose(0.0, LANES[robot.name]))
         self.run_for(2.0)
         self.assertEqual(robot.outcome()[0], "ABORTED", robot.report())
-        self.assertIn("emergency stop", robot.outcome()[1])
+        self.assertEqual(robot.last_reason(), PlannerStatus.EMERGENCY_STOP, (robot.name, robot.now, robot.reasons[-8:], robot.outcome(), robot.state))
         self.assertLess(math.dist(robot.place(), place), 0.02)
         self.assertEqual(robot.faster_wheel(), 0.0)
         self.assertTrue(robot.state.stopped)
@@ -154,17 +159,13 @@ class EmergencyStopTest(unittest.TestCase):
 
     def await_node(self, robot, node):
         """Until it takes part again, and all have heard what it keeps for late joiners."""
-        since = self.first.now
-        deadline = time.monotonic() + 30.0
-        while robot._acked.get(node, 0.0) <= since:
-            self.assertLess(time.monotonic(), deadline, node + " has not come back")
-            self.run_for(PERIOD_S)
-            time.sleep(0.05)
-        time.sleep(1.0)
+        robot.wait_for_node(node, self.run_for)
+        wait_until(lambda: is_connected("/%s/%s" % (robot.name, node)), node + " is connected")
+        self.settle()
 
     # --- tests ---
 
-    def test_1_a_robot_by_service(self):
+    def test_a_robot_by_service(self):
         self.drive_to_speed(*self.robots)
         self.check_stop(lambda: self.first.call(True), self.first)
         self.first.run_until(self.second.done, 30.0, "the other one arrives")
@@ -187,7 +188,7 @@ class EmergencyStopTest(unittest.TestCase):
         self.check_reset(self.first)
         self.assertIn("ugv1", self.first.labels)
 
-    def test_2_a_robot_by_topic(self):
+    def test_a_robot_by_topic(self):
         self.drive_to_speed(self.second)
         self.check_stop(lambda: self.second.tell(True), self.second)
         self.assertFalse(self.first.state.stopped)
@@ -196,7 +197,7 @@ class EmergencyStopTest(unittest.TestCase):
         self.second.call(False)
         self.check_reset(self.second)
 
-    def test_3_the_fleet_by_service(self):
+    def test_the_fleet_by_service(self):
         self.drive_to_speed(*self.robots)
         self.check_stop(lambda: self.second.call(True, "fleet/"), *self.robots)
         for robot in self.robots:
@@ -211,7 +212,7 @@ class EmergencyStopTest(unittest.TestCase):
         self.first.call(False)
         self.check_reset(*self.robots)
 
-    def test_4_the_fleet_by_topic(self):
+    def test_the_fleet_by_topic(self):
         self.drive_to_speed(*self.robots)
         self.check_stop(lambda: self.first.tell(True, "fleet/"), *self.robots)
         self.first.tell(False, "fleet/")
@@ -222,7 +223,7 @@ class EmergencyStopTest(unittest.TestCase):
         self.run_for(1.0)
         self.check_reset(*self.robots)
 
-    def test_5_whoever_dies_it_stays_stopped(self):
+    def test_whoever_dies_it_stays_stopped(self):
         self.drive_to_speed(*self.robots)
         self.first.call(True)
         self.second.call(True, "fleet/")
@@ -239,7 +240,7 @@ class EmergencyStopTest(unittest.TestCase):
         self.first.call(False)
         self.check_reset(self.first)
 
-    def test_6_the_fleet_is_stopped_by_who_dies_and_comes_back(self):
+    def test_the_fleet_is_stopped_by_who_dies_and_comes_back(self):
         self.second.call(True, "fleet/")
         self.run_for(1.0)
         for robot in self.robots:
@@ -251,15 +252,16 @@ class EmergencyStopTest(unittest.TestCase):
         self.run_for(1.0)
         self.check_reset(*self.robots)
 
-    def test_7_the_tracker_stops_without_the_broadcaster(self):
+    def test_the_tracker_stops_without_the_broadcaster(self):
         self.drive_to_speed(self.first)
+        dead = self.first.pairs(["trajectory_broadcaster"])
 
         def stop(seconds):
             speed = self.first.faster_wheel()
             self.first.tell(True)
-            self.settle()
+            self.settle(*dead)
             self.run_for(PERIOD_S)
-            self.settle()
+            self.settle(*dead)
             self.assertLess(self.first.faster_wheel(), speed - 0.9 * WHEEL_ACCELERATION * PERIOD_S)
             self.run_for(seconds)
             self.assertTrue(self.first.standing())
@@ -273,24 +275,24 @@ class EmergencyStopTest(unittest.TestCase):
         self.first.send(0.0, LANES["ugv1"])
         self.run_for(2.0)
         self.assertLess(math.dist(self.first.place(), place), 0.02)
-        self.assertIn("emergency stop", self.first.outcome()[1])
+        self.assertEqual(self.first.last_reason(), PlannerStatus.EMERGENCY_STOP)
         self.first.call(False)
         self.check_reset(self.first)
 
-    def test_8_what_cannot_be_read_counts_as_stopped(self):
+    def test_what_cannot_be_read_counts_as_stopped(self):
         self.first.call(True)
         self.first.call(False)
-        with open(STORE % "ugv1", "w") as file:
+        with open(self.store, "w") as file:
             file.write("nonsense")
         self.first.dead_for("trajectory_broadcaster", 0.5)
         self.await_node(self.first, "trajectory_broadcaster")
         self.check_stopped(self.first)
-        self.assertIn((STORE % "ugv1") + " cannot be read", self.first.state.message)
+        self.assertIn(self.store + " cannot be read", self.first.state.message)
         self.first.call(False)
         self.check_reset(self.first)
 
-    def test_9_what_cannot_be_kept_is_said_and_tried_again(self):
-        store = STORE % "ugv1"
+    def test_what_cannot_be_kept_is_said_and_tried_again(self):
+        store = self.store
         os.remove(store)
         os.makedirs(store + "/in_the_way")
         self.assertIn("BUT: emergency stops are not kept over a restart: " + store, self.first.call(True).message)

@@ -15,10 +15,11 @@ ENDS = (-4.5, 4.5)  # of the lane, x
 LANE_Y = -1.5
 # Promised times, as in config/ [s].
 LEASE_S = 0.5
-MAP_AGE_S = 1.5
+BLIND_S = 0.8  # until it brakes without perception: max_prediction_age, a period and emergency_time, and a little
 FLEET_AGE_S = 1.2
 COMMAND_AGE_S = 0.3
-BRAKING_S = 1.0 / 0.8  # from full speed
+BRAKING_S = 1.0 / (0.6 * 0.8)  # from full speed, as promised
+BASE_BRAKING_S = 1.0 / 0.8  # the same of a base without commands
 SLACK_S = 0.4  # actuator lag, and the periods of the nodes
 WORLD = rospkg.RosPack().get_path("mocha_ugv") + "/test/worlds/hall.yaml"
 
@@ -54,8 +55,7 @@ class FailuresTest(unittest.TestCase):
         self.assertEqual(self.robot.truth.contacts, 0)
 
     def test_perception(self):
-        self.check_kill("perception", MAP_AGE_S + LEASE_S + BRAKING_S + SLACK_S,
-                        "local_replanner: .*map: the newest on /ugv1/map is .* old")
+        self.check_kill("perception", BLIND_S + BRAKING_S + SLACK_S, "local_replanner: .*people: no usable word from perception")
 
     def test_local_replanner(self):
         self.check_kill("local_replanner", LEASE_S + BRAKING_S + SLACK_S, "trajectory_tracker: .*the lease ended")
@@ -65,7 +65,7 @@ class FailuresTest(unittest.TestCase):
                         "local_replanner: .*no word from trajectory_broadcaster")
 
     def test_trajectory_tracker(self):
-        self.check_kill("trajectory_tracker", COMMAND_AGE_S + BRAKING_S + SLACK_S,
+        self.check_kill("trajectory_tracker", COMMAND_AGE_S + BASE_BRAKING_S + SLACK_S,
                         "local_replanner: .*off its promised motion")
 
     def test_respawned_at_once(self):

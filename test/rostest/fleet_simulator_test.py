@@ -21,8 +21,11 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
+from waiting import wait_until
+
 START_S = 1.0
 STEP_S = 0.02
+ACK_TIMEOUT_S = 1.0  # as in fleet_simulator.test
 
 
 class Driver:
@@ -31,6 +34,7 @@ class Driver:
     def __init__(self):
         self.changed = threading.Condition()
         self.clocks = []  # [s]
+        self.came = {}  # wall time [s] at which a clock came first
         self.stamp = None
         self.until = 0.0
         self.twist = None
@@ -41,13 +45,11 @@ class Driver:
         self.diagnosis = ""
         self.commands = rospy.Publisher("/ugv1/cmd_vel", Twist, queue_size=1, tcp_nodelay=True)
         self.acks = rospy.Publisher("/fleet_simulator/acks", StepAck, queue_size=10, tcp_nodelay=True)
-        for topic, kind, store in (("/fleet_simulator/ground_truth", GroundTruth, self.truth),
-                                   ("/ugv1/scan", LaserScan, self.scans), ("/ugv1/odom", Odometry, self.odometry)):
-            rospy.Subscriber(topic, kind, store.append, tcp_nodelay=True)
-        rospy.Subscriber("/tf", TFMessage, self.on_transforms)
-        rospy.Subscriber("/tf_static", TFMessage, self.on_transforms)
-        rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics)
-        rospy.Subscriber("/clock", Clock, self.on_clock, tcp_nodelay=True)
+        self.subscribers = [rospy.Subscriber(topic, kind, handle, tcp_nodelay=True) for topic, kind, handle in (
+            ("/fleet_simulator/ground_truth", GroundTruth, self.truth.append), ("/ugv1/scan", LaserScan, self.scans.append),
+            ("/ugv1/odom", Odometry, self.odometry.append), ("/tf", TFMessage, self.on_transforms),
+            ("/tf_static", TFMessage, self.on_transforms), ("/diagnostics", DiagnosticArray, self.on_diagnostics),
+            ("/clock", Clock, self.on_clock))]
 
     def on_transforms(self, message):
         for transform in message.transforms:
@@ -62,6 +64,7 @@ class Driver:
         with self.changed:
             self.stamp = message.clock
             self.clocks.append(self.stamp.to_sec())
+            self.came.setdefault(self.step_of(self.stamp.to_sec()), time.monotonic())
             self.answer()
             self.changed.notify_all()
 
@@ -71,6 +74,31 @@ class Driver:
         if self.twist is not None:
             self.commands.publish(self.twist)
         self.acks.publish(StepAck(robot="ugv1", node="driver", stamp=self.stamp))
+
+    @staticmethod
+    def step_of(clock_s):
+        return round((clock_s - START_S) / STEP_S)
+
+    def waited_s(self, clock_s):
+        """For how long the simulator waited there, on the wall's clock, before it went on without anybody; steps may then be missed here."""
+        step = self.step_of(clock_s)
+        wait_until(lambda: max(self.came) > step, "it goes on from %.2f s" % clock_s, 30.0)
+        return min(wall_s for later, wall_s in list(self.came.items()) if later > step) - self.came[step]
+
+    def connected(self):
+        return all(each.get_num_connections() > 0 for each in (self.acks, self.commands, *self.subscribers))
+
+    def rejoin(self, seconds, twist=None):
+        """Answers whatever comes until the simulator waits for it again, and then for so long. Until when."""
+        with self.changed:
+            self.until, self.twist = math.inf, twist
+            self.answer()
+            begun = len(self.clocks)
+            steady = lambda: len(self.clocks) > begun + 50 and self.clocks[-1] - self.clocks[-50] < 49.5 * STEP_S
+            assert self.changed.wait_for(steady, 30.0), self.clocks[-5:]
+            until = START_S + STEP_S * (self.step_of(self.clocks[-1]) + round(seconds / STEP_S))
+        self.run_until(until, twist)
+        return until
 
     def run_until(self, until, twist=None):
         with self.changed:
@@ -89,36 +117,38 @@ class FleetSimulatorTest(unittest.TestCase):
     def test_drives_in_lockstep(self):
         driver = Driver()
         with driver.changed:  # the start is shown again and again, and nothing else
-            self.assertTrue(driver.changed.wait_for(lambda: len(driver.clocks) >= 5, 20.0))
+            self.assertTrue(driver.changed.wait_for(lambda: len(driver.clocks) >= 5 and driver.connected(), 20.0))
             self.assertEqual(set(driver.clocks), {START_S})
         self.assertEqual(len(driver.truth), 0)
 
         driver.run_until(3.0, forward(0.5))
-        time.sleep(0.5)  # shorter than ack_timeout
-        self.assertAlmostEqual(driver.clocks[-1], 3.0 + STEP_S, places=6)  # waits for this test
-        steps = sorted(set(driver.clocks))
+        self.assertGreater(driver.waited_s(3.0 + STEP_S), 0.5 * ACK_TIMEOUT_S)  # for this test
+        steps = sorted({clock for clock in list(driver.clocks) if clock < 3.0 + 1.5 * STEP_S})
         self.assertTrue(all(abs(b - a - STEP_S) < 1e-6 for a, b in zip(steps, steps[1:])))
-        self.check_sensors(driver)
+        self.check_sensors(driver, 3.0 + STEP_S)
         self.check_missing_and_back(driver)
         self.check_refused_command(driver)
 
-    def check_sensors(self, driver):
-        robot = driver.truth[-1].robots[0]
+    def check_sensors(self, driver, end_s):
+        """Of the drive up to then."""
+        drive = lambda messages: [message for message in list(messages) if message.header.stamp.to_sec() < end_s + 0.5 * STEP_S]
+        truth, odometries, scans = drive(driver.truth), drive(driver.odometry), drive(driver.scans)
+        robot = truth[-1].robots[0]
         self.assertEqual((robot.name, robot.contacts, robot.has_goal, robot.reached), ("ugv1", 0, True, False))
         self.assertAlmostEqual(robot.speed, 0.5, places=3)
         self.assertGreater(robot.path_length, 0.8)
         self.assertAlmostEqual(robot.path_length, robot.pose.x + 3.0, places=3)
         self.assertAlmostEqual(robot.clearance, 5.0 - 0.3 - max(abs(robot.pose.x), 0.0), places=3)
-        self.assertEqual(len(driver.odometry), len(driver.truth))
-        odometry = driver.odometry[-1]
+        self.assertEqual(len(odometries), len(truth))
+        odometry = odometries[-1]
         self.assertEqual((odometry.header.frame_id, odometry.child_frame_id), ("ugv1/odom", "ugv1/base_link"))
         self.assertAlmostEqual(odometry.twist.twist.linear.x, 0.5, places=3)
         self.assertAlmostEqual(odometry.pose.pose.position.x, robot.path_length, delta=0.06)
-        stamps = [scan.header.stamp.to_sec() for scan in driver.scans]
+        stamps = [scan.header.stamp.to_sec() for scan in scans]
         for count, stamp in enumerate(stamps):
             self.assertAlmostEqual(stamp, START_S + 0.1 * count, places=6)
         self.assertGreaterEqual(len(stamps), 19)
-        scan = driver.scans[0]  # from (-3, 0), looking along x, in a room of 10 m
+        scan = scans[0]  # from (-3, 0), looking along x, in a room of 10 m
         self.assertEqual((scan.header.frame_id, len(scan.ranges)), ("ugv1/laser", 720))
         self.assertAlmostEqual(scan.angle_min + 720 * scan.angle_increment, scan.angle_min + 2.0 * math.pi, places=4)
         for beam, expected in ((360, 8.0), (180, 5.0), (540, 5.0)):
@@ -127,25 +157,16 @@ class FleetSimulatorTest(unittest.TestCase):
                                              ("ugv1/base_link", "ugv1/laser")})
 
     def check_missing_and_back(self, driver):
-        deadline = time.time() + 10.0
-        while time.time() < deadline and "missing: ugv1/driver" not in driver.diagnosis:
-            time.sleep(0.1)
-        self.assertIn("missing: ugv1/driver", driver.diagnosis)
-        self.assertGreater(driver.clocks[-1], 10.0)  # as fast as possible by now
+        wait_until(lambda: "missing: ugv1/driver" in driver.diagnosis, lambda: "it is missed; " + driver.diagnosis, 10.0)
+        wait_until(lambda: driver.clocks[-1] > 10.0, "it goes on as fast as possible")
         self.assertEqual(driver.truth[-1].robots[0].speed, 0.0)  # the last command is stale
-        until = driver.clocks[-1] + 50.0
-        driver.run_until(until)
-        time.sleep(0.5)
-        self.assertAlmostEqual(driver.clocks[-1], driver.until + STEP_S, delta=STEP_S)  # it waits again
+        until = driver.rejoin(10.0)
+        self.assertGreater(driver.waited_s(until + STEP_S), 0.5 * ACK_TIMEOUT_S)  # again
 
     def check_refused_command(self, driver):
-        now = driver.clocks[-1]
-        driver.run_until(now + 2.0, forward(float("nan")))
+        driver.rejoin(2.0, forward(float("nan")))
         self.assertEqual(driver.truth[-1].robots[0].speed, 0.0)
-        deadline = time.time() + 5.0
-        while time.time() < deadline and "refused" not in driver.diagnosis:
-            time.sleep(0.1)
-        self.assertIn("refused", driver.diagnosis)
+        wait_until(lambda: "refused" in driver.diagnosis, lambda: "the refusal is told; " + driver.diagnosis, 10.0)
 
     def test_refuses_what_it_cannot_use(self):
         worlds = os.path.join(rospkg.RosPack().get_path("mocha_ugv"), "config", "worlds")

@@ -60,16 +60,20 @@ class LiveParametersTest(unittest.TestCase):
         self.assertIsNotNone(client.get_configuration(TIMEOUT_S))
         return client
 
+    def setUp(self):
+        for node in NODES:
+            self.client(node).update_configuration({name: entry["default"] for name, entry in schema(node).items()})
+
     def refused(self):
         return int(self.diagnosed["global_planner"]["parameter changes refused"])
 
     def ways(self):
-        """How many ways to a place behind the block the planner optimises."""
+        """How many paths to a place behind the block the planner optimises."""
         answer = self.plan(PoseStamped(), pose(*BEHIND_THE_BLOCK))
         self.assertTrue(answer.success, answer.status.message)
         return len(answer.candidates)
 
-    def test_1_offers_what_the_schemas_mark_as_live(self):
+    def test_offers_what_the_schemas_mark_as_live(self):
         types = {"int": int, "double": float, "str": str, "bool": bool}
         for node in NODES:
             declared = schema(node)
@@ -87,7 +91,7 @@ class LiveParametersTest(unittest.TestCase):
                 else:
                     self.assertEqual((entry["min"], entry["max"]), (declared[name]["min"], declared[name]["max"]))
 
-    def test_2_a_change_is_in_force_at_once(self):
+    def test_a_change_is_in_force_at_once(self):
         self.assertGreater(self.ways(), 1)
         client = self.client()
         answer = client.update_configuration({"classes": 1, "roadmap": "VISIBILITY_PRM"})
@@ -98,23 +102,22 @@ class LiveParametersTest(unittest.TestCase):
         client.update_configuration({"classes": 6, "roadmap": "best"})
         self.assertGreater(self.ways(), 1)
 
-    def test_3_a_tolerance_counts_for_the_next_look_at_a_goal(self):
+    def test_a_tolerance_counts_for_the_next_look_at_a_goal(self):
         x, y = self.robot.place()
         self.client().update_configuration({"goal_tolerance": 1.0})
         self.robot.send(x + 0.6, y)
         self.robot.run_until(self.robot.done, PATIENCE_S, "it is there already")
         self.assertEqual(self.robot.outcome()[0], "SUCCEEDED", self.robot.report())
         self.assertLess(self.robot.distance_to(x, y), 0.1, "it need not move")
-        self.client().update_configuration({"goal_tolerance": 0.15})
 
-    def test_4_values_out_of_range_are_clamped(self):
+    def test_values_out_of_range_are_clamped(self):
+        since = self.robot.now
         answer = self.client().update_configuration({"classes": 0, "longest_ratio": math.inf})
         self.assertEqual((answer["classes"], answer["longest_ratio"]), (1, 100.0))
-        self.robot.run_until(lambda: self.robot.said("classes = 0: clamped to 1"), PATIENCE_S, "the log says so")
+        self.robot.run_until(lambda: self.robot.said("classes = 0: clamped to 1", since), PATIENCE_S, "the log says so")
         self.assertEqual(self.ways(), 1)
-        self.client().update_configuration({"classes": 6, "longest_ratio": 2.0})
 
-    def test_5_refused_as_a_whole(self):
+    def test_refused_as_a_whole(self):
         client = self.client()
         service = rospy.ServiceProxy("/ugv1/global_planner/set_parameters", Reconfigure)
         before = dict(client.get_configuration())
@@ -127,7 +130,7 @@ class LiveParametersTest(unittest.TestCase):
                  ({"strs": [StrParameter("roadmap", "streets")]}, "roadmap = streets: expected one of best"))
         for values, words in wrong:
             request = Config(**values)
-            request.doubles.append(DoubleParameter("better_by", 0.5))
+            request.doubles.append(DoubleParameter("min_improvement", 0.5))
             with self.subTest(words), self.assertRaises(rospy.ServiceException):
                 service(request)
             self.robot.run_until(lambda: self.robot.said(words), PATIENCE_S, words)
@@ -136,7 +139,7 @@ class LiveParametersTest(unittest.TestCase):
         self.assertEqual({value.name: value.value for value in answer.doubles + answer.ints + answer.strs},
                          {name: value for name, value in before.items() if name != "groups"})
 
-    def test_6_map_rate(self):
+    def test_map_rate(self):
         def maps_of(seconds):
             self.robot.run(1.0)
             since = self.robot.now
@@ -146,7 +149,6 @@ class LiveParametersTest(unittest.TestCase):
         self.assertGreater(maps_of(4.0), 5)
         self.client("perception").update_configuration({"map_rate": 0.5})
         self.assertLessEqual(maps_of(4.0), 3)
-        self.client("perception").update_configuration({"map_rate": 5.0})
 
     def drive(self, x, gains):
         """Turns and drives along the lane, as soon as it moves with other weights and gains; the mean error across [m]."""
@@ -159,20 +161,20 @@ class LiveParametersTest(unittest.TestCase):
         self.assertEqual(self.robot.outcome()[0], "SUCCEEDED", self.robot.report())
         return sum(abs(error.vector.y) for error in self.errors) / len(self.errors)
 
-    def test_7_weights_and_gains_change_while_driving(self):
+    def test_weights_and_gains_change_while_driving(self):
         self.robot.arrive(4.0, -1.5)
         stiff_m = self.drive(-4.0, {"across_gain": 2.5})
         slack_m = self.drive(4.0, {"across_gain": 0.1, "max_bandwidth": 0.1, "heading_gain": 0.1, "damping": 0.3})
         self.assertGreater(slack_m, 5.0 * stiff_m)
 
-    def test_8_a_respawned_node_has_them_again(self):
-        self.client().update_configuration({"classes": 1, "better_by": 0.3})
+    def test_a_respawned_node_has_them_again(self):
+        self.client().update_configuration({"classes": 1, "min_improvement": 0.3})
         os.kill(self.robot.process("global_planner"), signal.SIGKILL)
         self.robot.run(2.0)
         self.robot.wait_for_node("global_planner")
         self.robot.run_until(lambda: self.plan(PoseStamped(), pose(*BEHIND_THE_BLOCK)).success, PATIENCE_S, "it has a map again")
         values = self.client().get_configuration()
-        self.assertEqual((values["classes"], values["better_by"]), (1, 0.3))
+        self.assertEqual((values["classes"], values["min_improvement"]), (1, 0.3))
         self.assertEqual(self.ways(), 1)
         self.assertEqual(self.robot.truth.contacts, 0)
 

@@ -30,7 +30,7 @@ class PeopleTest(unittest.TestCase):
     def setUpClass(cls):
         cls.followed = []
         cls.drawn = set()  # namespaces
-        cls.values = {}  # of the newest diagnostics of swerves
+        cls.values = {}  # of the newest diagnostics of detours
         rospy.Subscriber("/ugv1/local_trajectory", Trajectory, cls.followed.append)
         rospy.Subscriber("/ugv1/local_markers", MarkerArray, cls.on_markers)
         rospy.Subscriber("/diagnostics", DiagnosticArray, cls.on_diagnostics)
@@ -45,7 +45,7 @@ class PeopleTest(unittest.TestCase):
     @classmethod
     def on_diagnostics(cls, message):
         for status in message.status:
-            if status.name == "ugv1/local_replanner: swerves":
+            if status.name == "ugv1/local_replanner: detours":
                 cls.values = {value.key: value.value for value in status.values}
 
     def setUp(self):
@@ -79,8 +79,9 @@ class PeopleTest(unittest.TestCase):
         self.assertEqual(self.robot.outcome()[0], "SUCCEEDED", self.robot.report())
         self.assertLess(self.robot.distance_to(*RIGHT), 0.2)
 
-    def test_1_it_swerves_or_stops_and_arrives(self):
+    def test_it_swerves_or_stops_and_arrives(self):
         yielded = False
+        self.robot.arrive(*LEFT, limit_s=PATIENCE_S)
         for goal in (RIGHT, LEFT, RIGHT, LEFT):
             begun, plans = self.robot.now, len(self.followed)
             self.robot.send(*goal)
@@ -95,7 +96,7 @@ class PeopleTest(unittest.TestCase):
         self.assertTrue(yielded, "it never swerved nor stopped, whoever walked")
         self.robot.run_until(lambda: any("moving thing" in name for name in self.drawn), PATIENCE_S, "predictions are drawn")
 
-    def test_2_perception_dies_while_somebody_walks(self):
+    def test_perception_dies_while_somebody_walks(self):
         self.drive_to_speed()
         killed = self.robot.now
         self.robot.dead_for("perception", STOP_S + 1.0)
@@ -123,7 +124,7 @@ class PeopleTest(unittest.TestCase):
                 self.stranger.publish(message)
             self.robot.run(0.2)
 
-    def test_3_a_stranger_publishes_nonsense(self):
+    def test_a_stranger_publishes_nonsense(self):
         self.robot.arrive(*LEFT, limit_s=PATIENCE_S)
         process, before = self.robot.process("local_replanner"), self.refused()
         self.robot.send(*RIGHT)
@@ -132,7 +133,7 @@ class PeopleTest(unittest.TestCase):
         self.check_arrival("perception is heard all the same")
         self.assertEqual(self.robot.process("local_replanner"), process, "it died")
 
-    def test_4_nothing_but_nonsense(self):
+    def test_nothing_but_nonsense(self):
         self.drive_to_speed()
         process, killed = self.robot.process("local_replanner"), self.robot.now
         self.robot.dead_for("perception", STOP_S + 1.0, meanwhile=self.shout)

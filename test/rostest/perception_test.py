@@ -5,7 +5,6 @@ import math
 import os
 import shutil
 import tempfile
-import time
 import unittest
 
 import rospy
@@ -19,14 +18,18 @@ from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import LaserScan
 from std_srvs.srv import Trigger
 
+from lockstep_clock import STEP_NS, LockstepClock
+from node_process import is_connected
+from waiting import wait_until
+
 HALF_ROOM = 2.0  # m
+SCAN_STEPS = 5  # of the clock, from scan to scan
 
 
 def scan_of_room():
     """What a lidar in the middle of a square room sees."""
     scan = LaserScan()
     scan.header.frame_id = "ugv1/laser"
-    scan.header.stamp = rospy.Time.now()
     beams = 720
     scan.angle_min = -math.pi
     scan.angle_increment = 2.0 * math.pi / beams
@@ -38,10 +41,10 @@ def scan_of_room():
     return scan
 
 
-def transform(parent, child):
+def transform(stamp, parent, child):
     message = TransformStamped()
     message.header.frame_id = parent
-    message.header.stamp = rospy.Time.now()
+    message.header.stamp = stamp
     message.child_frame_id = child
     message.transform.rotation.w = 1.0
     return message
@@ -58,6 +61,9 @@ class PerceptionTest(unittest.TestCase):
         self.scans = rospy.Publisher("/ugv1/scan", LaserScan, queue_size=5)
         self.transforms = tf2_ros.StaticTransformBroadcaster()
         self.directory = tempfile.mkdtemp()
+        self.clock = LockstepClock({("ugv1", "perception")})
+        self.clock.start()
+        wait_until(lambda: is_connected("/ugv1/perception"), "perception is connected")
 
     def tearDown(self):
         shutil.rmtree(self.directory)
@@ -69,13 +75,14 @@ class PerceptionTest(unittest.TestCase):
                               "values": {value.key: value.value for value in status.values}}
 
     def wait_for(self, condition, seconds=10.0, scan=None):
-        """Publishes scans at 10 Hz until the condition holds."""
-        end = time.time() + seconds
-        while time.time() < end and not condition():
+        """Publishes scans at 10 Hz of simulated time until the condition holds. Whether it does."""
+        end_s = self.clock.now_s + seconds
+        while self.clock.now_s < end_s and not condition():
             if scan is not None:
-                scan.header.stamp = rospy.Time.now()
+                scan.header.stamp = self.clock.stamp()
                 self.scans.publish(scan)
-            time.sleep(0.1)
+            self.clock.run(1e-9 * SCAN_STEPS * STEP_NS)
+            self.clock.settle()
         return condition()
 
     def said(self, text):
@@ -94,7 +101,8 @@ class PerceptionTest(unittest.TestCase):
                         self.words)
         self.assertEqual(self.maps, [])
 
-        self.transforms.sendTransform([transform("map", "ugv1/base_link"), transform("ugv1/base_link", "ugv1/laser")])
+        stamp = self.clock.stamp()
+        self.transforms.sendTransform([transform(stamp, "map", "ugv1/base_link"), transform(stamp, "ugv1/base_link", "ugv1/laser")])
         self.assertTrue(self.wait_for(lambda: len(self.maps) >= 3, 10.0, scan_of_room()))
         self.assertTrue(self.wait_for(lambda: self.said("scans enter the map"), 5.0, scan_of_room()), self.words)
         self.assertEqual(self.maps[-1].header.frame_id, "map")
@@ -118,9 +126,11 @@ class PerceptionTest(unittest.TestCase):
         # An unchanged map gets a fresh stamp as long as scans come in, and only then.
         newest = self.maps[-1].header.stamp
         self.assertTrue(self.wait_for(lambda: (self.maps[-1].header.stamp - newest).to_sec() > 2.0, 5.0, scan_of_room()))
-        time.sleep(1.0)
+        self.clock.run(1.0)
+        self.clock.settle()
         maps = len(self.maps)
-        time.sleep(1.5)
+        self.clock.run(1.5)
+        self.clock.settle()
         self.assertEqual(len(self.maps), maps)
 
         for name in ("map.bt", "map.ot", "map.yaml"):
@@ -149,5 +159,5 @@ class PerceptionTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("perception_test")
+    rospy.init_node("perception_test", disable_rostime=True)
     rostest.rosrun("mocha_ugv", "perception", PerceptionTest)

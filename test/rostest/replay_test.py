@@ -28,6 +28,7 @@ ROOT = rospkg.RosPack().get_path("mocha_ugv")
 WORLD = os.path.join(ROOT, "config/worlds/corridor.yaml")
 RECORDED_S = 9.0
 PLANNING_FROM_S = 5.0  # into the recording
+GOAL = (18.5, 1.2)
 SEEN_X_M = 6.0  # what lies before this has been seen well by then
 NEAR_M = 0.1  # a cell and its noise
 
@@ -54,6 +55,14 @@ class ReplayTest(unittest.TestCase):
         cls.replay = subprocess.Popen(["roslaunch", "--wait", "mocha_ugv", "replay.launch",
                                        "bag:=" + os.path.join(cls.out, "drive.bag")],
                                       stdout=log, stderr=subprocess.STDOUT)
+        with cls.changed:
+            cls.changed.wait_for(lambda: cls.map is not None and cls.clocks and cls.clocks[-1] > 1.0 + PLANNING_FROM_S, 60.0)
+        goal = PoseStamped()
+        goal.header.frame_id = "map"
+        goal.pose.position.x, goal.pose.position.y = GOAL
+        cls.answer = rospy.ServiceProxy("/ugv1/plan", PlanTrajectory)(PoseStamped(), goal)
+        cls.publishers = dict(rosgraph.Master("/replay_test").getSystemState()[0])
+        cls.replay.wait(60.0)  # ends with the bag
 
     @classmethod
     def tearDownClass(cls):
@@ -77,33 +86,21 @@ class ReplayTest(unittest.TestCase):
         with open(os.path.join(self.out, "replay.log")) as file:
             return self.demo.stdout + file.read()[-3000:]
 
-    def test_1_the_demo_records_and_draws(self):
+    def test_the_demo_records_and_draws(self):
         for name in ("drive.bag", "map.png", "dynamics.png", "clearance.png", "separation.png"):
             self.assertGreater(os.path.getsize(os.path.join(self.out, name)), 5000, self.demo.stdout)
         self.assertIn("the limit of 9 simulated seconds is over", self.demo.stdout)
         self.assertEqual(self.demo.returncode, 1)
 
-    def test_2_plans_are_certified_and_nothing_drives(self):
-        plan = rospy.ServiceProxy("/ugv1/plan", PlanTrajectory)
-        with self.changed:
-            enough = lambda: self.map is not None and self.clocks and self.clocks[-1] > 1.0 + PLANNING_FROM_S
-            self.assertTrue(self.changed.wait_for(enough, 60.0), self.log())
-        goal = PoseStamped()
-        goal.header.frame_id = "map"
-        goal.pose.position.x, goal.pose.position.y = 18.5, 1.2
-        answer = plan(PoseStamped(), goal)
-        self.assertTrue(answer.success, answer.status.message)
-        self.assertEqual(answer.status.reason, PlannerStatus.SOLVED)
-        phases = answer.trajectory.phases
-        self.assertLess(math.dist((phases[-1].x[-1], phases[-1].y[-1]), (18.5, 1.2)), 0.2)
+    def test_plans_are_certified_and_nothing_drives(self):
+        self.assertEqual(self.answer.status.reason, PlannerStatus.SOLVED, self.answer.status.message + self.log())
+        phases = self.answer.trajectory.phases
+        self.assertLess(math.dist((phases[-1].x[-1], phases[-1].y[-1]), GOAL), 0.2)
+        self.assertNotIn("/ugv1/cmd_vel", self.publishers)
+        self.assertEqual([node for node in self.publishers["/ugv1/committed_trajectory"] if not node.startswith("/play")], [])
+        self.assertIn("/ugv1/local_replanner", self.publishers["/ugv1/proposed_trajectory"])
 
-        publishers = {topic: nodes for topic, nodes in rosgraph.Master("/replay_test").getSystemState()[0]}
-        self.assertNotIn("/ugv1/cmd_vel", publishers)
-        self.assertEqual([node for node in publishers["/ugv1/committed_trajectory"] if not node.startswith("/play")], [])
-        self.assertIn("/ugv1/local_replanner", publishers["/ugv1/proposed_trajectory"])
-
-    def test_3_the_map_is_as_the_world_is(self):
-        self.replay.wait(60.0)  # ends with the bag
+    def test_the_map_is_as_the_world_is(self):
         circles, polygons = load_shapes(WORLD)
         places = occupied_places(self.map)
         error = distance_to_surfaces(places, circles, polygons)

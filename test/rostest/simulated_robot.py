@@ -5,21 +5,24 @@ import os
 import re
 import signal
 import threading
-import time
 
 import actionlib
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped
-from mocha_ugv.msg import GroundTruth, StepAck
+from mocha_ugv.msg import GroundTruth, PlannerStatus, StepAck
 from move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
 from rosgraph_msgs.msg import Clock, Log
+
+from lockstep_clock import Acks
+from waiting import wait_until
 
 STANDING_MPS = 0.03
 STANDING_RADPS = 0.05
 CHUNK_S = 0.1  # of simulated time between two looks at a condition
 STUCK_WALL_S = 60.0
+NODES = ("perception", "global_planner", "local_replanner", "trajectory_broadcaster", "trajectory_tracker")
 
 
 def wrap(angle):
@@ -44,16 +47,19 @@ class SimulatedRobot:
         self.now = 0.0  # [s] simulated
         self.truth = None
         self.heard = []  # (time, words) of diagnostics and log
+        self.values = {}  # of the newest diagnostics: name -> key -> value
         self.speeds = []  # (time, speed, yaw rate), ground truth
+        self.reasons = []  # (time, reason), of the planner's status
         self._changed = threading.Condition()
         self._stamp = None
         self._until = 0.0
-        self._acked = {}  # node -> when [s, simulated]
         self._acks = rospy.Publisher("/fleet_simulator/acks", StepAck, queue_size=100, tcp_nodelay=True)
+        self._answers = Acks()
+        self._clock = rospy.Publisher("/clock", Clock, queue_size=10, tcp_nodelay=True)
         self.client = actionlib.SimpleActionClient("/%s/move_base" % name, MoveBaseAction)
         self.simple_goals = rospy.Publisher("/%s/move_base_simple/goal" % name, PoseStamped, queue_size=1)
         rospy.Subscriber("/fleet_simulator/ground_truth", GroundTruth, self._on_truth, tcp_nodelay=True)
-        rospy.Subscriber("/fleet_simulator/acks", StepAck, self._on_ack, tcp_nodelay=True)
+        rospy.Subscriber("/%s/planner_status" % name, PlannerStatus, self._on_status)
         rospy.Subscriber("/diagnostics", DiagnosticArray, self._on_diagnostics)
         rospy.Subscriber("/rosout", Log, self._on_log)
         rospy.Subscriber("/clock", Clock, self._on_clock, tcp_nodelay=True)
@@ -66,13 +72,13 @@ class SimulatedRobot:
                 self.truth = robot
                 self.speeds.append((message.header.stamp.to_sec(), robot.speed, robot.yaw_rate))
 
-    def _on_ack(self, ack):
-        if ack.robot == self.name:
-            self._acked[ack.node] = ack.stamp.to_sec()
+    def _on_status(self, status):
+        self.reasons.append((self.now, status.reason))
 
     def _on_diagnostics(self, message):
         for status in message.status:
             self.heard.append((self.now, status.name + ": " + status.message))
+            self.values[status.name] = {value.key: value.value for value in status.values}
 
     def _on_log(self, message):
         self.heard.append((self.now, message.name + ": " + message.msg))
@@ -108,12 +114,15 @@ class SimulatedRobot:
 
     def start(self):
         """Until the whole stack is up and has promised to stand."""
-        deadline = time.monotonic() + STUCK_WALL_S
-        while self._stamp is None or self._acks.get_num_connections() == 0:
-            if time.monotonic() > deadline:
-                raise AssertionError("no simulator")
-            time.sleep(0.05)
+        wait_until(lambda: self._stamp is not None and self._acks.get_num_connections() > 0, "the simulator is there", STUCK_WALL_S)
         self.run(3.0)
+
+    def pairs(self, nodes=NODES):
+        return {(self.name, node) for node in nodes}
+
+    def settle(self, nodes=None):
+        """Until what was published has been taken by these nodes, its own unless others are given; simulated time stands."""
+        self._answers.settle(self._clock, self._stamp.to_nsec(), nodes or self.pairs())
 
     # --- what the robot does ---
 
@@ -134,6 +143,14 @@ class SimulatedRobot:
     def said(self, pattern, since=0.0):
         """Whether a node said so, in diagnostics or in the log."""
         return any(at >= since and re.search(pattern, words) for at, words in list(self.heard))
+
+    def last_reason(self):
+        """Why the planner's newest planning, or refusal to plan, ended as it did."""
+        return self.reasons[-1][1]
+
+    def reported(self, reason, since):
+        """Whether the planner has said that its planning ended so."""
+        return any(at >= since and said == reason for at, said in list(self.reasons))
 
     def report(self):
         state = "no truth yet" if self.truth is None else "at (%.2f, %.2f, %.2f), %.2f m/s, %d contacts" % (
@@ -203,12 +220,14 @@ class SimulatedRobot:
             over.set()
             reaper.join()
 
-    def wait_for_node(self, node):
-        """Lets time go on until the node takes part again."""
-        since = self.now
-        deadline = time.monotonic() + STUCK_WALL_S
-        while self._acked.get(node, 0.0) <= since:
-            if time.monotonic() > deadline:
-                raise AssertionError(node + " has not come back; " + self.report())
-            self.run(0.02)
-            time.sleep(0.05)
+    def wait_for_node(self, node, run=None):
+        """Until the node takes part again. Simulated time goes on a step at a time, or the simulator would give up this test, too; `run`
+        lets it go on where another robot keeps the time."""
+
+        def back():
+            if self._answers.show(self._clock, self._stamp.to_nsec(), self.pairs([node]), 0.2):
+                return True
+            (run or self.run)(0.02)
+            return False
+
+        wait_until(back, lambda: node + " has come back; " + self.report(), STUCK_WALL_S)

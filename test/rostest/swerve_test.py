@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A robot with a lidar only swerves around somebody who comes slantwise across its way, and is back on its plan at the anchor."""
+"""A robot with a lidar only swerves around somebody who comes slantwise across its way, and is back on its plan at the rejoin point."""
 
 import math
 import sys
@@ -32,7 +32,7 @@ class SwerveTest(unittest.TestCase):
     def setUp(self):
         self.driven, self.clearances = [], []  # (x, y) and [m]
         self.plan = []  # the first global one
-        self.anchors = []  # of what was driven around somebody
+        self.rejoin_points = []  # of what was driven around somebody
         rospy.Subscriber("/fleet_simulator/ground_truth", GroundTruth, self.on_truth)
         rospy.Subscriber("/ugv1/candidates", Candidates, self.on_candidates)
         rospy.Subscriber("/ugv1/local_markers", MarkerArray, self.on_markers)
@@ -50,24 +50,24 @@ class SwerveTest(unittest.TestCase):
 
     def on_markers(self, message):
         parts = {marker.ns: marker for marker in message.markers}
-        if "swerve" in parts and "anchor" in parts:
-            place = parts["anchor"].pose.position
-            self.anchors.append((place.x, place.y))
+        if "detour" in parts and "rejoin point" in parts:
+            place = parts["rejoin point"].pose.position
+            self.rejoin_points.append((place.x, place.y))
 
-    def test_swerves_and_is_back_at_the_anchor(self):
+    def test_swerves_and_is_back_at_the_rejoin_point(self):
         self.robot.send(*GOAL)
         self.robot.run_until(self.robot.done, PATIENCE_S, "it arrives")
         self.assertEqual(self.robot.outcome()[0], "SUCCEEDED", self.robot.report())
         self.assertEqual(self.robot.truth.contacts, 0)
-        self.assertTrue(self.anchors, "it did not swerve")
+        self.assertTrue(self.rejoin_points, "it did not swerve")
         self.assertGreater(max(off_line(place, self.plan) for place in self.driven), 0.4, "it swerved by next to nothing")
         self.assertGreater(min(self.clearances), THRESHOLD_M)
-        anchor = self.anchors[-1]
-        self.assertLess(off_line(anchor, self.plan), 0.1, "the anchor is not on the plan")
-        self.assertLess(off_line(anchor, self.driven), 0.1, "it missed the anchor")
-        self.assertLess(anchor[0], GOAL[0] - 1.0, "it came back only at the goal")
+        rejoin_point = self.rejoin_points[-1]
+        self.assertLess(off_line(rejoin_point, self.plan), 0.1, "the rejoin point is not on the plan")
+        self.assertLess(off_line(rejoin_point, self.driven), 0.1, "it missed the rejoin point")
+        self.assertLess(rejoin_point[0], GOAL[0] - 1.0, "it came back only at the goal")
         for place in self.driven:
-            if place[0] > anchor[0]:
+            if place[0] > rejoin_point[0]:
                 self.assertLess(off_line(place, self.plan), 0.2, "it left the plan again")
 
 

@@ -6,7 +6,6 @@ import os
 import signal
 import sys
 import threading
-import time
 import unittest
 
 import rospy
@@ -18,7 +17,9 @@ from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from tf2_msgs.msg import TFMessage
 
+from lockstep_clock import Acks
 from node_process import pid_of
+from waiting import wait_until
 
 STEP_S = 0.02
 LAG_S = 0.05
@@ -35,6 +36,9 @@ class Base:
         self.commands = 0
         self.odometry_on = True
         self.diagnosis = ""
+        self.values = {}
+        self.diagnosed_s = 0.0
+        self.answers = Acks()
         self.acked = threading.Condition()
         self.ack_stamp = 0.0
         self.clock_pub = rospy.Publisher("/clock", Clock, queue_size=10, tcp_nodelay=True)
@@ -58,7 +62,9 @@ class Base:
     def on_diagnostics(self, array):
         for status in array.status:
             if "tracking" in status.name:
-                self.diagnosis = status.message + " " + " ".join(v.value for v in status.values)
+                self.diagnosed_s = array.header.stamp.to_sec()
+                self.values = {value.key: value.value for value in status.values}
+                self.diagnosis = status.message + " " + " ".join(self.values.values())
 
     def publish(self):
         stamp = rospy.Time.from_sec(self.t)
@@ -79,6 +85,10 @@ class Base:
         if self.odometry_on:
             self.odom_pub.publish(odom)
         self.clock_pub.publish(Clock(stamp))
+
+    def settle(self):
+        """Until the tracker has taken what was published; simulated time stands."""
+        self.answers.settle(self.clock_pub, rospy.Time.from_sec(self.t).to_nsec(), {("ugv1", "trajectory_tracker")})
 
     def step(self, timeout_s=10.0):
         """One step of simulated time; False if the tracker did not answer."""
@@ -114,18 +124,23 @@ class TrackerTest(unittest.TestCase):
         cls.base = Base()
         cls.trajectories = rospy.Publisher("/ugv1/committed_trajectory", Trajectory, queue_size=5, latch=True)
         cls.leases = rospy.Publisher("/ugv1/lease", Lease, queue_size=5)
+        cls.sequence = 0
         cls.wait_for_node()
+
+    @classmethod
+    def next_sequence(cls):
+        cls.sequence += 1
+        return cls.sequence
 
     @classmethod
     def wait_for_node(cls):
         """Until the tracker hears everything and answers; simulated time goes on meanwhile."""
         publishers = [cls.base.clock_pub, cls.base.odom_pub, cls.base.tf_pub, cls.trajectories, cls.leases]
-        deadline = time.monotonic() + 30.0
-        while time.monotonic() < deadline:
-            if all(p.get_num_connections() > 0 for p in publishers) and cls.base.step(0.5):
-                return
-            time.sleep(0.1)
-        raise AssertionError("the tracker does not answer")
+        wait_until(lambda: all(p.get_num_connections() > 0 for p in publishers) and cls.base.step(0.5), "the tracker answers", 30.0)
+
+    def setUp(self):
+        """It stands on the x axis."""
+        self.base.y = self.base.yaw = self.base.speed = self.base.yaw_rate = 0.0
 
     def run_for(self, duration, lease_of=None):
         """Runs the base; with `lease_of` a sequence whose lease is renewed at 10 Hz. The highest speed on the way."""
@@ -142,78 +157,88 @@ class TrackerTest(unittest.TestCase):
     def commit(self, message):
         """Publishes and lets it arrive: it travels on another connection than the clock."""
         self.trajectories.publish(message)
-        time.sleep(0.3)
+        self.base.settle()
 
-    def drive_to_half(self, sequence, distance=2.0):
-        """Commits a drive and stops in the middle of it, at full speed."""
+    def hear(self, words):
+        """Until diagnostics say so, which come every second of simulated time."""
+        wait_until(lambda: words in self.base.diagnosis, lambda: words + "; " + self.base.diagnosis, 30.0)
+
+    def refused(self):
+        """How many messages, by diagnostics of now."""
+        since = self.base.t
+        self.run_for(1.2)
+        wait_until(lambda: self.base.diagnosed_s >= since, "diagnostics", 30.0)
+        return int(self.base.values["refused messages"])
+
+    def drive_to_half(self, distance=2.0):
+        """Commits a drive and stops in the middle of it, at full speed; where it began."""
         x = self.base.x
+        sequence = self.next_sequence()
         self.commit(straight(self.base.t + 0.2, self.base.t, sequence, x, x + distance, 2.5 * distance))
         self.run_for(0.2 + 1.25 * distance, lease_of=sequence)
         self.assertGreater(self.base.speed, 0.6)
         return x
 
-    def test_1_without_a_motion_it_commands_zero(self):
+    def test_without_a_motion_it_commands_zero(self):
         self.assertEqual(self.run_for(0.5), 0.0)
 
-    def test_2_malformed_messages_are_refused_and_counted(self):
-        bad = straight(self.base.t, self.base.t, 1, 0.0, 2.0, 5.0)
+    def test_malformed_messages_are_refused_and_counted(self):
+        before = self.refused()
+        x = self.base.x
+        bad = straight(self.base.t, self.base.t, self.next_sequence(), x, x + 2.0, 5.0)
         bad.phases[0].x[1] = float("nan")
         self.commit(bad)
-        bad = straight(self.base.t, self.base.t, 2, 0.0, 2.0, 5.0)
+        bad = straight(self.base.t, self.base.t, self.next_sequence(), x, x + 2.0, 5.0)
         bad.agent = "ugv2"
         self.commit(bad)
-        self.leases.publish(Lease(epoch=1, sequence=3, valid_until=rospy.Time.from_sec(self.base.t + 3600.0)))
-        time.sleep(0.3)
+        self.leases.publish(Lease(epoch=1, sequence=self.next_sequence(), valid_until=rospy.Time.from_sec(self.base.t + 3600.0)))
+        self.base.settle()
         self.assertEqual(self.run_for(2.5), 0.0)
-        time.sleep(0.3)
-        self.assertIn("more than max_lease", self.base.diagnosis)
-        self.assertIn(" 3 ", self.base.diagnosis)
+        self.hear("more than max_lease")
+        self.assertEqual(self.refused(), before + 3)
 
-    def test_3_drives_a_committed_motion(self):
-        x = self.drive_to_half(10)
-        self.run_for(4.0, lease_of=10)
+    def test_drives_a_committed_motion(self):
+        x = self.drive_to_half()
+        self.run_for(4.0, lease_of=self.sequence)
         self.assertAlmostEqual(self.base.x - x, 2.0, delta=0.02)
         self.assertAlmostEqual(self.base.y, 0.0, delta=0.02)
         self.assertAlmostEqual(self.base.speed, 0.0, delta=1e-3)
 
-    def test_4_brakes_when_the_lease_ends_and_stays(self):
-        x = self.drive_to_half(20)
+    def test_brakes_when_the_lease_ends_and_stays(self):
+        x = self.drive_to_half()
         self.run_for(4.0)
         braked = self.base.x - x - 1.0
         speed = 1.875 * 2.0 / 5.0
-        self.assertLess(braked, speed * 0.5 + speed ** 2 / (2.0 * 0.8) + 0.2 * speed + 0.05)
+        self.assertLess(braked, speed * 0.5 + speed ** 2 / (2.0 * 0.6 * 0.8) + 0.2 * speed + 0.05)
         self.assertAlmostEqual(self.base.speed, 0.0, delta=1e-3)
-        self.assertLess(self.run_for(1.0, lease_of=20), 1e-3, "a lease alone does not resume")
-        self.assertIn("the lease ended", self.base.diagnosis)
+        self.assertLess(self.run_for(1.0, lease_of=self.sequence), 1e-3, "a lease alone does not resume")
+        self.hear("the lease ended")
 
-    def test_5_stops_without_odometry(self):
-        self.drive_to_half(30)
+    def test_stops_without_odometry(self):
+        self.drive_to_half()
         self.base.odometry_on = False
-        self.run_for(1.8, lease_of=30)
+        self.run_for(1.8, lease_of=self.sequence)
         self.assertLess(abs(self.base.speed), 1e-2)
-        self.run_for(1.5, lease_of=30)
-        time.sleep(0.3)
-        self.assertIn("no odometry on /ugv1/odom for", self.base.diagnosis)
+        self.run_for(1.5, lease_of=self.sequence)
+        self.hear("no odometry on /ugv1/odom for")
         self.base.odometry_on = True
-        self.assertLess(self.run_for(1.0, lease_of=30), 0.3, "the motion has gone on without the robot")
+        self.assertLess(self.run_for(1.0, lease_of=self.sequence), 0.3, "the motion has gone on without the robot")
         self.run_for(2.0)
         self.assertAlmostEqual(self.base.speed, 0.0, delta=1e-3)
 
-    def test_6_a_respawned_tracker_waits_for_a_new_motion(self):
-        self.drive_to_half(40)
+    def test_a_respawned_tracker_waits_for_a_new_motion(self):
+        self.drive_to_half()
         os.kill(pid_of(NODE), signal.SIGINT)
-        deadline = time.monotonic() + 30.0
-        while self.trajectories.get_num_connections() > 0 and time.monotonic() < deadline:
-            time.sleep(0.05)
-        self.assertEqual(self.base.command.linear.x, 0.0, "the last command has to be a stop")
+        wait_until(lambda: self.trajectories.get_num_connections() == 0, "the tracker ends", 30.0)
+        wait_until(lambda: self.base.command.linear.x == 0.0, "the last command is a stop", 5.0)
         self.base.speed = 0.0
         self.wait_for_node()
-        time.sleep(0.3)
+        self.base.settle()
         x = self.base.x
         self.run_for(1.0)
         self.assertAlmostEqual(self.base.x, x, delta=1e-3)
-        self.drive_to_half(41)
-        self.run_for(4.0, lease_of=41)
+        self.drive_to_half()
+        self.run_for(4.0, lease_of=self.sequence)
         self.assertAlmostEqual(self.base.x - x, 2.0, delta=0.03)
 
 

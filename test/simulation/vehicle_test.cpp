@@ -20,7 +20,7 @@ RobotModel model() {
   model.max_wheel_acceleration = 2.0;
   model.limits.track_m = 0.4;
   model.actuator_lag_s = 0.0;
-  model.command_age_limit_s = 0.3;
+  model.cmd_timeout_s = 0.3;
   return model;
 }
 

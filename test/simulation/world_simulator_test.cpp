@@ -19,7 +19,7 @@ RobotModel model(const Footprint& footprint) {
   model.max_wheel_acceleration = 2.5;
   model.limits.track_m = 0.35;
   model.actuator_lag_s = 0.05;
-  model.command_age_limit_s = 0.3;
+  model.cmd_timeout_s = 0.3;
   model.footprint = footprint;
   model.lidar.field_of_view_rad = 2.0 * M_PI;
   model.lidar.beams = 90;

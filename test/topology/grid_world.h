@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "topology/grid_path.h"
-#include "topology/map_terrain.h"
-#include "topology/path_shortening.h"
+#include "topology/paths/grid_path.h"
+#include "topology/paths/path_shortcutting.h"
+#include "topology/static_map/grid_static_map.h"
 #include "world/distance_field.h"
 #include "world/occupancy_grid.h"
 
@@ -45,29 +45,30 @@ inline std::shared_ptr<const DistanceField> unseen_field(const OccupancyGrid& gr
   return std::make_shared<DistanceField>(grid, DistanceField::Solid::kOccupiedOrUnknown);
 }
 
-inline std::shared_ptr<const Terrain> terrain_of(std::shared_ptr<const DistanceField> field) {
-  return std::make_shared<MapTerrain>(std::move(field));
+inline std::shared_ptr<const StaticMap> static_map_of(std::shared_ptr<const DistanceField> field) {
+  return std::make_shared<GridStaticMap>(std::move(field));
 }
 
-inline std::shared_ptr<const Terrain> terrain_of(const OccupancyGrid& grid) {
-  return terrain_of(occupied_field(grid));
+inline std::shared_ptr<const StaticMap> static_map_of(const OccupancyGrid& grid) {
+  return static_map_of(occupied_field(grid));
 }
 
 /// The lattice path with its corners cut, and what it costs.
-struct GridWay : GridPath {
+struct FoundGridPath : GridPath {
   double cost = 0.0;
 };
 
-inline GridWay find_grid_way(std::shared_ptr<const DistanceField> field, const Vector2& start,
-                             const Vector2& goal, const std::vector<BlockedDisc>& blocked,
-                             const TravelRules& rules, double step_m = 0.05) {
-  const MapTerrain terrain(std::move(field));
-  const TravelCost cost(terrain, start, blocked, rules);
-  GridWay way{find_grid_path(terrain, start, goal, cost, step_m)};
-  if (way.outcome != GridPath::Outcome::kFound) return way;
-  way.points = shortened(way.points, cost, Cuts<2>({}));
-  way.cost = cost_of(way.points, cost);
-  return way;
+inline FoundGridPath find_path_on_grid(std::shared_ptr<const DistanceField> field,
+                                       const Vector2& start, const Vector2& goal,
+                                       const std::vector<BlockedDisc>& blocked,
+                                       const TravelOptions& options, double step_m = 0.05) {
+  const GridStaticMap static_map(std::move(field));
+  const TravelCost cost(static_map, start, blocked, options);
+  FoundGridPath path{find_grid_path(static_map, start, goal, cost, step_m)};
+  if (path.outcome != GridPath::Outcome::kFound) return path;
+  path.points = with_shortcuts(path.points, cost, Cuts<2>({}));
+  path.cost = cost_of(path.points, cost);
+  return path;
 }
 
 /// 8 x 6 m from the origin on with `count` random discs, none nearer than `free_m` to `start` and

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "fleet/motions.h"
+#include "fleet/protocol/motions.h"
 
 namespace mocha {
 namespace {

@@ -13,7 +13,8 @@
 namespace mocha {
 namespace {
 
-/// Of a state whose place and velocity have much in common, as a filter says after a few sightings.
+/// Of a state whose place and velocity have much in common, as a filter says after a few
+/// detections.
 Eigen::Matrix4d random_covariance(int seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;

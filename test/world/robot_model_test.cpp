@@ -65,6 +65,16 @@ TEST_F(RobotModelTest, TheJackalIsThatOfTheBarnChallenge) {
   EXPECT_EQ(jackal.lidar.max_range_m, 10.0);
 }
 
+TEST_F(RobotModelTest, BrakesWithinItsLimitsAndHardWithinThoseOfAnEmergency) {
+  RobotModel robot = load_robot_model("config", "jackal");
+  // As braking along a path asks for (trajectory/stopping.h).
+  EXPECT_LE(robot.braking_deceleration(), 0.7 * robot.limits.max_acceleration);
+  EXPECT_GE(robot.braking_deceleration(), 0.5 * robot.limits.max_acceleration);
+  EXPECT_EQ(robot.emergency_limits().max_acceleration, robot.emergency_acceleration);
+  EXPECT_GT(robot.hard_braking_deceleration(), robot.braking_deceleration());
+  EXPECT_LT(robot.hard_braking_deceleration(), robot.emergency_acceleration);
+}
+
 TEST_F(RobotModelTest, ValuesThatAreNotGivenAreTheSchemasDefaults) {
   const RobotModel robot = load("max_speed: 0.5\nlidar_x: 0.2\n");
   EXPECT_EQ(robot.limits.max_speed, 0.5);
@@ -86,6 +96,39 @@ TEST_F(RobotModelTest, RefusalsNameFileKeyAndValue) {
             std::string::npos);
   EXPECT_NE(refusal("lidar_rate: 20.0\n").find("lidar_sweep_time"), std::string::npos);
   EXPECT_THROW(load_robot_model("config", "no_such_robot"), ParameterError);
+}
+
+TEST_F(RobotModelTest, AnEmergencyIsBetweenDrivingAndWhatTheWheelsCan) {
+  const std::string limits = "max_acceleration: 1.0\nmax_wheel_acceleration: 2.0\n";
+  for (const char* kept : {"1.0", "1.5", "2.0"})
+    EXPECT_EQ(refusal(limits + "emergency_acceleration: " + kept + "\n"), "accepted") << kept;
+  for (const char* broken : {"0.9", "2.1"}) {
+    const std::string error = refusal(limits + "emergency_acceleration: " + broken + "\n");
+    for (const std::string part :
+         {"test.yaml", "max_acceleration = 1", "max_wheel_acceleration = 2"})
+      EXPECT_NE(error.find(part), std::string::npos) << error;
+    EXPECT_NE(error.find(std::string("emergency_acceleration = ") + broken), std::string::npos)
+        << error;
+  }
+  // Of one that is given, the other has to fit, too.
+  EXPECT_NE(refusal("max_acceleration: 2.2\n").find("emergency_acceleration"), std::string::npos);
+  EXPECT_NE(refusal("max_wheel_acceleration: 1.0\n").find("emergency_acceleration"),
+            std::string::npos);
+}
+
+TEST_F(RobotModelTest, AnEmergencyHasMoreAccelerationAndNothingElse) {
+  for (const char* name : {"rover", "jackal"}) {
+    const RobotModel robot = load_robot_model("config", name);
+    const MotionLimits limits = robot.emergency_limits();
+    EXPECT_GT(limits.max_acceleration, robot.limits.max_acceleration) << name;
+    EXPECT_EQ(limits.max_acceleration, robot.emergency_acceleration);
+    EXPECT_EQ(limits.max_speed, robot.limits.max_speed);
+    EXPECT_EQ(limits.max_yaw_rate, robot.limits.max_yaw_rate);
+    EXPECT_EQ(limits.max_wheel_speed, robot.limits.max_wheel_speed);
+    EXPECT_LT(robot.braking_deceleration(), robot.limits.max_acceleration);
+    EXPECT_LT(robot.hard_braking_deceleration(), robot.emergency_acceleration);
+    EXPECT_GT(robot.hard_braking_deceleration(), robot.braking_deceleration());
+  }
 }
 
 }  // namespace

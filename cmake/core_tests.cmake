@@ -1,0 +1,24 @@
+# The tests of the core: one gtest binary a folder (test/NAME/*_test.cpp), and the fuzzers.
+function(mocha_gtest folder)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*_test.cpp)
+  if(MOCHA_LEFT_OUT)
+    list(FILTER sources EXCLUDE REGEX "/${MOCHA_LEFT_OUT}(_test)?\\.cpp$")
+  endif()
+  catkin_add_gtest(test_${folder} ${sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  target_link_libraries(test_${folder} mocha_${folder} gtest gtest_main)
+  target_include_directories(test_${folder} PRIVATE ${PROJECT_SOURCE_DIR}/test)
+endfunction()
+
+foreach(folder config trajectory world camouflage safety perception fleet control base simulation topology optimization planning)
+  mocha_gtest(${folder})
+endforeach()
+
+# The scenes and the judge of scripts/bench replan, and the fleet of scripts/bench table3, fleet_delay and fleet_scale.
+target_sources(test_planning PRIVATE test/benchmarks/replan_scene.cpp test/benchmarks/space_time_solver.cpp
+  test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp test/benchmarks/one_phase.cpp
+  test/benchmarks/benchmark_world.cpp)
+
+# Simulated drives for the localiser.
+target_link_libraries(test_perception mocha_simulation)
+
+include(cmake/fuzzers.cmake)

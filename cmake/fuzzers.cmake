@@ -1,0 +1,31 @@
+# test/fuzz/NAME.cpp becomes fuzz_NAME: broken input in large numbers, under the sanitizers. An ordinary build makes the folders that take it once more for that; a
+# build for the thread sanitizer has no fuzzers, as they have no threads.
+set(MOCHA_FUZZ_SANITIZERS -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all)
+if(MOCHA_SANITIZE STREQUAL "thread")
+  return()
+elseif(MOCHA_SANITIZE)
+  set(fuzzed mocha_fleet mocha_perception)
+else()
+  set(fuzzed mocha_fuzzed)
+  file(GLOB_RECURSE fuzzed_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/config/*.cpp ${PROJECT_SOURCE_DIR}/src/fleet/*.cpp
+    ${PROJECT_SOURCE_DIR}/src/perception/*.cpp ${PROJECT_SOURCE_DIR}/src/trajectory/*.cpp ${PROJECT_SOURCE_DIR}/src/world/*.cpp)
+  add_library(mocha_fuzzed STATIC EXCLUDE_FROM_ALL ${fuzzed_sources})
+  target_include_directories(mocha_fuzzed PUBLIC src)
+  target_include_directories(mocha_fuzzed SYSTEM PUBLIC ${MOCHA_LCM_INCLUDE_DIR} PRIVATE ${CERES_INCLUDE_DIR})
+  target_compile_options(mocha_fuzzed PUBLIC -O1 -g1 ${MOCHA_FUZZ_SANITIZERS})
+  target_link_options(mocha_fuzzed PUBLIC ${MOCHA_FUZZ_SANITIZERS})
+  target_link_libraries(mocha_fuzzed PUBLIC Eigen3::Eigen yaml-cpp sodium ${OCTOMAP_LIBRARIES})
+  add_dependencies(mocha_fuzzed mocha_lcm_types)
+endif()
+
+function(mocha_fuzzer name count)
+  add_executable(fuzz_${name} EXCLUDE_FROM_ALL test/fuzz/${name}.cpp)
+  target_include_directories(fuzz_${name} PRIVATE test)
+  target_link_libraries(fuzz_${name} ${fuzzed})
+  add_dependencies(tests fuzz_${name})
+  add_test(NAME fuzz_${name} COMMAND fuzz_${name} ${count} 1 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+endfunction()
+
+mocha_fuzzer(datagrams 1000000)
+mocha_fuzzer(scans 2000)
+mocha_fuzzer(localizer 4000)

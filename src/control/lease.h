@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "trajectory/motion.h"
+
+namespace mocha {
+
+/// Names one committed motion of this robot.
+struct MotionId {
+  std::uint32_t epoch = 0;
+  std::uint32_t sequence = 0;
+};
+
+inline bool operator==(const MotionId& a, const MotionId& b) {
+  return a.epoch == b.epoch && a.sequence == b.sequence;
+}
+
+/// What a robot does on `motion` once its lease has ended: from `lease_end_s` on (absolute; at most
+/// 0.1 s before `now_s`, where that was noticed late) it brakes along its path at `deceleration`
+/// [m/s^2]. A turn in place is broken off, and what has not begun does not begin. Throws
+/// std::invalid_argument for a deceleration that is not positive and finite.
+Motion stop_at_lease_end(const Motion& motion, double lease_end_s, double now_s,
+                         double deceleration);
+
+/// The lease of the committed motion, as it is followed to tell the others when it ends.
+class LeaseWatch {
+ public:
+  /// A newly committed motion and the end of its first lease.
+  void commit(const MotionId& id, Motion motion, double lease_end_s);
+  /// Sets the end of the lease of the committed motion; of others nothing is known here.
+  void renew(const MotionId& id, double lease_end_s);
+  /// The stop that the robot makes because its lease has ended: once, and not where the motion
+  /// does the same, or moves no more.
+  std::optional<Motion> expire(double now_s, double deceleration);
+
+  /// The end of the lease (absolute); 0 without a motion.
+  double end_s() const { return end_s_; }
+
+ private:
+  MotionId id_;
+  std::optional<Motion> motion_;  // until it is replaced by its stop
+  double end_s_ = 0.0;
+};
+
+}  // namespace mocha

@@ -1,0 +1,212 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleet/protocol/committed_trajectory.h"
+#include "fleet/protocol/peer_table.h"
+#include "fleet/protocol/reservation_chain.h"
+#include "trajectory/stop_separation.h"
+
+namespace mocha {
+
+struct CommitmentOptions {
+  std::string agent;
+  std::uint32_t epoch = 1;  ///< one more than at the last start
+  int priority = 0;
+  double delta_dc_s = 0.06;
+  double reach_timeout_s = 1.0;
+  double peer_clearance_m = 0.2;
+  /// How robots are to be able to stop for each other, and what their discs keep then [m].
+  std::optional<StopOptions> stops;
+  double stop_clearance_m = 0.0;
+  double heartbeat_period_s = 0.1;
+  double resend_period_s = 1.0;
+  /// Endorsements that come up within this time of the last ones wait, and go together. Well below
+  /// delta_dc, so that nobody settles later than it would anyway.
+  double answer_period_s = 0.025;
+  ClockOptions clocks;
+};
+
+/// A motion that the robot would like to make its promise.
+struct Proposal {
+  std::uint32_t tag = 0;  ///< the proposer's own number; comes back in the events
+  double footprint_radius_m = 0.0;
+  std::shared_ptr<const Motion> motion;
+};
+
+/// Why a proposal did not become binding. The numbers are those of mocha_ugv/Settlement.
+enum class Refusal : std::uint8_t {
+  kNone,
+  kListening,      ///< just started: who is there has not been heard of yet
+  kTooLate,        ///< its start came before it was settled, or has passed already
+  kDiscontinuous,  ///< does not begin where the binding motion will be
+  kPeerPromise,    ///< comes too close to what a peer has promised
+  kPeerProposal,   ///< meets a peer's proposal that came first, or one of the same time that ranks
+                   ///< higher
+  kUnanswered,     ///< like kTooLate, because of a peer in reach that did not agree in time
+  kClock,          ///< like kTooLate, because nobody can tell what a peer's clock shows
+  kReplaced,       ///< by a newer proposal of its own robot
+  kEmergency,      ///< its own robot brakes
+};
+
+/// In a word, for reports: "peer_promise".
+const char* name_of(Refusal refusal);
+
+struct CommitmentEvent {
+  enum class Kind {
+    kSettled,    ///< the motion is binding
+    kRejected,   ///< it is not, by the rules; `refusal` says why
+    kWithdrawn,  ///< its own robot has something newer (kReplaced, kEmergency)
+    kBreached,   ///< a peer's binding motion meets our binding one: it brakes, or was out of reach
+  };
+  Kind kind = Kind::kSettled;
+  Refusal refusal = Refusal::kNone;
+  CommittedTrajectory trajectory;  ///< ours; as sent, if it was sent
+  Proposal proposal;               ///< as it came from the proposer
+  Conflict conflict;  ///< its peer is set where one was involved; the rest where two motions meet
+};
+
+/// What follows from a call: messages to every peer, in this order, and news for the own robot.
+struct CommitmentActions {
+  std::vector<CommittedTrajectory> trajectories;
+  std::optional<Heartbeat> heartbeat;
+  std::vector<CommitmentEvent> events;
+};
+
+/// The propose / settle protocol of one robot, as a state machine: time is an argument, messages go
+/// in and come out.
+///
+/// Rules. A proposal is sent to all. It becomes binding after delta_dc, as soon as every peer in
+/// reach (a heartbeat heard within reach_timeout) has endorsed it in a heartbeat, if it meets
+/// nothing: two motions meet where their centres come closer than the two radii plus peer_clearance
+/// at any time from now on, or (with stops) where one robot, braking along its path at some moment,
+/// and the other, braking along its own after the reaction time, would come closer than the radii
+/// plus stop_clearance. It must be settled before it starts, and must begin where the binding
+/// motion will be then (5 cm). A binding promise is never displaced. Of two pending proposals that
+/// meet, the lower in rank (priority, then name) is withdrawn; the other waits for the news of
+/// that, or loses to it if it became binding first. A robot endorses a proposal that it has seen
+/// unless that meets its own binding promise or its own pending proposal of higher rank; it says so
+/// at once, or within answer_period of the last time, together with whatever else it endorses until
+/// then: a fleet of N robots that all plan anew sends N heartbeats more in that time, not N^2.
+/// Emergency motions bind at once.
+///
+/// Why two motions a and b that meet never both settle while their robots A and B are in reach of
+/// each other, whatever is lost, late or out of order: suppose they did. When A endorsed b, A had
+/// not promised a, nor was a pending (A would have withdrawn a, or not endorsed b). So A proposed a
+/// after it endorsed b, hence after b was proposed. By the same argument b was proposed after a.
+/// Both robots decide alike because only the lower in rank gives way, and the rank is in the
+/// messages. An endorsement that waits to be sent is one that the network delays. Someone always
+/// wins, because waiting follows the rank, which has no cycles, and ends at the start of the
+/// motion. Why it also holds without endorsements (peers not yet known to be in reach) where
+/// messages take less than delta_dc: of two checks that overlap, one robot at least hears of the
+/// other's proposal before the end of its own check, and then yields or waits for the other's
+/// outcome; of two that do not, the later one starts after the earlier motion is binding, and hears
+/// so before it ends.
+///
+/// What a robot may assume: while two robots keep their binding promises, their centres stay radii
+/// plus clearance apart, less the tracking errors of both. So nobody who keeps its promise is hit
+/// by a robot that kept its promise; with stops, nor by one that brakes along its promised path at
+/// the deceleration agreed on or less hard, if the robot in its way hears of it and brakes within
+/// the reaction time. Assumed are: one map frame (its errors belong into the
+/// margins), clocks that agree as ClockOptions say or were measured (PeerTable; nothing is endorsed
+/// or settled with a peer in reach whose clock is not known), unique names, true radii, and robots
+/// that are in reach of each other while they settle, or messages faster than delta_dc. An
+/// emergency motion breaks a promise. It is sent to all at once, and a robot whose own promise
+/// meets it is told (kBreached) and has to brake in turn; until it stands, those two have only
+/// their planners' margins. Robots that already are closer than demanded (after braking, or set
+/// down so) may move as long as they come no closer.
+class CommitmentProtocol {
+ public:
+  enum class State {
+    kListening,  ///< since the start, for one reach_timeout: nothing may be proposed
+    kIdle,       ///< nothing binding, nothing pending
+    kProposing,  ///< nothing binding, a proposal pending
+    kBound,      ///< a binding motion, nothing pending
+    kRevising,   ///< a binding motion, and a proposal to follow it
+  };
+
+  /// Throws std::invalid_argument for options out of range.
+  explicit CommitmentProtocol(CommitmentOptions options);
+
+  // Every call moves the protocol on to `now` [s], which must not decrease.
+
+  /// Offers a motion; one that is pending is withdrawn. Throws std::invalid_argument for what
+  /// cannot be promised at all (validate()), without any effect.
+  CommitmentActions propose(const Proposal& proposal, double now);
+  /// Makes a braking motion binding at once. Throws like propose().
+  CommitmentActions brake(const Proposal& proposal, double now);
+  /// A validated message of another robot. One that carries our own name is ignored and counted.
+  CommitmentActions receive(const CommittedTrajectory& trajectory, double now);
+  CommitmentActions receive(const Heartbeat& heartbeat, double now);
+  CommitmentActions tick(double now);
+
+  State state() const;
+  const CommitmentOptions& options() const { return options_; }
+  const PeerTable& peers() const { return peers_; }
+  const ReservationChain& binding() const { return binding_; }
+  int impostors() const { return impostors_; }
+
+ private:
+  struct Pending {
+    CommittedTrajectory trajectory;
+    Proposal proposal;
+    double since_s;
+  };
+  /// What stands between a proposal and its settlement.
+  struct Obstacle {
+    Refusal refusal = Refusal::kNone;
+    Conflict conflict;
+    std::string waits_for;  ///< a peer whose outranked proposal is not withdrawn yet
+  };
+
+  CommittedTrajectory trajectory_of(const Proposal& proposal, TrajectoryState state) const;
+  CommittedTrajectory send(CommittedTrajectory trajectory, CommitmentActions& actions);
+  void listen(double now);
+  void heed(const std::string& name, double now, CommitmentActions& actions);
+  void advance(double now, CommitmentActions& actions);
+  void carry_on(double now, CommitmentActions& actions);
+  void settle(double now, CommitmentActions& actions);
+  void bind_pending(CommitmentActions& actions);
+  void drop_pending(CommitmentEvent::Kind kind, Refusal refusal, const Conflict& conflict,
+                    CommitmentActions& actions);
+  void answer(double now);
+  void answer(const std::string& name, const Peer& peer, double now);
+  void keep_in_touch(double now, CommitmentActions& actions);
+  void send_again(double now, CommitmentActions& actions);
+  void report_breach(const std::string& name, double now, CommitmentActions& actions) const;
+
+  Obstacle obstacle(const CommittedTrajectory& proposal, double now) const;
+  Obstacle obstacle_by(const std::string& name, const Peer& peer, const Reservation& mine,
+                       double now) const;
+  Refusal refusal_by_itself(const Motion& motion, double now) const;
+  bool objects_to(const Peer& peer, const CommittedTrajectory& proposal, double now) const;
+  std::optional<Conflict> meeting(const Reservation& mine, const Peer& peer,
+                                  const Reservation& theirs, double now) const;
+  /// The same for where one of them brakes: of what is binding, and the proposals where there are.
+  std::optional<Conflict> stop_meeting(const CommittedTrajectory* my_proposal, const Peer& peer,
+                                       const CommittedTrajectory* their_proposal, double now) const;
+  /// Robots that are too close already may come as close as this, and no closer.
+  double closest_m(const Motion& mine, const Peer& peer, const Motion& theirs, double now) const;
+  /// A peer in reach that has not told us that it has seen the promise; none: empty.
+  std::string unaware_peer(TrajectoryId id, double now) const;
+  std::string unclocked_peer(double now) const;
+
+  CommitmentOptions options_;
+  PeerTable peers_;
+  ReservationChain binding_;
+  std::optional<Pending> pending_;
+  Acknowledgement last_sent_;
+  std::uint32_t sequence_ = 0;
+  std::optional<double> listen_until_s_;
+  bool listening_ = true;
+  std::vector<Acknowledgement> answers_;  // endorsed, not said yet
+  double next_answer_s_ = 0.0;
+  double next_heartbeat_s_ = 0.0;
+  double next_resend_s_ = 0.0;
+  int impostors_ = 0;
+};
+
+}  // namespace mocha

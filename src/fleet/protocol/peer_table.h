@@ -1,0 +1,140 @@
+#pragma once
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleet/protocol/clock_estimate.h"
+#include "fleet/protocol/committed_trajectory.h"
+#include "fleet/protocol/reservation_chain.h"
+
+namespace mocha {
+
+/// What is known of one peer.
+struct Peer {
+  std::uint32_t epoch = 0;
+  ReservationChain binding;
+  /// Proposals whose fate is not known yet, oldest first; mostly none or one. The peer may have
+  /// made an older one binding although a newer one is here, where the message that says so is lost
+  /// or late; heartbeats settle that.
+  std::vector<CommittedTrajectory> open;
+  TrajectoryId newest;    ///< highest number heard of
+  TrajectoryId endorsed;  ///< highest number that we have seen and did not object to
+  TrajectoryState endorsed_state = TrajectoryState::kProposed;
+  std::optional<Acknowledgement> of_us;                            ///< what the peer has seen of us
+  double last_heard_s = -std::numeric_limits<double>::infinity();  ///< any message
+  double last_heartbeat_s = -std::numeric_limits<double>::infinity();  ///< a heartbeat
+  double last_old_s = -std::numeric_limits<double>::infinity();  ///< anything of a former epoch
+
+  /// Its newest heartbeat: the stamp, by its clock, and when it came, by ours.
+  double stamp_s = -std::numeric_limits<double>::infinity();
+  double stamp_heard_s = -std::numeric_limits<double>::infinity();
+  ClockEstimate clock;
+  /// What its promises are told by: its clock is ahead of ours by so much, give or take the error.
+  double clock_ahead_s = 0.0;
+  double clock_error_s = 0.0;
+
+  /// Its proposal waits for our answer (an endorsement, or silence while we object).
+  const CommittedTrajectory* unanswered() const;
+  /// The stretch of time for which an open proposal may be in force.
+  Reservation reservation_of_open(const CommittedTrajectory& proposal) const;
+};
+
+/// How far the clocks of a fleet may be apart.
+struct ClockOptions {
+  double tolerance_s = 0.0;   ///< of two robots against each other; margins allow for it already
+  double max_error_s = 0.25;  ///< beyond it, what a peer promises has no time that means anything
+};
+
+/// The newest promises of each peer, told by our clock. Messages may come late, twice, in any
+/// order, or not at all; a message older than what is known changes nothing.
+///
+/// A peer that has been silent for the reach timeout is out of reach: nobody waits for it any more.
+/// What it promised still holds to its end, and after that it is an obstacle at its last place. A
+/// proposal of it that we endorsed may have become binding, and counts as promised; others are
+/// dropped. A higher epoch (the peer was started anew) makes all former messages old. The former
+/// promise stays until the new epoch makes one binding: the robot has not vanished.
+///
+/// A peer's clock is taken to agree with ours to within the tolerance until echoed heartbeats prove
+/// the contrary. Then its promises are shifted by what was measured, and its footprint is wider by
+/// what the measurement leaves open times its speed.
+class PeerTable {
+ public:
+  /// So many peers are known at most: a network full of invented names takes no more memory.
+  static constexpr std::size_t kMostPeers = 250;
+
+  enum class Verdict {
+    kNews,       ///< changes what the peer is taken to do
+    kAlive,      ///< a heartbeat that does not
+    kDuplicate,  ///< known already
+    kOld,        ///< something newer is known
+    kCrowded,    ///< there are too many peers
+  };
+
+  /// `own_name`: whose entries in heartbeats are about us, in epoch `own_epoch`. Throws
+  /// std::invalid_argument for a timeout that is not above 0.
+  PeerTable(std::string own_name, std::uint32_t own_epoch, double reach_timeout_s,
+            ClockOptions clocks = {});
+
+  Verdict receive(const CommittedTrajectory& trajectory, double now);
+  Verdict receive(const Heartbeat& heartbeat, double now);
+
+  /// Notes that we have seen the peer's proposal and do not object.
+  void endorse(const std::string& peer, const CommittedTrajectory& proposal);
+
+  /// Forgets what cannot matter any more.
+  void prune(double now);
+
+  bool in_reach(const Peer& peer, double now) const;
+  const std::map<std::string, Peer>& peers() const { return peers_; }
+
+  /// Its clock has been measured, and that well enough.
+  bool clock_known(const Peer& peer, double now) const;
+
+  /// The lines of our heartbeat about the peers in reach. One that calls itself by a former epoch
+  /// is told the epoch that we know of it.
+  std::vector<Acknowledgement> acknowledgements(double now) const;
+  std::vector<Echo> echoes(double now) const;
+
+  /// The highest epoch of ourselves that anybody knows of; above our own, nobody listens to us.
+  /// Never one that leaves us fewer than kMostStarts more.
+  std::uint32_t known_epoch() const { return known_epoch_; }
+  /// How often a peer said that it knows an epoch of ourselves that we cannot have come to.
+  int unlikely_epochs() const { return unlikely_epochs_; }
+
+  /// Nobody starts a robot so often, were it every minute for a year: who says that it knows an
+  /// epoch farther above ours is wrong, or wants us to come to the end of all numbers.
+  static constexpr std::uint32_t kMostStarts = 1'000'000;
+
+  int duplicates() const { return duplicates_; }
+  int old_messages() const { return old_; }
+  int crowded_out() const { return crowded_; }
+
+ private:
+  Verdict take(Peer& peer, const CommittedTrajectory& trajectory);
+  void bind(Peer& peer, const CommittedTrajectory& trajectory);
+  /// Whether the heartbeat tells the fate of open proposals.
+  bool resolve(Peer& peer, const Heartbeat& heartbeat);
+  /// The peer of this name in this epoch; none if the message is of a former epoch, or there are
+  /// too many peers; then `refusal` says which.
+  Peer* find(const std::string& name, std::uint32_t epoch, double now, Verdict& refusal);
+  Verdict count(Verdict verdict);
+  /// Whether the peer's promises are told by another clock from now on.
+  bool read_clock(Peer& peer, const Heartbeat& heartbeat, double now);
+  void hear_of_own_epoch(std::uint32_t epoch);
+
+  std::string own_name_;
+  std::uint32_t own_epoch_;
+  double reach_timeout_s_;
+  ClockOptions clocks_;
+  std::uint32_t known_epoch_ = 0;
+  int unlikely_epochs_ = 0;
+  std::map<std::string, Peer> peers_;
+  int duplicates_ = 0;
+  int old_ = 0;
+  int crowded_ = 0;
+};
+
+}  // namespace mocha

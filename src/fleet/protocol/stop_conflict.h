@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "fleet/protocol/reservation_chain.h"
+#include "trajectory/stop_separation.h"
+
+namespace mocha {
+
+/// What is binding for a robot, and what it proposes, if anything. Both must outlive this.
+struct Future {
+  const ReservationChain& binding;
+  const CommittedTrajectory* proposal;
+};
+
+/// What robots keep where one of them brakes.
+struct StopDemand {
+  StopOptions options;
+  double clearance_m;  ///< between the discs
+  double apart_m;      ///< the centres now: too close already, they may come no closer
+};
+
+/// The first moment from `now` on at which either robot must not brake along its path, as
+/// first_stop_meeting() tells it. Far robots cost a comparison of boxes.
+std::optional<Conflict> first_stop_conflict(const Future& mine, const Future& theirs,
+                                            const StopDemand& demand, double now);
+
+}  // namespace mocha

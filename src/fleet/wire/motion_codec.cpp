@@ -1,0 +1,106 @@
+#include "fleet/wire/motion_codec.h"
+
+#include <cmath>
+
+#include "fleet/wire/message_fields.h"
+#include "trajectory/descriptor.h"
+
+namespace mocha {
+namespace {
+
+/// Counted from the beginning of the motion, which may be far from the origin of the map.
+struct Counts {
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+};
+
+Counts counts_of(const Vector2& place) {
+  const Vector2 counts = kPlaces * place;
+  require_said(counts.cwiseAbs().maxCoeff() < kMostCount / 2.0, "a place is out of range");
+  return {std::llround(counts.x()), std::llround(counts.y())};
+}
+
+void put_place(ByteWriter& out, const Vector2& place, const Counts& origin) {
+  const Counts counts = counts_of(place);
+  put_number<std::int32_t>(out, static_cast<double>(counts.x - origin.x), 1.0, "x");
+  put_number<std::int32_t>(out, static_cast<double>(counts.y - origin.y), 1.0, "y");
+}
+
+Vector2 get_place(ByteReader& in, const Counts& origin) {
+  const std::int64_t x = origin.x + in.get<std::int32_t>();
+  const std::int64_t y = origin.y + in.get<std::int32_t>();
+  return Vector2(static_cast<double>(x), static_cast<double>(y)) / kPlaces;
+}
+
+void put_phase(ByteWriter& out, const PhaseDescriptor& phase, const Counts& origin) {
+  out.put(static_cast<std::uint8_t>(phase.kind));
+  if (phase.kind != PhaseDescriptor::Kind::kDrive) {
+    put_number<std::int32_t>(out, phase.yaw_start_rad, kFine, "a heading");
+    if (phase.kind == PhaseDescriptor::Kind::kTurn)
+      put_number<std::int32_t>(out, phase.yaw_change_rad, kFine, "a turn");
+  } else {
+    out.put(static_cast<std::uint8_t>(phase.direction > 0));
+    out.put(count_of(phase.durations_s.size(), "pieces"));
+    for (const auto* ends : {&phase.start_derivatives, &phase.end_derivatives}) {
+      for (int i = 0; i < 4; ++i) put_number<std::int32_t>(out, (*ends)(i), kFine, "a derivative");
+    }
+  }
+  for (const double duration_s : phase.durations_s)
+    put_number<std::uint32_t>(out, duration_s, kTimes, "a duration");
+  for (const Vector2& point : phase.points) put_place(out, point, origin);
+}
+
+PhaseDescriptor get_phase(ByteReader& in, const Counts& origin) {
+  PhaseDescriptor phase;
+  const auto kind = in.get<std::uint8_t>();
+  require_said(kind <= static_cast<int>(PhaseDescriptor::Kind::kStand),
+               "a phase is of no known kind");
+  phase.kind = static_cast<PhaseDescriptor::Kind>(kind);
+  std::size_t pieces = 1;
+  std::size_t points = 1;
+  if (phase.kind != PhaseDescriptor::Kind::kDrive) {
+    phase.yaw_start_rad = get_number<std::int32_t>(in, kFine);
+    if (phase.kind == PhaseDescriptor::Kind::kTurn)
+      phase.yaw_change_rad = get_number<std::int32_t>(in, kFine);
+  } else {
+    const auto forward = in.get<std::uint8_t>();
+    require_said(forward <= 1, "a drive's direction is neither 1 nor 0");
+    phase.direction = forward == 1 ? 1 : -1;
+    pieces = in.get<std::uint8_t>();
+    points = pieces + 1;
+    for (auto* ends : {&phase.start_derivatives, &phase.end_derivatives}) {
+      for (int i = 0; i < 4; ++i) (*ends)(i) = get_number<std::int32_t>(in, kFine);
+    }
+  }
+  for (std::size_t i = 0; i < pieces; ++i)
+    phase.durations_s.push_back(get_number<std::uint32_t>(in, kTimes));
+  for (std::size_t i = 0; i < points; ++i) phase.points.push_back(get_place(in, origin));
+  return phase;
+}
+
+}  // namespace
+
+void put_motion(ByteWriter& out, const Motion& motion) {
+  require_said(!motion.empty(), "there is no motion");
+  const MotionDescriptor descriptor = describe(motion);
+  put_number<std::int64_t>(out, descriptor.start_time_s, kTimes, "the start");
+  out.put(count_of(descriptor.phases.size(), "phases"));
+  const Counts origin = counts_of(descriptor.phases.front().points.front());
+  out.put(origin.x);
+  out.put(origin.y);
+  for (const PhaseDescriptor& phase : descriptor.phases) put_phase(out, phase, origin);
+}
+
+std::shared_ptr<const Motion> get_motion(ByteReader& in) {
+  MotionDescriptor descriptor;
+  descriptor.start_time_s = get_time(in);
+  const std::size_t phases = in.get<std::uint8_t>();
+  const Counts origin{in.get<std::int64_t>(), in.get<std::int64_t>()};
+  for (const std::int64_t count : {origin.x, origin.y})
+    require_said(std::abs(static_cast<double>(count)) < kMostCount / 2.0,
+                 "a place is out of range");
+  for (std::size_t i = 0; i < phases; ++i) descriptor.phases.push_back(get_phase(in, origin));
+  return std::make_shared<const Motion>(rebuild(descriptor));
+}
+
+}  // namespace mocha

@@ -1,0 +1,304 @@
+#include "perception/mapping/occupancy_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+
+#include "perception/mapping/cell_disc.h"
+#include "perception/mapping/column_grid.h"
+#include "perception/mapping/grid_beam.h"
+#include "perception/mapping/map_image.h"
+#include "perception/mapping/octree_file.h"
+#include "perception/mapping/scan_tree.h"
+
+namespace mocha {
+namespace {
+
+void require(bool holds, const std::string& name, double value, const std::string& range) {
+  if (holds) return;
+  throw std::invalid_argument("OccupancyMap: " + name + " is " + std::to_string(value) +
+                              ", but must be " + range);
+}
+
+OccupancyMapOptions checked(const OccupancyMapOptions& o) {
+  require(o.resolution_m >= 0.005 && o.resolution_m <= 1.0, "resolution", o.resolution_m,
+          "0.005 to 1 m");
+  require(std::abs(o.min_height_m) <= 100.0, "min_height", o.min_height_m, "-100 to 100 m");
+  require(o.max_height_m > o.min_height_m && o.max_height_m <= o.min_height_m + 10.0, "max_height",
+          o.max_height_m, "above min_height, by at most 10 m");
+  require(o.scan_height_m >= o.min_height_m && o.scan_height_m <= o.max_height_m, "scan_height",
+          o.scan_height_m, "between min_height and max_height");
+  require(o.hit_probability > 0.5 && o.hit_probability < 1.0, "hit_probability", o.hit_probability,
+          "above 0.5 and below 1");
+  require(o.miss_probability > 0.0 && o.miss_probability < 0.5, "miss_probability",
+          o.miss_probability, "above 0 and below 0.5");
+  require(o.lowest_probability > 0.0 && o.lowest_probability < 0.5, "lowest_probability",
+          o.lowest_probability, "above 0 and below 0.5");
+  require(o.highest_probability > 0.5 && o.highest_probability < 1.0, "highest_probability",
+          o.highest_probability, "above 0.5 and below 1");
+  return o;
+}
+
+int layer_of(double height_m, double resolution_m) {
+  return static_cast<int>(std::floor(height_m / resolution_m));
+}
+
+ColumnGrid columns_of(const OccupancyMapOptions& o) {
+  const int scan = layer_of(o.scan_height_m, o.resolution_m);
+  const int first = static_cast<int>(std::ceil(o.min_height_m / o.resolution_m - 0.5));
+  const int last = static_cast<int>(std::floor(o.max_height_m / o.resolution_m - 0.5));
+  return ColumnGrid(o.resolution_m, std::min(first, scan), std::max(last, scan));
+}
+
+/// What `read` throws then names the file.
+template <class Read>
+void name_file(const std::string& path, Read read) {
+  try {
+    read();
+  } catch (const MapError& error) {
+    throw MapError(path + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+OccupancyMapOptions OccupancyMapOptions::from(const ParameterTable& values, double resolution_m) {
+  OccupancyMapOptions options;
+  options.resolution_m = resolution_m;
+  options.scan_height_m = values.number("scan_height");
+  options.min_height_m = values.number("min_height");
+  options.max_height_m = values.number("max_height");
+  options.hit_probability = values.number("hit_probability");
+  options.miss_probability = values.number("miss_probability");
+  options.lowest_probability = values.number("lowest_probability");
+  options.highest_probability = values.number("highest_probability");
+  return options;
+}
+
+/// The octree, the dense copy of its height band, and what changes both together.
+struct OccupancyMap::Voxels {
+  explicit Voxels(const OccupancyMapOptions& o)
+      : tree(o.resolution_m),
+        columns(columns_of(o)),
+        scan_layer(layer_of(o.scan_height_m, o.resolution_m)) {
+    tree.setProbHit(o.hit_probability);
+    tree.setProbMiss(o.miss_probability);
+    tree.setClampingThresMin(o.lowest_probability);
+    tree.setClampingThresMax(o.highest_probability);
+  }
+
+  VoxelState state_of(const octomap::OcTreeNode& node) const {
+    const float log_odds = node.getLogOdds();
+    if (tree.isNodeOccupied(node)) {
+      return log_odds >= tree.getClampingThresMaxLog() ? VoxelState::kOccupiedSure
+                                                       : VoxelState::kOccupied;
+    }
+    return log_odds <= tree.getClampingThresMinLog() ? VoxelState::kFreeSure : VoxelState::kFree;
+  }
+
+  void update(const VoxelIndex& voxel, bool hit) {
+    if (columns.at(voxel) == (hit ? VoxelState::kOccupiedSure : VoxelState::kFreeSure)) return;
+    octomap::OcTreeNode* node = tree.leaf(key_of(voxel));
+    tree.updateNodeLogOdds(node, hit ? tree.getProbHitLog() : tree.getProbMissLog());
+    columns.set(voxel, state_of(*node));
+  }
+
+  void set(const VoxelIndex& voxel, float log_odds) {
+    octomap::OcTreeNode* node = tree.leaf(key_of(voxel));
+    node->setLogOdds(log_odds);
+    columns.set(voxel, state_of(*node));
+  }
+
+  void insert(const std::vector<GridBeam>& beams) {
+    if (beams.empty()) return;
+    const VoxelBox box = box_of(beams);
+    columns.reserve(box.low, box.high);
+    raster.reset(box);
+    for (const GridBeam& beam : beams) raster.add(beam);
+    raster.for_each([this](const VoxelIndex& voxel, bool hit) { update(voxel, hit); });
+  }
+
+  void read_tree(const OctreeFile& file);
+  void read_grid(const OccupancyGrid& grid);
+
+  ScanTree tree;
+  ColumnGrid columns;
+  int scan_layer;
+  BeamRaster raster;
+};
+
+void OccupancyMap::Voxels::read_tree(const OctreeFile& file) {
+  if (file.nodes.empty()) return;
+  std::istringstream nodes(file.nodes);
+  file.binary ? tree.readBinaryData(nodes) : tree.readData(nodes);
+  const octomap::OcTreeKey low(0, 0, key_of({0, 0, columns.first_layer()})[2]);
+  const octomap::OcTreeKey high(65535, 65535, key_of({0, 0, columns.last_layer()})[2]);
+  for (auto leaf = tree.begin_leafs_bbx(low, high); leaf != tree.end_leafs_bbx(); ++leaf) {
+    const octomap::OcTreeKey key = leaf.getIndexKey();
+    const int size = 1 << (ScanTree::kDepth - leaf.getDepth());
+    const int x = key[0] - kKeyOrigin;
+    const int y = key[1] - kKeyOrigin;
+    const int z = key[2] - kKeyOrigin;
+    columns.reserve({x, y, 0}, {x + size - 1, y + size - 1, 0});
+    const int top = std::min(z + size - 1, columns.last_layer());
+    for (int k = std::max(z, columns.first_layer()); k <= top; ++k) {
+      for (int j = y; j < y + size; ++j) {
+        for (int i = x; i < x + size; ++i) columns.set({i, j, k}, state_of(*leaf));
+      }
+    }
+  }
+}
+
+void OccupancyMap::Voxels::read_grid(const OccupancyGrid& grid) {
+  const Vector2 corner = (grid.origin / grid.resolution_m).array().round();
+  if (!(corner.array().abs() < kKeyOrigin).all()) throw MapError("its origin is too far away");
+  const int x0 = static_cast<int>(corner.x());
+  const int y0 = static_cast<int>(corner.y());
+  columns.reserve({x0, y0, 0}, {x0 + grid.width - 1, y0 + grid.height - 1, 0});
+  for (int y = 0; y < grid.height; ++y) {
+    for (int x = 0; x < grid.width; ++x) {
+      if (grid.at(x, y) == OccupancyGrid::kUnknown) continue;
+      set({x0 + x, y0 + y, scan_layer}, grid.at(x, y) == OccupancyGrid::kOccupied
+                                            ? tree.getClampingThresMaxLog()
+                                            : tree.getClampingThresMinLog());
+    }
+  }
+}
+
+OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
+    : options_(checked(options)), voxels_(std::make_unique<Voxels>(options_)) {}
+
+OccupancyMap::~OccupancyMap() = default;
+
+void OccupancyMap::insert_scan(const std::vector<Beam>& beams) {
+  std::vector<GridBeam> flat;
+  flat.reserve(beams.size());
+  const double z = voxels_->scan_layer + 0.5;
+  for (const Beam& beam : beams) {
+    if (!is_usable(beam)) continue;
+    GridBeam cells{beam.origin / options_.resolution_m, beam.end / options_.resolution_m,
+                   beam.kind};
+    cells.origin.z() = cells.end.z() = z;
+    flat.push_back(cells);
+  }
+  voxels_->insert(flat);
+}
+
+void OccupancyMap::insert_points(const std::vector<Beam>& beams) {
+  const double low = voxels_->columns.first_layer();
+  const double high = std::nextafter(voxels_->columns.last_layer() + 1.0, low);
+  std::vector<GridBeam> clipped;
+  clipped.reserve(beams.size());
+  for (const Beam& beam : beams) {
+    if (!is_usable(beam)) continue;
+    GridBeam cells{beam.origin / options_.resolution_m, beam.end / options_.resolution_m,
+                   beam.kind};
+    const bool in_band =
+        beam.end.z() >= options_.min_height_m && beam.end.z() <= options_.max_height_m;
+    if (cells.kind == BeamEnd::kHit && !in_band) cells.kind = BeamEnd::kIgnored;
+    if (clip_height(cells, low, high)) clipped.push_back(cells);
+  }
+  voxels_->insert(clipped);
+}
+
+void OccupancyMap::mark_standing(const Vector2& centre, double radius_m) {
+  if (!is_usable(centre)) throw MapError("the robot stands nowhere that a map could hold");
+  const CellDisc disc(centre, radius_m, options_.resolution_m);
+  voxels_->columns.reserve(disc.low(), disc.high());
+  disc.for_each([this](int x, int y) {
+    if (voxels_->columns.is_unknown(x, y)) voxels_->update({x, y, voxels_->scan_layer}, false);
+  });
+}
+
+void OccupancyMap::clear_disc(const Vector2& centre, double radius_m) {
+  if (!is_usable(centre)) return;
+  ColumnGrid& columns = voxels_->columns;
+  CellDisc(centre, radius_m, options_.resolution_m).for_each([&](int x, int y) {
+    for (int k = columns.first_layer(); k <= columns.last_layer(); ++k) {
+      if (is_occupied(columns.at({x, y, k}))) {
+        voxels_->set({x, y, k}, voxels_->tree.getProbMissLog());
+      }
+    }
+  });
+}
+
+OccupancyGrid OccupancyMap::slice(double border_m) const {
+  return voxels_->columns.slice(static_cast<int>(std::ceil(border_m / options_.resolution_m)));
+}
+
+bool OccupancyMap::is_surely_free(const Vector2& point) const {
+  const VoxelIndex voxel{layer_of(point.x(), options_.resolution_m),
+                         layer_of(point.y(), options_.resolution_m), voxels_->scan_layer};
+  return voxels_->columns.at(voxel) == VoxelState::kFreeSure;
+}
+
+bool OccupancyMap::is_occupied_within(const Vector2& centre, double radius_m, bool surely) const {
+  bool found = false;
+  CellDisc(centre, radius_m, options_.resolution_m).for_each([&](int x, int y) {
+    const VoxelState state = voxels_->columns.at({x, y, voxels_->scan_layer});
+    found = found || (surely ? state == VoxelState::kOccupiedSure : is_occupied(state));
+  });
+  return found;
+}
+
+std::uint64_t OccupancyMap::version() const { return version_before_ + voxels_->columns.version(); }
+
+std::vector<Eigen::Vector3f> OccupancyMap::occupied_voxels() const {
+  std::vector<Eigen::Vector3f> centres;
+  for (const VoxelIndex& voxel : voxels_->columns.occupied()) {
+    centres.push_back(
+        (Eigen::Vector3d(voxel[0], voxel[1], voxel[2]).array() + 0.5).matrix().cast<float>() *
+        static_cast<float>(options_.resolution_m));
+  }
+  return centres;
+}
+
+void OccupancyMap::save(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".yaml") return save_map_image(slice(0.0), path);
+  if (ending != ".bt" && ending != ".ot") {
+    throw MapError(path + ": a map's name must end in .bt, .ot or .yaml");
+  }
+  const bool binary = ending == ".bt";
+  ScanTree& tree = voxels_->tree;
+  tree.updateInnerOccupancy();
+  std::ostringstream bytes;
+  bytes << octree_header(binary, tree.size(), options_.resolution_m);
+  if (tree.size() > 0) binary ? tree.writeBinaryData(bytes) : tree.writeData(bytes);
+  write_file(path, bytes.str());
+}
+
+void OccupancyMap::load(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  const auto check_resolution = [&](double resolution_m) {
+    if (std::abs(resolution_m - options_.resolution_m) > 1e-6) {
+      throw MapError(path + ": has cells of " + std::to_string(resolution_m) +
+                     " m, but this map's resolution is " + std::to_string(options_.resolution_m) +
+                     " m");
+    }
+  };
+  auto voxels = std::make_unique<Voxels>(options_);
+  if (ending == ".bt" || ending == ".ot") {
+    const OctreeFile file = parse_octree_file(read_file(path), path);
+    check_resolution(file.resolution_m);
+    name_file(path, [&] { voxels->read_tree(file); });
+  } else if (ending == ".yaml") {
+    const OccupancyGrid grid = load_map_image(path);
+    check_resolution(grid.resolution_m);
+    name_file(path, [&] { voxels->read_grid(grid); });
+  } else {
+    throw MapError(path + ": a map's name must end in .bt, .ot or .yaml");
+  }
+  replace(std::move(voxels));
+}
+
+void OccupancyMap::clear() { replace(std::make_unique<Voxels>(options_)); }
+
+void OccupancyMap::replace(std::unique_ptr<Voxels> voxels) {
+  version_before_ = version() + 1;
+  voxels_ = std::move(voxels);
+}
+
+}  // namespace mocha

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "config/parameter_table.h"
+#include "perception/mapping/map_error.h"
+#include "perception/sensor/beam.h"
+#include "world/occupancy_grid.h"
+
+namespace mocha {
+
+struct OccupancyMapOptions {
+  double resolution_m;      ///< edge of a voxel
+  double scan_height_m;     ///< planar scans are flattened into the layer of voxels at this
+                            ///< height above the map's z = 0
+  double min_height_m;      ///< lower end of the robot's height band
+  double max_height_m;      ///< upper end
+  double hit_probability;   ///< that a voxel in which a beam ends is occupied, from this beam alone
+  double miss_probability;  ///< that a voxel which a beam passes is occupied, from this beam alone
+  double lowest_probability;  ///< occupancy is clamped, so that a changed world is learnt in finite
+                              ///< time
+  double highest_probability;
+
+  /// From the parameters of the same names, without units; the resolution is not one of them.
+  static OccupancyMapOptions from(const ParameterTable& values, double resolution_m);
+};
+
+/// What the sensors have seen: an OctoMap octree, and the planar slice of the robot's height band.
+class OccupancyMap {
+ public:
+  /// Throws std::invalid_argument, naming the value and its range.
+  explicit OccupancyMap(const OccupancyMapOptions& options);
+  ~OccupancyMap();
+  OccupancyMap(const OccupancyMap&) = delete;
+  OccupancyMap& operator=(const OccupancyMap&) = delete;
+
+  const OccupancyMapOptions& options() const { return options_; }
+
+  /// One planar scan; heights of the beams do not matter. Voxels that any beam hit are hit, others
+  /// that beams passed are free. Beams with coordinates that are not finite are left out. Throws
+  /// MapError (and changes nothing) if the map cannot grow so far.
+  void insert_scan(const std::vector<Beam>& beams);
+
+  /// One cloud of 3-D measurements. Only what lies in the height band enters the map; beams that
+  /// end below or above still clear where they cross the band. Otherwise as insert_scan().
+  void insert_points(const std::vector<Beam>& beams);
+
+  /// The robot stands here: cells with centres within the disc [m, map frame] become free if
+  /// nothing was known of them. Throws MapError (and changes nothing) if the map cannot grow so
+  /// far.
+  void mark_standing(const Vector2& centre, double radius_m);
+
+  /// Something that is not part of the map stands here: occupied cells with centres within the disc
+  /// become free. A disc that is nowhere near the map changes nothing.
+  void clear_disc(const Vector2& centre, double radius_m);
+
+  /// Whether so many planar scans have passed the point's cell that one more changes nothing. The
+  /// point must be usable, see is_usable().
+  bool is_surely_free(const Vector2& point) const;
+
+  /// Whether a cell of the planar scans with its centre within the disc is occupied; `surely`: was
+  /// hit so often that one more hit changes nothing. The centre must be usable, see is_usable().
+  bool is_occupied_within(const Vector2& centre, double radius_m, bool surely) const;
+
+  /// The planar slice: occupied if any voxel of the height band is, free if none is and any is
+  /// free. Its known part, with a border of unknown cells [m] around it.
+  OccupancyGrid slice(double border_m) const;
+
+  /// Changes whenever a cell of the slice does.
+  std::uint64_t version() const;
+
+  /// Centres of the occupied voxels of the height band, map frame [m].
+  std::vector<Eigen::Vector3f> occupied_voxels() const;
+
+  /// By the path's ending: .bt and .ot (OctoMap), .yaml (map_server: the slice, with a .pgm beside
+  /// it). Throws MapError.
+  void save(const std::string& path);
+
+  /// Replaces the map by a saved one. A planar map enters at the scans' height; its origin is moved
+  /// to the nearest corner of our cells. Throws MapError, leaving the map as it was, if the file is
+  /// damaged or its cells have another size.
+  void load(const std::string& path);
+
+  void clear();
+
+ private:
+  struct Voxels;
+
+  void replace(std::unique_ptr<Voxels> voxels);
+
+  OccupancyMapOptions options_;
+  std::unique_ptr<Voxels> voxels_;
+  std::uint64_t version_before_ = 0;  // of the maps that voxels_ replaced
+};
+
+}  // namespace mocha

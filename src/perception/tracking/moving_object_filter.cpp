@@ -1,0 +1,130 @@
+#include "perception/tracking/moving_object_filter.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mocha {
+namespace {
+
+MovingObjectFilterOptions checked(const MovingObjectFilterOptions& o) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(std::string("MovingObjectFilter: ") + what);
+  };
+  require(o.map_tolerance_m >= 0.0 && o.map_tolerance_m <= 2.0, "map_tolerance must be 0 to 2 m");
+  require(o.map_tolerance_rad >= 0.0 && o.map_tolerance_rad <= 0.5,
+          "map_tolerance_angle must be 0 to 0.5 rad");
+  require(o.cluster_gap_m > 0.0, "cluster_gap must be above 0 m");
+  require(o.cluster_points >= 1, "cluster_points must be at least 1");
+  require(o.cluster_extent_m > 0.0, "cluster_extent must be above 0 m");
+  return o;
+}
+
+double time_of(const std::vector<Beam>& beams) {
+  double sum_s = 0.0;
+  for (const Beam& beam : beams) sum_s += beam.time_s / static_cast<double>(beams.size());
+  return sum_s;
+}
+
+}  // namespace
+
+MovingObjectFilterOptions MovingObjectFilterOptions::from(const ParameterTable& values) {
+  MovingObjectFilterOptions options;
+  options.map_tolerance_m = values.number("map_tolerance");
+  options.map_tolerance_rad = values.number("map_tolerance_angle");
+  options.cluster_gap_m = values.number("cluster_gap");
+  options.cluster_points = values.integer("cluster_points");
+  options.cluster_extent_m = values.number("cluster_extent");
+  TrackerOptions& tracker = options.tracker;
+  tracker.min_radius_m = values.number("moving_min_radius");
+  tracker.max_radius_m = values.number("moving_max_radius");
+  tracker.measurement_noise_m = values.number("measurement_noise");
+  tracker.acceleration_psd = values.number("acceleration_psd");
+  tracker.confirmation_hits = values.integer("confirmation_hits");
+  tracker.track_timeout_s = values.number("track_timeout");
+  tracker.occlusion_timeout_s = values.number("occlusion_timeout");
+  tracker.standing_speed_mps = values.number("standing_speed");
+  tracker.standing_time_s = values.number("standing_time");
+  return options;
+}
+
+MovingObjectFilter::MovingObjectFilter(const MovingObjectFilterOptions& options)
+    : options_(checked(options)), tracker_(options.tracker) {}
+
+void MovingObjectFilter::sort(std::vector<Beam>& beams, const OccupancyMap& map) {
+  if (beams.empty()) return;
+  const double time_s = time_of(beams);
+  const std::vector<TrackedObstacle> known = tracker_.at(time_s);
+  const auto clusters = things(beams, candidates(beams, map, known), known);
+  std::vector<Detection> detections;
+  for (const BeamIndices& cluster : clusters) detections.push_back(sight_disc(beams, cluster));
+  const std::vector<bool> moving = tracker_.update(detections, beams, time_s);
+  moving_hits_ = 0;
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    if (!moving[i]) continue;
+    for (int beam : clusters[i]) beams[beam].kind = BeamEnd::kIgnored;
+    moving_hits_ += static_cast<int>(clusters[i].size());
+  }
+}
+
+BeamIndices MovingObjectFilter::candidates(const std::vector<Beam>& beams, const OccupancyMap& map,
+                                           const std::vector<TrackedObstacle>& known) const {
+  BeamIndices hits;
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    if (beams[i].kind != BeamEnd::kHit || !is_usable(beams[i])) continue;
+    const Vector2 end = beams[i].end.head<2>();
+    const double range_m = (beams[i].end - beams[i].origin).head<2>().norm();
+    const double tolerance_m = options_.map_tolerance_m + options_.map_tolerance_rad * range_m;
+    const bool on_known = std::any_of(known.begin(), known.end(), [&](const TrackedObstacle& disc) {
+      return !disc.standing &&
+             (end - disc.position).norm() <= disc.radius_m + options_.map_tolerance_m;
+    });
+    // Cells that moving things have hit once or twice are no walls yet, or such things would drag
+    // their walls along.
+    const bool came =
+        map.is_surely_free(end) && !map.is_occupied_within(end, 0.5 * tolerance_m, false);
+    if ((on_known || came) && !map.is_occupied_within(end, tolerance_m, true))
+      hits.push_back(static_cast<int>(i));
+  }
+  return hits;
+}
+
+/// Clusters of hits that are small enough to move. Those within reach of a known thing are one, as
+/// the legs of somebody who walks; one that several known things can reach is parted among them.
+std::vector<BeamIndices> MovingObjectFilter::things(
+    const std::vector<Beam>& beams, const BeamIndices& hits,
+    const std::vector<TrackedObstacle>& known) const {
+  std::vector<BeamIndices> groups(known.size());
+  for (BeamIndices& cluster : cluster_hits(beams, hits, options_.cluster_gap_m)) {
+    std::vector<std::size_t> owners;
+    std::vector<Vector2> centres;
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      const double reach_m = known[k].radius_m + 0.5 * options_.cluster_gap_m;
+      const bool holds = std::any_of(cluster.begin(), cluster.end(), [&](int i) {
+        return (beams[i].end.head<2>() - known[k].position).norm() <= reach_m;
+      });
+      if (!holds) continue;
+      owners.push_back(k);
+      centres.push_back(known[k].position);
+    }
+    if (owners.empty()) {
+      groups.push_back(std::move(cluster));
+      continue;
+    }
+    const auto parts = part_cluster(beams, cluster, centres);
+    for (std::size_t k = 0; k < owners.size(); ++k)
+      groups[owners[k]].insert(groups[owners[k]].end(), parts[k].begin(), parts[k].end());
+  }
+  const auto moves = [&](const BeamIndices& group) {
+    return static_cast<int>(group.size()) >= options_.cluster_points &&
+           extent_m(beams, group) <= options_.cluster_extent_m;
+  };
+  groups.erase(std::stable_partition(groups.begin(), groups.end(), moves), groups.end());
+  return groups;
+}
+
+void MovingObjectFilter::clear() {
+  tracker_.clear();
+  moving_hits_ = 0;
+}
+
+}  // namespace mocha

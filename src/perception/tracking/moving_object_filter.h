@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "config/parameter_table.h"
+#include "perception/mapping/occupancy_map.h"
+#include "perception/tracking/obstacle_tracker.h"
+
+namespace mocha {
+
+struct MovingObjectFilterOptions {
+  double map_tolerance_m;    ///< hits that near to a wall of the map are on it ...
+  double map_tolerance_rad;  ///< ... and farther by so much times their range
+  double cluster_gap_m;      ///< hits that near to each other are on one thing
+  int cluster_points;        ///< least hits of a moving thing
+  double cluster_extent_m;   ///< larger things do not move
+  TrackerOptions tracker;
+
+  /// From the parameters of the same names, without units.
+  static MovingObjectFilterOptions from(const ParameterTable& values);
+};
+
+/// Parts the hits of planar scans into those on the map and those on moving things, and follows the
+/// latter.
+///
+/// A hit is on something that moves if it is where the map is sure to be free and no wall is near,
+/// or on a moving thing known already; unless it belongs to few or too widespread hits. What has
+/// stood for a while goes into the map.
+class MovingObjectFilter {
+ public:
+  /// Throws std::invalid_argument, naming the value and its range.
+  explicit MovingObjectFilter(const MovingObjectFilterOptions& options);
+
+  /// Takes the next scan before it enters the map: hits on moving things become ignored ones.
+  void sort(std::vector<Beam>& beams, const OccupancyMap& map);
+
+  /// The moving things that are known, predicted to a time.
+  std::vector<TrackedObstacle> moving(double time_s) const { return tracker_.at(time_s); }
+  /// How many hits of the newest scan are on moving things.
+  int moving_hits() const { return moving_hits_; }
+
+  void clear();
+
+ private:
+  BeamIndices candidates(const std::vector<Beam>& beams, const OccupancyMap& map,
+                         const std::vector<TrackedObstacle>& known) const;
+  std::vector<BeamIndices> things(const std::vector<Beam>& beams, const BeamIndices& hits,
+                                  const std::vector<TrackedObstacle>& known) const;
+
+  MovingObjectFilterOptions options_;
+  ObstacleTracker tracker_;
+  int moving_hits_ = 0;
+};
+
+}  // namespace mocha

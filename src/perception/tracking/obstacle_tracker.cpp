@@ -1,0 +1,217 @@
+#include "perception/tracking/obstacle_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace mocha {
+namespace {
+
+constexpr double kGate = 9.21;           // chi-squared, two degrees of freedom, 99 %
+constexpr double kFirstSpeed_mps = 1.0;  // standard deviation of an unknown velocity, one axis
+constexpr double kFastest_mps = 2.0;     // of who turns
+constexpr double kTurn_s = 0.25;         // he was seen so short a time ago
+constexpr double kHiddenNoise = 3.0;     // times the noise, if only a part is seen
+constexpr double kPartNoise = 0.7;       // times the difference of the radii, for a part
+constexpr double kGrowth = 0.5;          // of the radius, share of the difference per detection
+constexpr double kShrinkage = 0.05;
+constexpr int kMissingScans = 2;  // that see a known track's place free end it
+
+void require(bool holds, const std::string& name, double value, const std::string& range) {
+  if (holds) return;
+  throw std::invalid_argument("ObstacleTracker: " + name + " is " + std::to_string(value) +
+                              ", but must be " + range);
+}
+
+}  // namespace
+
+ObstacleTracker::ObstacleTracker(const TrackerOptions& options) : options_(options) {
+  const TrackerOptions& o = options_;
+  require(o.min_radius_m > 0.0, "min_radius", o.min_radius_m, "above 0 m");
+  require(o.max_radius_m >= o.min_radius_m, "max_radius", o.max_radius_m, "at least min_radius");
+  require(o.measurement_noise_m > 0.0, "measurement_noise", o.measurement_noise_m, "above 0 m");
+  require(o.acceleration_psd > 0.0, "acceleration_psd", o.acceleration_psd, "above 0 m^2/s^3");
+  require(o.confirmation_hits >= 1, "confirmation_hits", o.confirmation_hits, "at least 1");
+  require(o.track_timeout_s > 0.0, "track_timeout", o.track_timeout_s, "above 0 s");
+  require(o.occlusion_timeout_s > 0.0, "occlusion_timeout", o.occlusion_timeout_s, "above 0 s");
+  require(o.standing_speed_mps > 0.0, "standing_speed", o.standing_speed_mps, "above 0 m/s");
+  require(o.standing_time_s > 0.0, "standing_time", o.standing_time_s, "above 0 s");
+}
+
+std::vector<bool> ObstacleTracker::update(const std::vector<Detection>& detections,
+                                          const std::vector<Beam>& beams, double time_s) {
+  std::vector<int> partners = associate(detections);
+  follow_turns(detections, partners);
+  std::vector<bool> moving(detections.size(), true);
+  std::vector<bool> taken(detections.size(), false);
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (partners[i] < 0) {
+      miss(tracks_[i], beams, time_s);
+      continue;
+    }
+    see(tracks_[i], detections[partners[i]]);
+    taken[partners[i]] = true;
+    moving[partners[i]] = !tracks_[i].standing;
+  }
+  for (std::size_t j = 0; j < detections.size(); ++j) {
+    if (!taken[j]) begin(detections[j]);
+  }
+  join();
+  tracks_.erase(
+      std::remove_if(tracks_.begin(), tracks_.end(), [](const Track& t) { return t.lost; }),
+      tracks_.end());
+  return moving;
+}
+
+/// The detection of each track, -1 for none.
+std::vector<int> ObstacleTracker::associate(const std::vector<Detection>& detections) const {
+  struct Pair {
+    double cost;  ///< minus the logarithm of the likelihood, but for a factor and a constant
+    int track;
+    int detection;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    for (std::size_t j = 0; j < detections.size(); ++j) {
+      ConstantVelocityFilter filter = tracks_[i].filter;
+      filter.predict(detections[j].time_s, options_.acceleration_psd);
+      const auto mismatch = filter.mismatch(centre_of(detections[j], tracks_[i].radius_m),
+                                            noise_of(detections[j], tracks_[i].radius_m));
+      if (mismatch.squared < kGate) {
+        pairs.push_back({mismatch.squared + mismatch.log_determinant, static_cast<int>(i),
+                         static_cast<int>(j)});
+      }
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(),
+            [](const Pair& a, const Pair& b) { return a.cost < b.cost; });
+  std::vector<int> partners(tracks_.size(), -1);
+  std::vector<bool> taken(detections.size(), false);
+  for (const Pair& pair : pairs) {
+    if (partners[pair.track] >= 0 || taken[pair.detection]) continue;
+    partners[pair.track] = pair.detection;
+    taken[pair.detection] = true;
+  }
+  return partners;
+}
+
+/// What is seen near where a known track has just been, though not where it was going, is the same
+/// thing that has turned or stopped: it is followed from there, at a velocity that is not known.
+void ObstacleTracker::follow_turns(const std::vector<Detection>& detections,
+                                   std::vector<int>& partners) {
+  std::vector<bool> taken(detections.size(), false);
+  for (const int partner : partners) {
+    if (partner >= 0) taken[partner] = true;
+  }
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    Track& track = tracks_[i];
+    if (partners[i] >= 0 || track.id == 0) continue;
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < detections.size(); ++j) {
+      const double since_s = detections[j].time_s - track.seen_s;
+      const double off_m = (centre_of(detections[j], track.radius_m) - track.seen_at).norm();
+      const double reach_m = kFastest_mps * since_s + 2.0 * noise_of(detections[j], track.radius_m);
+      if (taken[j] || since_s <= 0.0 || since_s > kTurn_s || off_m > std::min(reach_m, nearest_m))
+        continue;
+      nearest_m = off_m;
+      partners[i] = static_cast<int>(j);
+    }
+    if (partners[i] < 0) continue;
+    taken[partners[i]] = true;
+    track.filter = {track.seen_s, track.seen_at, options_.measurement_noise_m, kFirstSpeed_mps};
+  }
+}
+
+void ObstacleTracker::see(Track& track, const Detection& detection) {
+  track.filter.predict(detection.time_s, options_.acceleration_psd);
+  track.filter.update(centre_of(detection, track.radius_m), noise_of(detection, track.radius_m));
+  const double growth_m = clamped_radius(detection) - track.radius_m;
+  if (growth_m > 0.0) track.radius_m += kGrowth * growth_m;
+  if (growth_m < 0.0 && !detection.is_hidden()) track.radius_m += kShrinkage * growth_m;
+  if (detection.time_s >= track.seen_s) {
+    track.seen_s = detection.time_s;
+    track.seen_at = centre_of(detection, track.radius_m);
+  }
+  track.missing = 0;
+  track.hidden = false;
+  if (++track.detections == options_.confirmation_hits) track.id = ++last_id_;
+  const double leeway_m = options_.standing_speed_mps * options_.standing_time_s;
+  if ((track.filter.position() - track.stood_at).norm() > leeway_m) {
+    track.stood_at = track.filter.position();
+    track.stood_since_s = detection.time_s;
+  }
+  track.standing = detection.time_s - track.stood_since_s >= options_.standing_time_s;
+}
+
+void ObstacleTracker::miss(Track& track, const std::vector<Beam>& beams, double time_s) const {
+  track.filter.predict(time_s, options_.acceleration_psd);
+  const View view = view_of(beams, track.filter.position(), track.radius_m);
+  if (view == View::kFree) ++track.missing;
+  if (view != View::kUnseen) track.hidden = view == View::kHidden;
+  const bool known = track.id > 0;
+  const double patience_s =
+      known && track.hidden ? options_.occlusion_timeout_s : options_.track_timeout_s;
+  track.lost = time_s - track.seen_s > patience_s || track.missing >= (known ? kMissingScans : 1) ||
+               (track.standing && view == View::kTaken);  // the map has it
+}
+
+void ObstacleTracker::begin(const Detection& detection) {
+  const double radius_m = clamped_radius(detection);
+  const Vector2 centre = detection.centre(radius_m);
+  Track track{0,
+              {detection.time_s, centre, noise_of(detection, radius_m), kFirstSpeed_mps},
+              radius_m,
+              1,
+              detection.time_s,
+              centre,
+              0,
+              false,
+              centre,
+              detection.time_s};
+  if (options_.confirmation_hits == 1) track.id = ++last_id_;
+  tracks_.push_back(track);
+}
+
+/// Of a disc that is known to have this radius; of the part that is seen, if that is smaller.
+Vector2 ObstacleTracker::centre_of(const Detection& detection, double radius_m) const {
+  return detection.centre(detection.is_hidden() ? radius_m
+                                                : std::min(radius_m, clamped_radius(detection)));
+}
+
+/// A part, such as one leg, may be anywhere in the disc.
+double ObstacleTracker::noise_of(const Detection& detection, double radius_m) const {
+  const double whole_m =
+      (detection.is_hidden() ? kHiddenNoise : 1.0) * options_.measurement_noise_m;
+  return std::hypot(whole_m, kPartNoise * std::max(0.0, radius_m - clamped_radius(detection)));
+}
+
+/// Of things that cannot be apart, such as legs, the younger belongs to the older.
+void ObstacleTracker::join() {
+  for (Track& younger : tracks_) {
+    for (const Track& older : tracks_) {
+      if (older.lost || older.id == 0 || younger.id <= older.id) continue;
+      const double apart_m = (younger.filter.position() - older.filter.position()).norm();
+      if (apart_m < std::max(younger.radius_m, older.radius_m)) younger.lost = true;
+    }
+  }
+}
+
+double ObstacleTracker::clamped_radius(const Detection& detection) const {
+  return std::clamp(detection.radius_m, options_.min_radius_m, options_.max_radius_m);
+}
+
+std::vector<TrackedObstacle> ObstacleTracker::at(double time_s) const {
+  std::vector<TrackedObstacle> obstacles;
+  for (const Track& track : tracks_) {
+    if (track.id == 0) continue;
+    ConstantVelocityFilter filter = track.filter;
+    filter.predict(time_s, options_.acceleration_psd);
+    obstacles.push_back({track.id, time_s, filter.position(), filter.velocity(), track.radius_m,
+                         filter.covariance(), track.standing});
+  }
+  return obstacles;
+}
+
+}  // namespace mocha

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "perception/tracking/constant_velocity_filter.h"
+#include "perception/tracking/detection.h"
+
+namespace mocha {
+
+struct TrackerOptions {
+  double min_radius_m;  ///< of the discs
+  double max_radius_m;
+  double measurement_noise_m;  ///< standard deviation of a sighted centre along each axis
+  double acceleration_psd;     ///< of what the things do, per axis [m^2/s^3]
+  int confirmation_hits;       ///< that make a track known
+  double track_timeout_s;      ///< a track ends after so long without detection
+  double occlusion_timeout_s;  ///< the same while something nearer hides its place
+  double standing_speed_mps;   ///< slower, for standing_time_s, is standing
+  double standing_time_s;
+};
+
+/// A moving thing, at one time, map frame.
+struct TrackedObstacle {
+  std::uint32_t id;  ///< stable while it is tracked
+  double time_s;
+  Vector2 position;  ///< [m]
+  Vector2 velocity;  ///< [m/s]
+  double radius_m;
+  Eigen::Matrix4d covariance;  ///< of (x, y, vx, vy)
+  bool standing;               ///< it has stood for so long that it belongs into the map
+};
+
+/// Follows discs from scan to scan: a Kalman filter each, the best fitting pairs of track and
+/// detection first. Scans may come from several sensors and somewhat out of order.
+class ObstacleTracker {
+ public:
+  /// Throws std::invalid_argument, naming the value and its range.
+  explicit ObstacleTracker(const TrackerOptions& options);
+
+  /// Takes what one scan shows: the discs sighted, and all its beams for the places where a disc is
+  /// missing. Returns, of each detection, whether it is (or may become) something that moves; what
+  /// has come to stand is not.
+  std::vector<bool> update(const std::vector<Detection>& detections, const std::vector<Beam>& beams,
+                           double time_s);
+
+  /// The known tracks, predicted to a time.
+  std::vector<TrackedObstacle> at(double time_s) const;
+
+  void clear() { tracks_.clear(); }
+
+ private:
+  struct Track {
+    std::uint32_t id;  ///< 0 until it is known
+    ConstantVelocityFilter filter;
+    double radius_m;
+    int detections = 1;
+    double seen_s;         ///< last ...
+    Vector2 seen_at;       ///< ... and where
+    int missing = 0;       ///< scans in a row that saw its place free
+    bool hidden = false;   ///< its place was, in the last scan
+    Vector2 stood_at;      ///< it has been near here ...
+    double stood_since_s;  ///< ... since then
+    bool standing = false;
+    bool lost = false;
+  };
+
+  std::vector<int> associate(const std::vector<Detection>& detections) const;
+  void follow_turns(const std::vector<Detection>& detections, std::vector<int>& partners);
+  void see(Track& track, const Detection& detection);
+  void miss(Track& track, const std::vector<Beam>& beams, double time_s) const;
+  void begin(const Detection& detection);
+  void join();
+  Vector2 centre_of(const Detection& detection, double radius_m) const;
+  double noise_of(const Detection& detection, double radius_m) const;
+  double clamped_radius(const Detection& detection) const;
+
+  TrackerOptions options_;
+  std::vector<Track> tracks_;
+  std::uint32_t last_id_ = 0;
+};
+
+}  // namespace mocha

@@ -1,0 +1,265 @@
+#include "planning/candidates/drive_optimizer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "camouflage/camouflage_map.h"
+#include "camouflage/reference_point.h"
+#include "optimization/dynamics_penalty.h"
+#include "optimization/obstacle_penalty.h"
+#include "optimization/turning_penalty.h"
+#include "optimization/wheel_penalty.h"
+
+namespace mocha {
+namespace {
+
+// Penalties let limits be exceeded a little; optimising for slightly less keeps the result inside
+// the true ones.
+constexpr double kShareOfSpeed = 0.97;
+constexpr double kShareOfAcceleration = 0.95;
+constexpr double kShareOfYawRate = 0.92;
+constexpr double kShareOfWheelSpeed = 0.97;
+constexpr double kSpacingOfRoom = 1.5;  // knots apart, over the room beside the path
+constexpr double kLeastPieces = 10.0;   // of a drive, for its ramps
+constexpr double kLeastTimedPieces = 3.0;
+constexpr double kMostTimedPieces = 60.0;
+constexpr double kSoftSpeed =
+    0.05;  // [m/s] below which heading and turning fade out of the penalties
+
+/// Direction of the last stretch of about `length_m` of a path.
+Vector2 final_direction(const std::vector<Vector2>& path, double length_m) {
+  const Vector2 end = path.back();
+  for (auto point = path.rbegin() + 1; point != path.rend(); ++point) {
+    if ((end - *point).norm() >= length_m) return (end - *point).normalized();
+  }
+  return (end - path.front()).normalized();
+}
+
+/// Whether there is a problem to solve at all. What is merely hopeless, such as a start faster than
+/// the robot, is for the certificate to say.
+bool is_sound(const DriveQuery& query) {
+  constexpr double kFarthest = 1e6;  // [m], [m/s], [m/s^2]; beyond, nothing can be computed
+  if (query.path.size() < 2 || !std::isfinite(query.start_time_s)) return false;
+  if (!query.times_s.empty() && query.times_s.size() != query.path.size()) return false;
+  for (const Vector2& point : query.path) {
+    if (!(point.cwiseAbs().maxCoeff() < kFarthest)) return false;
+  }
+  return query.start.cwiseAbs().maxCoeff() < kFarthest &&
+         (query.path.back() - query.path.front()).norm() + (query.path[1] - query.path[0]).norm() >
+             0.0;
+}
+
+/// The cost at the weights of the options, so that drives found with different effort compare.
+void undo(const Effort& effort, OptimizedTrajectory<2, 3>& found) {
+  found.cost = 0.0;
+  for (auto& [name, value] : found.terms) {
+    if (name == "obstacle") value /= effort.obstacle_weight;
+    if (name == "moving") value /= effort.moving_weight;
+    if (name == "dynamics" || name == "turning" || name == "wheels") value /= effort.limit_weight;
+    found.cost += value;
+  }
+}
+
+/// The path of a query whose times are given, and beyond its ends on with the velocities there.
+class TimedGuide {
+ public:
+  explicit TimedGuide(const DriveQuery& query) : query_(query) {}
+
+  double duration_s() const { return query_.times_s.back(); }
+
+  /// Averaged over `window_s` about t. So speed and direction change gradually, also from and to
+  /// what they are at the ends.
+  Vector2 smooth(double t, double window_s) const {
+    constexpr int kParts = 16;
+    Vector2 sum = Vector2::Zero();
+    for (int i = 0; i <= kParts; ++i) sum += at(t + window_s * (i - kParts / 2) / kParts);
+    return sum / (kParts + 1);
+  }
+
+ private:
+  Vector2 at(double t) const {
+    if (t <= 0.0) return query_.path.front() + t * query_.start.col(1);
+    if (t >= duration_s()) {
+      const Vector2 velocity =
+          query_.rejoin ? Vector2(query_.rejoin->state.col(1)) : Vector2::Zero();
+      return query_.path.back() + (t - duration_s()) * velocity;
+    }
+    const auto later = std::upper_bound(query_.times_s.begin(), query_.times_s.end(), t);
+    const std::size_t i = later - query_.times_s.begin();
+    const double share = (t - query_.times_s[i - 1]) / (*later - query_.times_s[i - 1]);
+    return query_.path[i - 1] + share * (query_.path[i] - query_.path[i - 1]);
+  }
+
+  const DriveQuery& query_;
+};
+
+/// Knots at even times of a path whose times are given.
+InitialKnots<2> even_knots(const DriveQuery& query, int pieces, double window_s) {
+  const TimedGuide guide(query);
+  const double whole_s = guide.duration_s();
+  const Vector2 off_start = query.path.front() - guide.smooth(0.0, window_s);
+  const Vector2 off_end = query.path.back() - guide.smooth(whole_s, window_s);
+  InitialKnots<2> knots;
+  knots.path.resize(2, pieces + 1);
+  knots.durations_s.setConstant(pieces, whole_s / pieces);
+  for (int k = 0; k <= pieces; ++k) {
+    const double share = static_cast<double>(k) / pieces;
+    knots.path.col(k) =
+        guide.smooth(share * whole_s, window_s) + (1.0 - share) * off_start + share * off_end;
+  }
+  return knots;
+}
+
+}  // namespace
+
+DriveOptimizer::DriveOptimizer(const RobotModel& robot, const DriveOptions& options,
+                               double static_margin_m)
+    : robot_(robot), options_(options), static_margin_m_(static_margin_m) {}
+
+double rest_acceleration(const MotionLimits& limits) { return 0.5 * limits.max_acceleration; }
+
+Effort raised(const Effort& effort, const Violation& violation, double factor) {
+  Effort more = effort;
+  switch (violation.term) {
+    case ViolatedTerm::kClearance:
+      more.obstacle_weight *= factor;
+      break;
+    case ViolatedTerm::kSeparation:
+      more.moving_weight *= factor;
+      break;
+    default:
+      more.limit_weight *= factor;
+  }
+  more.camouflage = effort.camouflage && effort.spacing == 1.0;
+  more.spacing = std::max(0.4, 0.7 * effort.spacing);
+  if (!more.camouflage) more.speed *= 0.8;
+  return more;
+}
+
+double DriveOptimizer::rest_acceleration() const { return mocha::rest_acceleration(robot_.limits); }
+
+const MotionLimits& DriveOptimizer::limits_of(const DriveQuery& query) const {
+  return query.limits ? *query.limits : robot_.limits;
+}
+
+double DriveOptimizer::knot_spacing_m(const std::vector<Vector2>& path,
+                                      const ObstacleField<2>& field) const {
+  std::vector<double> room_m;
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vector2 step = path[i] - path[i - 1];
+    const int parts = 1 + static_cast<int>(std::min(step.norm() / options_.knot_spacing_m, 1e3));
+    for (int k = 0; k < parts; ++k) {
+      room_m.push_back(field.distance_bound(path[i - 1] + step * k / parts));
+    }
+    length_m += step.norm();
+  }
+  // The narrower fifth decides.
+  const auto fifth = room_m.begin() + static_cast<std::ptrdiff_t>(room_m.size() / 5);
+  std::nth_element(room_m.begin(), fifth, room_m.end());
+  const double coarsest = std::max(options_.knot_spacing_m,
+                                   std::min(options_.open_knot_spacing_m, length_m / kLeastPieces));
+  return std::clamp(kSpacingOfRoom * *fifth, options_.knot_spacing_m, coarsest);
+}
+
+std::shared_ptr<const KnotMap<2>> DriveOptimizer::knot_map(const Eigen::Matrix2Xd& path,
+                                                           const ObstacleField<2>& field,
+                                                           bool camouflage) const {
+  const Eigen::Matrix2Xd prey = path.middleCols(1, path.cols() - 2);
+  if (camouflage) {
+    ReferenceOptions reference_options;
+    reference_options.side_depth_m = options_.knot_travel_m;
+    const auto references = choose_references(path, field, reference_options);
+    if (references)
+      return std::make_shared<CamouflageMap<2>>(prey, *references, options_.knot_travel_m);
+  }
+  return std::make_shared<WaypointMap<2>>(prey);
+}
+
+std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQuery& query,
+                                                                   const ObstacleField<2>& field,
+                                                                   const Effort& effort) const {
+  const MotionLimits& limits = limits_of(query);
+  std::vector<ObstaclePenalty<2>::Cover> cover;
+  for (const Footprint::CoverDisc& disc : robot_.footprint.cover()) {
+    cover.push_back({disc.offset_m, disc.radius_m + static_margin_m_ + options_.soft_margin_m});
+  }
+  std::vector<std::unique_ptr<Penalty<2>>> penalties;
+  penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
+      options_.weight_obstacle * effort.obstacle_weight, field, std::move(cover), kSoftSpeed));
+  penalties.push_back(
+      std::make_unique<DynamicsPenalty<2>>(options_.weight_dynamics * effort.limit_weight,
+                                           kShareOfSpeed * effort.speed * limits.max_speed,
+                                           kShareOfAcceleration * limits.max_acceleration));
+  penalties.push_back(
+      std::make_unique<TurningPenalty>(options_.weight_turning * effort.limit_weight,
+                                       kShareOfYawRate * limits.max_yaw_rate, kSoftSpeed));
+  if (!limits.wheels_are_ample()) {
+    MotionLimits wheels = limits;
+    wheels.max_wheel_speed *= kShareOfWheelSpeed;
+    penalties.push_back(std::make_unique<WheelPenalty>(
+        options_.weight_dynamics * effort.limit_weight, wheels, kSoftSpeed));
+  }
+  if (!query.moving.empty()) {
+    std::vector<MovingThing> others = query.moving;
+    for (MovingThing& other : others) other.keep_m += options_.moving_soft_margin_m;
+    penalties.push_back(std::make_unique<MovingPenalty>(
+        options_.weight_moving * effort.moving_weight, query.start_time_s, std::move(others)));
+  }
+  return penalties;
+}
+
+InitialKnots<2> DriveOptimizer::initial_knots(const DriveQuery& query,
+                                              const ObstacleField<2>& field,
+                                              const Effort& effort) const {
+  MotionLimits limits = limits_of(query);
+  limits.max_speed *= effort.speed;
+  if (query.times_s.empty()) {
+    return spread_knots<2>(query.path, query.start.col(1).norm(), limits,
+                           effort.spacing * knot_spacing_m(query.path, field));
+  }
+  const double piece_s = effort.spacing * options_.knot_spacing_m / limits.max_speed;
+  const double pieces = std::ceil(query.times_s.back() / piece_s);
+  const double window_s =
+      std::min(limits.max_speed / limits.max_acceleration, 0.5 * query.times_s.back());
+  return even_knots(
+      query, static_cast<int>(std::clamp(pieces, kLeastTimedPieces, kMostTimedPieces)), window_s);
+}
+
+PlanarMinco::State DriveOptimizer::end_state(const DriveQuery& query) const {
+  if (query.rejoin) return query.rejoin->state;
+  PlanarMinco::State end;
+  end.col(0) = query.path.back();
+  end.col(1).setZero();
+  end.col(2) = -mocha::rest_acceleration(limits_of(query)) * final_direction(query.path, 0.3);
+  return end;
+}
+
+OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
+    const DriveQuery& query, const ObstacleField<2>& field, const Effort& effort,
+    const std::function<bool()>& should_stop) const {
+  if (!is_sound(query)) return {};
+  const InitialKnots<2> knots = initial_knots(query, field, effort);
+  const double a_max = limits_of(query).max_acceleration;
+  TrajectoryObjective<2, 3>::Options options;
+  options.start = query.start;
+  options.end = end_state(query);
+  options.knot_map = knot_map(knots.path, field, effort.camouflage);
+  options.effort_weight = options_.weight_effort / (a_max * a_max);
+  options.duration_cost =
+      query.rejoin ? DurationCost::with_horizon(options_.weight_duration, query.rejoin->mu_s)
+                   : DurationCost::total(options_.weight_duration);
+  options.penalties = penalties(query, field, effort);
+  options.kappa = options_.samples_per_piece;
+  options.metres_per_eta = knots.metres_per_eta();
+  TrajectoryObjective<2, 3> objective(std::move(options));
+  OptimizerOptions optimizer_options;
+  optimizer_options.max_evaluations = options_.max_evaluations;
+  optimizer_options.should_stop = should_stop;
+  auto found = optimize<2, 3>(objective, objective.initial(knots.durations_s), optimizer_options);
+  undo(effort, found);
+  return found;
+}
+
+}  // namespace mocha

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "optimization/moving_penalty.h"
+#include "optimization/trajectory_optimizer.h"
+#include "planning/candidates/drive_options.h"
+#include "planning/candidates/speed_profile.h"
+#include "safety/certificate.h"
+#include "world/obstacle_field.h"
+#include "world/robot_model.h"
+
+namespace mocha {
+
+/// Where a drive meets a motion that is under way, paper (38), instead of coming to rest.
+struct RejoinTarget {
+  PlanarMinco::State state;  ///< position, velocity, acceleration
+  double mu_s;               ///< the drive should take about this long, paper (40)
+};
+
+/// A drive to be found: from a state of the base along a front-end path to rest at its end, or to
+/// the rejoin point there.
+struct DriveQuery {
+  std::vector<Vector2> path;        ///< at least two points; the first is the start's position
+  PlanarMinco::State start;         ///< position, velocity, acceleration
+  double start_time_s;              ///< absolute
+  std::vector<MovingThing> moving;  ///< and what is proved to be kept from it
+  /// When the path is at its points, from 0 [s], increasing; empty: as early as the limits allow.
+  std::vector<double> times_s;
+  std::optional<RejoinTarget> rejoin;
+  std::optional<MotionLimits> limits;  ///< in place of the robot's own
+};
+
+/// How hard the optimiser tries to satisfy the constraints; raised step by step where a result is
+/// not certified.
+struct Effort {
+  bool camouflage = true;        ///< one variable a knot, else waypoints
+  double spacing = 1.0;          ///< of the knots, relative
+  double obstacle_weight = 1.0;  ///< relative
+  double moving_weight = 1.0;    ///< relative
+  double limit_weight = 1.0;     ///< of speed, acceleration and yaw rate, relative
+  double speed = 1.0;            ///< relative to the robot's limit
+};
+
+/// More effort, by the factor, where it is missing: against obstacles, against what moves, or
+/// against the limits of the robot.
+Effort raised(const Effort& effort, const Violation& violation, double factor = 20.0);
+
+/// Acceleration [m/s^2] at which drives from rest begin and end, so that their heading there is
+/// well defined.
+double rest_acceleration(const MotionLimits& limits);
+
+/// Turns front-end paths into smooth drives: MINCO through knots that camouflage moves, paper (14).
+class DriveOptimizer {
+ public:
+  DriveOptimizer(const RobotModel& robot, const DriveOptions& options, double static_margin_m);
+
+  /// `field` are the static obstacles. The result's curve is empty only if nothing finite was
+  /// found (kNotFinite), or the query is none (kInvalidInput): values that are not finite or beyond
+  /// 1e6, fewer than two points, no length. Cost and terms are those at the weights of the options,
+  /// whatever the effort.
+  OptimizedTrajectory<2, 3> optimize_drive(const DriveQuery& query, const ObstacleField<2>& field,
+                                           const Effort& effort,
+                                           const std::function<bool()>& should_stop) const;
+
+  /// That of the robot's own limits.
+  double rest_acceleration() const;
+
+  /// Distance of knots on a path [m]: it follows the room between the obstacles, within the bounds
+  /// that the options give.
+  double knot_spacing_m(const std::vector<Vector2>& path, const ObstacleField<2>& field) const;
+
+ private:
+  const MotionLimits& limits_of(const DriveQuery& query) const;
+  InitialKnots<2> initial_knots(const DriveQuery& query, const ObstacleField<2>& field,
+                                const Effort& effort) const;
+  PlanarMinco::State end_state(const DriveQuery& query) const;
+  std::shared_ptr<const KnotMap<2>> knot_map(const Eigen::Matrix2Xd& path,
+                                             const ObstacleField<2>& field, bool camouflage) const;
+  std::vector<std::unique_ptr<Penalty<2>>> penalties(const DriveQuery& query,
+                                                     const ObstacleField<2>& field,
+                                                     const Effort& effort) const;
+
+  const RobotModel robot_;
+  const DriveOptions options_;
+  const double static_margin_m_;
+};
+
+}  // namespace mocha

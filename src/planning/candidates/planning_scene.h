@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "topology/static_map/static_map.h"
+#include "trajectory/motion.h"
+#include "world/moving_obstacle.h"
+
+namespace mocha {
+
+/// What is around: the static obstacles (unknown space counts as free) and the team-mates.
+struct PlanningScene {
+  std::shared_ptr<const StaticMap> static_map;
+  std::vector<std::shared_ptr<const MovingObstacle>> peers;
+};
+
+/// From where, from when and to where. Map frame, absolute times.
+struct PlanQuery {
+  double start_time_s = 0.0;
+  /// What the robot is bound to do; the plan joins it at start_time_s (a switch time of the
+  /// motion).
+  Motion committed;
+  Vector2 goal = Vector2::Zero();
+  std::optional<double> goal_yaw_rad;
+  /// Where the robot came from, newest last; used to back out.
+  std::vector<Vector2> trail;
+  /// The plan to the same goal that is being driven, for its class; empty if there is none.
+  Motion driven;
+};
+
+}  // namespace mocha

@@ -1,0 +1,157 @@
+#include "planning/candidates/speed_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "camouflage/bounded_maps.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kStep_m = 0.05;      // of the sampled path, at least
+constexpr double kSteps = 25.0;       // in the window that rounds corners
+constexpr double kMostSamples = 2e4;  // very long paths are sampled more coarsely
+constexpr int kMostPieces = 2000;
+constexpr double kShareOfAcceleration = 0.6;  // leaves room for the curve's own shape
+constexpr double kSlowest = 0.05;             // [m/s] of the profile, so that times stay finite
+
+template <int D>
+using Points = std::vector<Eigen::Matrix<double, D, 1>>;
+
+template <int D>
+double length_m(const Points<D>& points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  return length;
+}
+
+template <int D>
+Points<D> resample(const Points<D>& points, double step_m) {
+  Points<D> samples = {points.front()};
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const auto step = points[i] - points[i - 1];
+    const int parts = std::max(1, static_cast<int>(std::ceil(step.norm() / step_m)));
+    for (int k = 1; k <= parts; ++k) {
+      samples.push_back(points[i - 1] + step * (static_cast<double>(k) / parts));
+    }
+  }
+  return samples;
+}
+
+/// Moving average over `widest` samples to both sides, fewer towards the ends, which stay.
+template <int D>
+Points<D> rounded(const Points<D>& samples, int widest) {
+  const int last = static_cast<int>(samples.size()) - 1;
+  Points<D> sums = {Eigen::Matrix<double, D, 1>::Zero()};
+  for (const auto& sample : samples) sums.push_back(sums.back() + sample);
+  Points<D> means;
+  for (int i = 0; i <= last; ++i) {
+    const int reach = std::min({widest, i, last - i});
+    means.push_back((sums[i + reach + 1] - sums[i - reach]) / (2.0 * reach + 1.0));
+  }
+  return means;
+}
+
+/// Speed allowed by the turn of the path over `reach` >= 1 samples to both sides of each.
+template <int D>
+std::vector<double> corner_speeds(const Points<D>& samples, const MotionLimits& limits, int reach) {
+  const int last = static_cast<int>(samples.size()) - 1;
+  std::vector<double> speeds(samples.size(), limits.max_speed);
+  for (int i = 1; i < last; ++i) {
+    const Eigen::Matrix<double, D, 1> in = samples[i] - samples[std::max(0, i - reach)];
+    const Eigen::Matrix<double, D, 1> out = samples[std::min(last, i + reach)] - samples[i];
+    const double across = (out * in.squaredNorm() - in * in.dot(out)).norm() / (in.norm() + 1e-9);
+    const double turn = std::atan2(across, in.dot(out));
+    const double curvature = turn / (0.5 * (in.norm() + out.norm()) + 1e-9);
+    if (curvature < 1e-6) continue;
+    speeds[i] = std::min({speeds[i], limits.max_yaw_rate / curvature,
+                          limits.max_wheel_speed / (1.0 + 0.5 * limits.track_m * curvature),
+                          std::sqrt(kShareOfAcceleration * limits.max_acceleration / curvature)});
+  }
+  return speeds;
+}
+
+/// Times at which the samples are reached, after limiting acceleration forward and deceleration
+/// backward.
+template <int D>
+std::vector<double> arrival_times(const Points<D>& samples, std::vector<double> speeds,
+                                  double start_speed, const MotionLimits& limits) {
+  const double gain = 2.0 * kShareOfAcceleration * limits.max_acceleration;
+  speeds.front() = std::min(speeds.front(), start_speed);
+  speeds.back() = 0.0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double step = (samples[i] - samples[i - 1]).norm();
+    speeds[i] = std::min(speeds[i], std::sqrt(speeds[i - 1] * speeds[i - 1] + gain * step));
+  }
+  for (std::size_t i = samples.size() - 1; i > 0; --i) {
+    const double step = (samples[i] - samples[i - 1]).norm();
+    speeds[i - 1] = std::min(speeds[i - 1], std::sqrt(speeds[i] * speeds[i] + gain * step));
+  }
+  std::vector<double> times = {0.0};
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double mean = std::max(kSlowest, 0.5 * (speeds[i] + speeds[i - 1]));
+    times.push_back(times.back() + (samples[i] - samples[i - 1]).norm() / mean);
+  }
+  return times;
+}
+
+}  // namespace
+
+template <int D>
+double InitialKnots<D>::metres_per_eta() const {
+  const auto steps = path.rightCols(path.cols() - 1) - path.leftCols(path.cols() - 1);
+  const double speed = steps.colwise().norm().sum() / durations_s.sum();
+  return std::max(kSlowest, speed) * duration_slope(eta_of(durations_s.mean()));
+}
+
+template <int D>
+SpeedProfile<D>::SpeedProfile(const Points& points, double start_speed, const MotionLimits& limits,
+                              double window_m) {
+  const double length = length_m<D>(points);
+  if (points.size() < 2 || !std::isfinite(length)) {
+    throw std::invalid_argument("SpeedProfile: needs at least two points, all of them finite");
+  }
+  if (!(limits.max_speed > 0.0) || !(limits.max_acceleration > 0.0) || !(start_speed >= 0.0)) {
+    throw std::invalid_argument("SpeedProfile: limits must be above 0, the first speed at least 0");
+  }
+  const double step_m = std::max({kStep_m, window_m / kSteps, length / kMostSamples});
+  const int half_window = static_cast<int>(std::clamp(0.5 * window_m / step_m, 0.0, kMostSamples));
+  samples_ = resample<D>(points, step_m);
+  for (int pass = 0; pass < 2; ++pass) samples_ = rounded<D>(samples_, half_window);
+  times_s_ = arrival_times<D>(
+      samples_, corner_speeds<D>(samples_, limits, std::max(1, half_window)), start_speed, limits);
+}
+
+template <int D>
+InitialKnots<D> SpeedProfile<D>::knots(int pieces) const {
+  InitialKnots<D> knots;
+  knots.path.resize(D, pieces + 1);
+  knots.durations_s.setConstant(pieces, std::max(1e-2, duration_s() / pieces));
+  std::size_t i = 1;
+  for (int k = 0; k <= pieces; ++k) {
+    const double t = duration_s() * k / pieces;
+    while (i + 1 < times_s_.size() && times_s_[i] < t) ++i;
+    const double span = times_s_[i] - times_s_[i - 1];
+    const double share = span > 0.0 ? std::clamp((t - times_s_[i - 1]) / span, 0.0, 1.0) : 1.0;
+    knots.path.col(k) = samples_[i - 1] + share * (samples_[i] - samples_[i - 1]);
+  }
+  return knots;
+}
+
+template <int D>
+InitialKnots<D> spread_knots(const Points<D>& points, double start_speed,
+                             const MotionLimits& limits, double spacing_m) {
+  const SpeedProfile<D> profile(points, start_speed, limits, spacing_m);
+  const double intervals = std::ceil(profile.duration_s() * limits.max_speed / spacing_m);
+  return profile.knots(static_cast<int>(std::clamp<double>(intervals, 2, kMostPieces)));
+}
+
+template struct InitialKnots<2>;
+template struct InitialKnots<3>;
+template class SpeedProfile<2>;
+template class SpeedProfile<3>;
+template InitialKnots<2> spread_knots<2>(const Points<2>&, double, const MotionLimits&, double);
+template InitialKnots<3> spread_knots<3>(const Points<3>&, double, const MotionLimits&, double);
+
+}  // namespace mocha

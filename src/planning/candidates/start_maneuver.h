@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "trajectory/minco.h"
+#include "trajectory/motion.h"
+#include "world/robot_model.h"
+
+namespace mocha {
+
+/// How a plan may begin before its optimised drive (brake, turn in place, or nothing), and the path
+/// of that drive.
+struct StartManeuver {
+  std::vector<Phase> phases;
+  double duration_s = 0.0;
+  PlanarMinco::State state;   ///< where the drive begins
+  std::vector<Vector2> path;  ///< from there to the goal
+};
+
+/// The start maneuvers of one robot.
+class StartManeuvers {
+ public:
+  /// Drives begin and end with `rest_acceleration` [m/s^2] where they begin and end at rest.
+  StartManeuvers(const MotionLimits& limits, double smooth_start_rad, double rest_acceleration);
+
+  /// From rest at `pose`, after `before`: at once where the path lies ahead, or after a turn in
+  /// place; what is to be preferred comes first.
+  std::vector<StartManeuver> from_rest(const std::vector<Phase>& before, const Pose& pose,
+                                       const std::vector<Vector2>& path) const;
+
+  /// Out of a drive; nothing where the path turns away too sharply, so that the robot has to brake
+  /// first.
+  std::vector<StartManeuver> rolling(const MotionState& state,
+                                     const std::vector<Vector2>& path) const;
+
+  /// In place; none for changes so small that a drive can take them.
+  std::optional<TurnPhase> turn(const Pose& pose, double yaw_change_rad) const;
+
+ private:
+  StartManeuver start_maneuver(std::vector<Phase> phases, const Pose& end,
+                               const std::vector<Vector2>& path) const;
+
+  const MotionLimits limits_;
+  const double smooth_start_rad_;
+  const double rest_acceleration_;
+};
+
+}  // namespace mocha

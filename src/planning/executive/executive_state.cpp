@@ -1,0 +1,198 @@
+#include "planning/executive/executive_state.h"
+
+#include <optional>
+
+namespace mocha {
+namespace {
+
+using S = ExecutiveState;
+using E = ExecutiveEvent;
+
+struct Everywhere {
+  E event;
+  S to;
+};
+
+constexpr Everywhere kFromEverywhere[] = {
+    {E::kGoalGiven, S::kPlanning},
+    {E::kStopped, S::kIdle},
+    {E::kGoalReached, S::kPlanning},
+    {E::kAllReached, S::kParked},
+};
+
+struct Transition {
+  S from;
+  E event;
+  S to;
+};
+
+constexpr Transition kTransitions[] = {
+    {S::kParked, E::kPullOver, S::kPlanningPullOver},
+    {S::kParked, E::kPullOverHere, S::kPullingOver},
+
+    {S::kPlanning, E::kPlanFound, S::kDriving},
+    {S::kPlanning, E::kPlanInTheWay, S::kWaiting},
+    {S::kPlanning, E::kBackOutFound, S::kBackingOut},
+    {S::kPlanning, E::kNoPlan, S::kBlocked},
+    {S::kPlanning, E::kGoalFoundOccupied, S::kGoalOccupied},
+    {S::kPlanning, E::kPullOver, S::kPlanningPullOver},
+    {S::kPlanning, E::kPullOverHere, S::kPullingOver},
+    {S::kPlanning, E::kNowhereToPullOver, S::kPlanning},
+
+    {S::kDriving, E::kPlanRequested, S::kReplanning},
+    {S::kDriving, E::kFollowed, S::kDriving},
+    {S::kDriving, E::kPlanEnded, S::kBlocked},
+    {S::kDriving, E::kPlanFound, S::kDriving},
+    {S::kDriving, E::kPullOver, S::kPlanningPullOver},
+    {S::kDriving, E::kPullOverHere, S::kPullingOver},
+    {S::kDriving, E::kNowhereToPullOver, S::kPlanning},
+
+    // Without another plan, the one at hand is driven as far as it can be.
+    {S::kReplanning, E::kFollowed, S::kReplanning},
+    {S::kReplanning, E::kPlanEnded, S::kBlocked},
+    {S::kReplanning, E::kPlanFound, S::kDriving},
+    {S::kReplanning, E::kPlanInTheWay, S::kDriving},
+    {S::kReplanning, E::kBackOutFound, S::kBackingOut},
+    {S::kReplanning, E::kNoPlan, S::kDriving},
+    {S::kReplanning, E::kGoalFoundOccupied, S::kDriving},
+    {S::kReplanning, E::kPullOver, S::kPlanningPullOver},
+    {S::kReplanning, E::kPullOverHere, S::kPullingOver},
+    {S::kReplanning, E::kNowhereToPullOver, S::kPlanning},
+
+    {S::kBackingOut, E::kPlanRequested, S::kPlanning},
+    {S::kBackingOut, E::kPlanEnded, S::kPlanning},
+    {S::kBackingOut, E::kPullOver, S::kPlanningPullOver},
+    {S::kBackingOut, E::kPullOverHere, S::kPullingOver},
+    {S::kBackingOut, E::kNowhereToPullOver, S::kPlanning},
+
+    {S::kBlocked, E::kPlanRequested, S::kPlanning},
+    {S::kBlocked, E::kFollowed, S::kDriving},
+    {S::kBlocked, E::kPlanFound, S::kDriving},
+    {S::kBlocked, E::kPlanInTheWay, S::kWaiting},
+    {S::kBlocked, E::kBackOutFound, S::kBackingOut},
+    {S::kBlocked, E::kGoalFoundOccupied, S::kGoalOccupied},
+    {S::kBlocked, E::kPullOver, S::kPlanningPullOver},
+    {S::kBlocked, E::kPullOverHere, S::kPullingOver},
+    {S::kBlocked, E::kNowhereToPullOver, S::kPlanning},
+
+    {S::kGoalOccupied, E::kFollowed, S::kDriving},
+    {S::kGoalOccupied, E::kPlanFound, S::kDriving},
+    {S::kGoalOccupied, E::kPlanInTheWay, S::kWaiting},
+    {S::kGoalOccupied, E::kBackOutFound, S::kBackingOut},
+    {S::kGoalOccupied, E::kNoPlan, S::kBlocked},
+    {S::kGoalOccupied, E::kPullOver, S::kPlanningPullOver},
+    {S::kGoalOccupied, E::kPullOverHere, S::kPullingOver},
+    {S::kGoalOccupied, E::kNowhereToPullOver, S::kPlanning},
+
+    {S::kPlanningPullOver, E::kAtPullOverPoint, S::kWaiting},
+    {S::kPlanningPullOver, E::kPlanFound, S::kPullingOver},
+    {S::kPlanningPullOver, E::kBackOutFound, S::kBackingOutToPullOver},
+    {S::kPlanningPullOver, E::kNoPlan, S::kPullOverBlocked},
+    {S::kPlanningPullOver, E::kPullOver, S::kPlanningPullOver},
+    {S::kPlanningPullOver, E::kPullOverHere, S::kPullingOver},
+    {S::kPlanningPullOver, E::kNowhereToPullOver, S::kPlanning},
+    {S::kPlanningPullOver, E::kWayIsClear, S::kPlanning},
+    {S::kPlanningPullOver, E::kNoNeedToPullOver, S::kParked},
+
+    {S::kPullingOver, E::kPlanRequested, S::kPlanningPullOver},
+    {S::kPullingOver, E::kFollowed, S::kPullingOver},
+    {S::kPullingOver, E::kPlanEnded, S::kPlanningPullOver},
+    {S::kPullingOver, E::kAtPullOverPoint, S::kWaiting},
+    {S::kPullingOver, E::kPullOver, S::kPlanningPullOver},
+    {S::kPullingOver, E::kPullOverHere, S::kPullingOver},
+    {S::kPullingOver, E::kNowhereToPullOver, S::kPlanning},
+    {S::kPullingOver, E::kWayIsClear, S::kPlanning},
+    {S::kPullingOver, E::kNoNeedToPullOver, S::kParked},
+
+    {S::kBackingOutToPullOver, E::kPlanRequested, S::kPlanningPullOver},
+    {S::kBackingOutToPullOver, E::kPlanEnded, S::kPlanningPullOver},
+    {S::kBackingOutToPullOver, E::kAtPullOverPoint, S::kWaiting},
+    {S::kBackingOutToPullOver, E::kPullOver, S::kPlanningPullOver},
+    {S::kBackingOutToPullOver, E::kPullOverHere, S::kPullingOver},
+    {S::kBackingOutToPullOver, E::kNowhereToPullOver, S::kPlanning},
+    {S::kBackingOutToPullOver, E::kWayIsClear, S::kPlanning},
+    {S::kBackingOutToPullOver, E::kNoNeedToPullOver, S::kParked},
+
+    {S::kPullOverBlocked, E::kPlanRequested, S::kPlanningPullOver},
+    {S::kPullOverBlocked, E::kAtPullOverPoint, S::kWaiting},
+    {S::kPullOverBlocked, E::kPlanFound, S::kPullingOver},
+    {S::kPullOverBlocked, E::kBackOutFound, S::kBackingOutToPullOver},
+    {S::kPullOverBlocked, E::kPullOver, S::kPlanningPullOver},
+    {S::kPullOverBlocked, E::kPullOverHere, S::kPullingOver},
+    {S::kPullOverBlocked, E::kNowhereToPullOver, S::kPlanning},
+    {S::kPullOverBlocked, E::kWayIsClear, S::kPlanning},
+    {S::kPullOverBlocked, E::kNoNeedToPullOver, S::kParked},
+
+    {S::kWaiting, E::kStrayed, S::kPlanningPullOver},
+    {S::kWaiting, E::kPlanFound, S::kDriving},
+    {S::kWaiting, E::kBackOutFound, S::kBackingOut},
+    {S::kWaiting, E::kPullOver, S::kPlanningPullOver},
+    {S::kWaiting, E::kPullOverHere, S::kPullingOver},
+    {S::kWaiting, E::kNowhereToPullOver, S::kPlanning},
+    {S::kWaiting, E::kWayIsClear, S::kPlanning},
+};
+
+std::optional<S> entry(S state, E event) {
+  for (const Everywhere& transition : kFromEverywhere) {
+    if (transition.event == event) return transition.to;
+  }
+  for (const Transition& transition : kTransitions) {
+    if (transition.from == state && transition.event == event) return transition.to;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ExecutiveState next_state(ExecutiveState state, ExecutiveEvent event) {
+  return entry(state, event).value_or(state);
+}
+
+bool heeds(ExecutiveState state, ExecutiveEvent event) { return entry(state, event).has_value(); }
+
+bool makes_room(ExecutiveState state) {
+  return state == S::kPlanningPullOver || state == S::kPullingOver ||
+         state == S::kBackingOutToPullOver || state == S::kPullOverBlocked;
+}
+
+bool drives_plan(ExecutiveState state) {
+  return state == S::kDriving || state == S::kReplanning || state == S::kPullingOver;
+}
+
+bool backs_out(ExecutiveState state) {
+  return state == S::kBackingOut || state == S::kBackingOutToPullOver;
+}
+
+const char* to_text(ExecutiveState state) {
+  switch (state) {
+    case S::kIdle:
+      return "no goal";
+    case S::kParked:
+      return "parked at its goal";
+    case S::kPlanning:
+      return "planning";
+    case S::kDriving:
+      return "driving";
+    case S::kReplanning:
+      return "driving, planning anew";
+    case S::kBackingOut:
+      return "backing out";
+    case S::kBlocked:
+      return "without a plan";
+    case S::kGoalOccupied:
+      return "the goal is occupied";
+    case S::kPlanningPullOver:
+      return "planning to make room";
+    case S::kPullingOver:
+      return "making room";
+    case S::kBackingOutToPullOver:
+      return "backing out to make room";
+    case S::kPullOverBlocked:
+      return "cannot get out of the way";
+    case S::kWaiting:
+      return "waiting for others to pass";
+  }
+  return "unknown";
+}
+
+}  // namespace mocha

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <deque>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "planning/executive/driven_trail.h"
+#include "planning/executive/executive_state.h"
+#include "planning/executive/goal_executive_options.h"
+#include "planning/executive/goal_queue.h"
+#include "planning/executive/planner_interface.h"
+#include "planning/executive/yield_policy.h"
+
+namespace mocha {
+
+/// Takes a robot to its goals: decides when to plan, what to ask the planner, which of its plans to
+/// drive, when to back out, and when a goal is reached or given up. Makes room for team-mates of
+/// higher rank, and asks others for room, as its YieldPolicy says. What it is about is a state of
+/// executive_state.h. Pure decisions: time, measurements and plans come in.
+class GoalExecutive {
+ public:
+  enum class Ending { kNone, kReached, kNoProgress, kGoalOccupied };
+  struct Planned {
+    Goal goal;
+    PlanResult result;
+  };
+  struct Report {
+    PlanReason reason = PlanReason::kSolved;
+    Violation violation;
+    std::string message;
+  };
+  struct Output {
+    std::optional<Planned> planned;  ///< what was found, whatever became of it
+    std::optional<Report> report;
+    Motion plan;                          ///< to be driven from now on; empty: no news
+    std::optional<YieldRequest> request;  ///< for all team-mates
+    Ending ending = Ending::kNone;        ///< of all goals
+  };
+
+  /// `braking_deceleration` [m/s^2]: where a goal is given up, or room is to be made.
+  GoalExecutive(const GoalExecutiveOptions& options, double braking_deceleration,
+                Yielding yielding);
+  /// Counts for the goals that are there, too.
+  void set_options(const GoalExecutiveOptions& options, const PlannerOptions& planner);
+
+  /// Goals to be reached in order, at least one, instead of those there were.
+  void take(std::deque<Goal> goals, double now_s);
+  /// Plans anew as soon as possible.
+  void request() { handle(ExecutiveEvent::kPlanRequested); }
+  /// What is driven instead of what was planned, around something that moves; counts only if it
+  /// leads to the same place.
+  void follow(Motion followed);
+  /// Drops all goals. The plan brakes along what is in force; empty where nothing is.
+  Motion stop(const Motion& committed, double now_s);
+  /// Drops all goals and the plan, where something else stops the robot.
+  void drop();
+  /// What a team-mate asks for.
+  void hear(const YieldRequest& request, double now_s) { yielding_.hear(request, now_s); }
+
+  /// `committed`: the motion in force, empty if there is none.
+  Output step(double now_s, const RobotState& measured, const Motion& committed,
+              const PlannerInterface& planner);
+
+  /// What would be asked now to get to `goal`; `committed` must not be empty.
+  PlanQuery query_to(const Goal& goal, const Motion& committed, double now_s) const;
+
+  ExecutiveState state() const { return state_; }
+  bool idle() const { return goals_.empty(); }
+  /// The plan at hand; empty if there is none.
+  const Motion& plan() const { return errand_.plan; }
+
+ private:
+  /// Where the robot is to go now, and how far that has come; begins anew with each place.
+  struct Errand {
+    std::optional<PullOverPoint> pull_over;  ///< in the states that make room or wait
+    Motion plan;                             ///< the last one that was found
+    double planned_s = -std::numeric_limits<double>::infinity();  ///< the planner was asked last
+    double occupied_since_s = 0.0;                                ///< of kGoalOccupied
+  };
+
+  /// What a step is about.
+  struct Input {
+    double now_s;
+    const RobotState& measured;
+    const Motion& committed;
+    const PlannerInterface& planner;
+  };
+
+  void handle(ExecutiveEvent event);
+  void begin_goal(ExecutiveEvent event);
+  void begin_errand(ExecutiveEvent event, std::optional<PullOverPoint> pull_over);
+
+  // What a step does, in this order.
+  Ending note_arrival(const Input& input);
+  void note_progress(const Input& input);
+  void yield(const Input& input, Output& output);
+  void plan(const Input& input, Output& output);
+  void ask(const Input& input, Output& output);
+
+  Goal target() const;
+  Vector2 destination() const;
+  RobotIntent intent(const RobotState& measured) const;
+  Motion brake(const Motion& committed, double now_s) const;
+  bool plan_is_due(double now_s) const;
+  bool much_better(const PlanResult& result, double now_s) const;
+  std::optional<Rank> in_way_of(const Motion& plan, double now_s) const;
+  void adopt(const PlanResult& result, Output& output);
+  void hold_back(const Rank& whose, const Input& input, Output& output);
+  void fail(PlanReason reason, const Input& input, Output& output);
+  void fail_to_pull_over(const Input& input, Output& output);
+  void follow_advice(const YieldAdvice& advice, const Motion& braking, Output& output);
+
+  GoalExecutiveOptions options_;
+  const double braking_deceleration_;
+  YieldPolicy yielding_;
+  GoalQueue goals_;
+  DrivenTrail trail_;
+  ExecutiveState state_ = ExecutiveState::kIdle;
+  Errand errand_;
+};
+
+}  // namespace mocha

@@ -1,0 +1,40 @@
+#include "planning/executive/goal_executive_options.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kSoonest_s = 0.2;  // between two plans, whatever is requested
+
+}  // namespace
+
+GoalExecutiveOptions GoalExecutiveOptions::from(const ParameterTable& values) {
+  return {values.number("planning_time"),         values.number("replan_period"),
+          values.number("retry_period"),          values.number("min_improvement"),
+          values.number("occupied_goal_timeout"), GoalOptions::from(values)};
+}
+
+std::optional<double> GoalExecutiveOptions::planning_period_s(ExecutiveState state) const {
+  using S = ExecutiveState;
+  switch (state) {
+    case S::kPlanning:
+    case S::kReplanning:
+    case S::kPlanningPullOver:
+      return kSoonest_s;
+    case S::kDriving:
+      return replan_period_s;
+    case S::kBlocked:
+    case S::kGoalOccupied:
+    case S::kPullOverBlocked:
+    case S::kWaiting:
+      return retry_period_s;
+    case S::kIdle:
+    case S::kParked:
+    case S::kBackingOut:
+    case S::kPullingOver:
+    case S::kBackingOutToPullOver:
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace mocha

@@ -1,0 +1,67 @@
+#include "planning/executive/goal_queue.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace mocha {
+namespace {
+
+constexpr double kNearer_m = 0.1;
+constexpr double kElsewhere_m = 0.5;
+
+}  // namespace
+
+GoalOptions GoalOptions::from(const ParameterTable& values) {
+  return {values.number("goal_tolerance"), values.number("goal_yaw_tolerance"),
+          values.number("goal_timeout")};
+}
+
+void GoalQueue::set(std::deque<Goal> goals, double now_s) {
+  goals_ = std::move(goals);
+  begin(now_s);
+}
+
+Goal GoalQueue::current() const {
+  Goal goal = goals_.front();
+  if (instead_) goal.position = *instead_;
+  return goal;
+}
+
+void GoalQueue::begin(double now_s) {
+  instead_.reset();
+  nearest_m_ = std::numeric_limits<double>::infinity();
+  progress_at_.reset();
+  progress_s_ = now_s;
+}
+
+void GoalQueue::note_progress(double now_s, const Vector2& position) {
+  const double distance_m = (position - current().position).norm();
+  const bool nearer = distance_m < nearest_m_ - kNearer_m;
+  const bool elsewhere = !progress_at_ || (position - *progress_at_).norm() > kElsewhere_m;
+  if (nearer) nearest_m_ = distance_m;
+  if (!nearer && !elsewhere) return;
+  progress_at_ = position;
+  progress_s_ = now_s;
+}
+
+GoalQueue::Event GoalQueue::update(double now_s, const RobotState& state) {
+  if (goals_.empty()) return Event::kNone;
+  note_progress(now_s, state.pose.position);
+  const Goal goal = current();
+  const bool there = (state.pose.position - goal.position).norm() <= options_.tolerance_m;
+  const bool aligned = !goal.yaw_rad || std::abs(wrap_angle(*goal.yaw_rad - state.pose.yaw_rad)) <=
+                                            options_.yaw_tolerance_rad;
+  if (there && aligned && stands(state)) {
+    goals_.pop_front();
+    begin(now_s);
+    return goals_.empty() ? Event::kAllReached : Event::kReached;
+  }
+  if (now_s - progress_s_ > options_.timeout_s) {
+    goals_.clear();
+    return Event::kTimedOut;
+  }
+  return Event::kNone;
+}
+
+}  // namespace mocha

@@ -1,0 +1,125 @@
+#include "planning/global/front_end.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "planning/candidates/peer_discs.h"
+#include "safety/margin_budget.h"
+#include "trajectory/stopping.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kSlack_m = 0.01;  // over the proved margin, for the optimiser to work in
+constexpr double kSameGoal_m = 0.5;
+
+bool is_under_way(const PlanQuery& query, const Vector2& goal) {
+  return !query.driven.empty() && query.driven.end_time() > query.start_time_s &&
+         (query.driven.end_pose().position - goal).norm() < kSameGoal_m;
+}
+
+}  // namespace
+
+HomotopyPathOptions homotopy_path_options(const RobotModel& robot, const PlannerOptions& options) {
+  double radius_m = 0.0;
+  for (const auto& disc : robot.footprint.cover()) radius_m = std::max(radius_m, disc.radius_m);
+  HomotopyPathOptions paths;
+  paths.travel.required_clearance_m =
+      radius_m + MarginBudget::of(robot).static_margin_m() + kSlack_m;
+  paths.travel.preferred_clearance_m =
+      paths.travel.required_clearance_m + options.preferred_clearance_m;
+  paths.travel.clearance_weight = options.clearance_weight;
+  paths.roadmap = options.roadmap;
+  paths.classes = options.classes;
+  paths.longest_ratio = options.longest_ratio;
+  paths.prm_samples = options.prm_samples;
+  return paths;
+}
+
+std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_speed) {
+  const double step_s = 0.2 / max_speed;
+  std::vector<Vector2> points = {motion.position(from_s)};
+  double start_s = motion.start_time();
+  for (const Phase& phase : motion.phases()) {
+    if (const auto* drive = std::get_if<DrivePhase>(&phase)) {
+      const double end_s = drive->path.duration();
+      for (double t = std::max(0.0, from_s - start_s) + step_s; t < end_s; t += step_s)
+        points.push_back(drive->path.position(t));
+    }
+    start_s += duration_s(phase);
+  }
+  points.push_back(motion.end_pose().position);
+  return points;
+}
+
+FrontEnd::FrontEnd(const RobotModel& robot, const PlannerOptions& options, double rest_acceleration)
+    : robot_(robot),
+      options_(homotopy_path_options(robot, options)),
+      start_maneuvers_(robot.limits, options.smooth_start_rad, rest_acceleration),
+      rest_acceleration_(rest_acceleration) {}
+
+HomotopyPaths FrontEnd::paths(std::vector<Vector2> lead_in, const PlanQuery& query,
+                              const PlanningScene& scene, const Vector2& goal) const {
+  HomotopyPathQuery paths;
+  paths.lead_in = std::move(lead_in);
+  paths.goal = goal;
+  for (const auto& peer : scene.peers) {
+    if (!stands(*peer, query.start_time_s)) continue;
+    const BlockedDisc disc = peer_keep_out(*peer, query.start_time_s, robot_, kSlack_m);
+    // A team-mate on the goal will hardly stay.
+    if ((disc.centre - goal).norm() > disc.radius_m) paths.blocked.push_back(disc);
+  }
+  if (is_under_way(query, goal)) {
+    paths.driven = path_of(query.driven, query.start_time_s, robot_.limits.max_speed);
+    paths.driven.front() = paths.lead_in.front();
+    paths.driven.back() = goal;
+  }
+  return find_homotopy_paths(*scene.static_map, paths, options_);
+}
+
+CandidateSeeds FrontEnd::seeds(const PlanQuery& query, const PlanningScene& scene,
+                               const Vector2& goal) const {
+  const MotionState start = query.committed.at(query.start_time_s);
+  HomotopyPaths found = paths({start.pose.position}, query, scene, goal);
+  CandidateSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
+  for (const HomotopyPath& path : found.paths) {
+    std::vector<StartManeuver> start_maneuvers =
+        start.at_rest ? start_maneuvers_.from_rest({}, start.pose, path.points)
+                      : start_maneuvers_.rolling(start, path.points);
+    if (start_maneuvers.empty()) continue;
+    result.list.push_back({std::move(start_maneuvers), path.least_length_m, path.signature});
+  }
+  if (result.list.size() == found.paths.size()) return result;
+  for (CandidateSeed& seed : after_braking(query, scene, goal).list) {
+    const bool known =
+        std::any_of(result.list.begin(), result.list.end(),
+                    [&](const CandidateSeed& other) { return other.signature == seed.signature; });
+    if (!known) result.list.push_back(std::move(seed));
+  }
+  return result;
+}
+
+CandidateSeeds FrontEnd::after_braking(const PlanQuery& query, const PlanningScene& scene,
+                                       const Vector2& goal) const {
+  if (query.committed.at(query.start_time_s).at_rest) return {};
+  const std::vector<Phase> brake =
+      brake_along(query.committed, query.start_time_s, rest_acceleration_);
+  const Motion stop(query.start_time_s, brake);
+  HomotopyPaths found =
+      paths(path_of(stop, query.start_time_s, robot_.limits.max_speed), query, scene, goal);
+  CandidateSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
+  for (const HomotopyPath& path : found.paths) {
+    result.list.push_back({start_maneuvers_.from_rest(brake, stop.end_pose(), path.points),
+                           path.least_length_m, path.signature});
+  }
+  return result;
+}
+
+bool FrontEnd::reaches(const Vector2& start, const Vector2& goal,
+                       const StaticMap& static_map) const {
+  const TravelCost cost(static_map, start, {}, options_.travel);
+  return find_grid_path(static_map, start, goal, cost, options_.lattice_step_m).outcome ==
+         GridPath::Outcome::kFound;
+}
+
+}  // namespace mocha

@@ -1,0 +1,178 @@
+#include "planning/global/global_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "planning/candidates/winner.h"
+#include "planning/maneuvers/back_out.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kAtGoal_m = 0.03;
+constexpr double kStand_s = 0.1;
+constexpr double kFarthest_m = 1e6;  // from the origin: farther away, paths are not searched
+
+PlanResult failure(PlanReason reason, const std::string& message) {
+  PlanResult result;
+  result.reason = reason;
+  result.message = message;
+  return result;
+}
+
+std::string place(const Vector2& p) {
+  std::ostringstream text;
+  text.precision(2);
+  text << std::fixed << "(" << p.x() << ", " << p.y() << ")";
+  return text.str();
+}
+
+std::string why_not(const PlanCandidate& candidate) {
+  if (candidate.violation) return describe(candidate.violation);
+  return candidate.reason == PlanReason::kBudgetExhausted
+             ? "planning was stopped before a motion was found"
+             : "the optimisation found nothing finite";
+}
+
+/// Only the heading is left.
+bool is_at_goal(const MotionState& start, const PlanQuery& query) {
+  return start.at_rest && (start.pose.position - query.goal).norm() < kAtGoal_m;
+}
+
+}  // namespace
+
+GlobalPlanner::GlobalPlanner(RobotModel robot, const PlannerOptions& options)
+    : robot_(std::move(robot)), options_(options), planner_(robot_, options_) {}
+
+std::optional<Vector2> GlobalPlanner::free_goal(const Vector2& goal,
+                                                const ObstacleField<2>& obstacles) const {
+  constexpr double kStep_m = 0.05;
+  const double needed = planner_.front_end().required_clearance_m();
+  for (double radius = 0.0; radius <= options_.goal_search_radius_m; radius += kStep_m) {
+    const int directions =
+        radius == 0.0 ? 1 : std::max(8, static_cast<int>(2 * M_PI * radius / kStep_m));
+    for (int i = 0; i < directions; ++i) {
+      const double angle = 2 * M_PI * i / directions;
+      const Vector2 place = goal + radius * Vector2(std::cos(angle), std::sin(angle));
+      if (obstacles.distance_bound(place) >= needed) return place;
+    }
+  }
+  return std::nullopt;
+}
+
+PlanResult GlobalPlanner::turn_only(const PlanQuery& query, const PlanningScene& scene) const {
+  const Pose pose = query.committed.at(query.start_time_s).pose;
+  const double change = query.goal_yaw_rad ? wrap_angle(*query.goal_yaw_rad - pose.yaw_rad) : 0.0;
+  std::vector<Phase> phases;
+  if (const auto turn = planner_.front_end().start_maneuvers().turn(pose, change)) {
+    phases.emplace_back(*turn);
+  } else {
+    phases.emplace_back(StandPhase{pose, kStand_s});
+  }
+  Motion motion(query.start_time_s, std::move(phases));
+  PlanResult result;
+  result.goal = query.goal;
+  result.violation = certify(motion, scene.static_map->field(), query.start_time_s);
+  if (result.violation) {
+    result.reason = PlanReason::kNotCertified;
+    result.message = describe(result.violation);
+    return result;
+  }
+  result.reason = PlanReason::kSolved;
+  result.message = "turns at the goal";
+  result.motion = std::move(motion);
+  return result;
+}
+
+std::optional<Motion> GlobalPlanner::back_out(const PlanQuery& query,
+                                              const PlanningScene& scene) const {
+  if (refusal(query, scene)) return std::nullopt;
+  const MotionState start = query.committed.at(query.start_time_s);
+  if (!start.at_rest || is_at_goal(start, query)) return std::nullopt;
+  const ObstacleField<2>& obstacles = scene.static_map->field();
+  const auto goal = free_goal(query.goal, obstacles);
+  if (!goal) return std::nullopt;
+  const auto motion = back_out_along(query.trail, start.pose, query.start_time_s,
+                                     options_.backup_distance_m, robot_.limits);
+  if (!motion || certify(*motion, obstacles, query.start_time_s)) return std::nullopt;
+  // Worth while only if the goal can be reached from there, as far as the map says. Team-mates do
+  // not count: they may go away.
+  const bool onward =
+      planner_.front_end().reaches(motion->end_pose().position, *goal, *scene.static_map);
+  return onward ? motion : std::nullopt;
+}
+
+std::optional<PlanResult> GlobalPlanner::refusal(const PlanQuery& query,
+                                                 const PlanningScene& scene) const {
+  if (!scene.static_map) return failure(PlanReason::kNoMap, "there is no map yet");
+  const Eigen::AlignedBox2d& map = scene.static_map->bounds();
+  if (!(std::max(-map.min().minCoeff(), map.max().maxCoeff()) <= kFarthest_m))
+    return failure(PlanReason::kNoMap, "the map reaches farther than 1e6 m from its origin");
+  if (query.committed.empty())
+    return failure(PlanReason::kNoPose, "the robot's state is not known yet");
+  if (!query.goal.allFinite() || !std::isfinite(query.goal_yaw_rad.value_or(0.0)))
+    return failure(PlanReason::kInvalidInput, "the goal is not finite");
+  if (!std::isfinite(query.start_time_s))
+    return failure(PlanReason::kInvalidInput, "the time to start at is not finite");
+  return std::nullopt;
+}
+
+void GlobalPlanner::run(const PlanQuery& query, const CandidateSeeds& seeds,
+                        const PlanningScene& scene, const std::function<bool()>& should_stop,
+                        PlanResult& result) const {
+  result.candidates = race(planner_, query, seeds, scene, options_, should_stop);
+  if (result.candidates.empty()) return;
+  const int best = winner(result.candidates, options_.switch_margin);
+  if (best < 0) {
+    const PlanCandidate& first = result.candidates.front();
+    result.reason = first.reason;
+    result.violation = first.violation;
+    result.message = why_not(first);
+    return;
+  }
+  PlanCandidate& chosen = result.candidates[best];
+  chosen.selected = true;
+  result.reason = PlanReason::kSolved;
+  result.message = "solved";
+  result.violation = {};
+  result.motion = chosen.motion;
+  result.switches_class = seeds.driven && chosen.signature != *seeds.driven;
+}
+
+PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scene,
+                               const std::function<bool()>& should_stop) const {
+  if (auto refused = refusal(query, scene)) return *refused;
+  const MotionState start = query.committed.at(query.start_time_s);
+  if (is_at_goal(start, query)) return turn_only(query, scene);
+  const ObstacleField<2>& obstacles = scene.static_map->field();
+  if (obstacles.distance_bound(start.pose.position) <= 0.0) {
+    return failure(PlanReason::kStartOccupied, "the robot at " + place(start.pose.position) +
+                                                   " is inside an obstacle of the map");
+  }
+  const auto goal = free_goal(query.goal, obstacles);
+  if (!goal) {
+    return failure(PlanReason::kGoalOccupied, "the goal " + place(query.goal) +
+                                                  " is occupied, and so is everything around it");
+  }
+  PlanResult result = failure(PlanReason::kNoPath, "no path from " + place(start.pose.position) +
+                                                       " to " + place(*goal) + " on the map");
+  result.goal = *goal;
+  const FrontEnd& front_end = planner_.front_end();
+  run(query, front_end.seeds(query, scene, *goal), scene, should_stop, result);
+  if (result.reason == PlanReason::kSolved) return result;
+  if (!start.at_rest) {
+    run(query, front_end.after_braking(query, scene, *goal), scene, should_stop, result);
+    if (result.reason == PlanReason::kSolved) return result;
+  }
+  const bool peers_block = result.candidates.empty() && !scene.peers.empty() &&
+                           front_end.reaches(start.pose.position, *goal, *scene.static_map);
+  if (peers_block) {
+    result.reason = PlanReason::kPeerConflict;
+    result.message = "team-mates stand on every path to " + place(*goal);
+  }
+  return result;
+}
+
+}  // namespace mocha

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "planning/global/candidate_race.h"
+
+namespace mocha {
+
+/// Paper Fig. 2a: paths of different classes, optimised in parallel; the cheapest one that is
+/// certified against the map is driven.
+class GlobalPlanner {
+ public:
+  GlobalPlanner(RobotModel robot, const PlannerOptions& options);
+
+  /// A plan that joins what is committed, or the reason why there is none.
+  ///
+  /// `should_stop` ends the work early (it may be called by several threads at once); then the
+  /// reason is kBudgetExhausted unless something was certified before.
+  PlanResult plan(const PlanQuery& query, const PlanningScene& scene,
+                  const std::function<bool()>& should_stop) const;
+
+  /// A slow drive back along the query's trail to a place from where its goal can be reached as far
+  /// as the map says; certified. Nothing where there is none, where the robot does not start from
+  /// rest, or where it is at the goal already.
+  std::optional<Motion> back_out(const PlanQuery& query, const PlanningScene& scene) const;
+
+  /// The first violation of a motion on the map from a time on; no violation if it may be driven.
+  Violation certify(const Motion& motion, const ObstacleField<2>& obstacles, double from_s) const {
+    return planner_.certify(motion, obstacles, from_s);
+  }
+
+ private:
+  /// Why there is nothing to plan, if so.
+  std::optional<PlanResult> refusal(const PlanQuery& query, const PlanningScene& scene) const;
+  std::optional<Vector2> free_goal(const Vector2& goal, const ObstacleField<2>& obstacles) const;
+  PlanResult turn_only(const PlanQuery& query, const PlanningScene& scene) const;
+  /// Sets the candidates, and takes their winner, if there is one.
+  void run(const PlanQuery& query, const CandidateSeeds& seeds, const PlanningScene& scene,
+           const std::function<bool()>& should_stop, PlanResult& result) const;
+
+  const RobotModel robot_;
+  const PlannerOptions options_;
+  const CandidatePlanner planner_;
+};
+
+}  // namespace mocha

@@ -1,0 +1,256 @@
+#include "planning/local/local_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "planning/candidates/exposure.h"
+#include "planning/candidates/parallel.h"
+#include "planning/candidates/winner.h"
+#include "safety/margin_budget.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kSooner_s = 0.2;  // by less, a farther or later arrival is not better
+constexpr double kLittle_s = 0.5;  // a detour that loses no more is good enough
+constexpr double kSlack_m = 0.01;  // over what is proved, for the optimiser to work in
+
+/// Arrivals later than the plan's, and rejoin points farther along it, in shares of mu. A detour
+/// takes a little longer than the straight line; a robot that waits comes much later; and what
+/// stands on the rejoin point is passed.
+struct Attempt {
+  double later;
+  double farther;
+};
+constexpr Attempt kAttempts[] = {{0.2, 0.0}, {0.6, 0.0}, {0.3, 0.6}, {1.2, 0.0}};
+
+double clearance_radius_m(const RobotModel& robot) {
+  double radius_m = 0.0;
+  for (const auto& disc : robot.footprint.cover()) radius_m = std::max(radius_m, disc.radius_m);
+  return radius_m;
+}
+
+SpaceTimeOptions space_time_options(const RobotModel& robot, const LocalOptions& options) {
+  SpaceTimeOptions space_time;
+  space_time.max_speed = robot.limits.max_speed;
+  space_time.required_clearance_m =
+      clearance_radius_m(robot) + MarginBudget::of(robot).static_margin_m() + kSlack_m;
+  space_time.samples = options.samples;
+  space_time.classes = options.classes;
+  space_time.longest_ratio = options.longest_ratio;
+  return space_time;
+}
+
+/// What is driven, up to where it is nearest to the rejoin point; empty where that is not near.
+TimedPath driven_to(const RejoinPoint& rejoin_point, const LocalQuery& query) {
+  constexpr double kStep_s = 0.25;
+  constexpr double kNear_m = 1.0;
+  TimedPath path;
+  const Vector2 place = rejoin_point.place();
+  const auto until_s = progress_on(query.driven, place, query.start_time_s, kNear_m);
+  if (!until_s) return path;
+  for (double t = query.start_time_s; t < *until_s; t += kStep_s)
+    path.push_back({query.driven.position(t), t});
+  path.push_back({place, std::max(*until_s, query.start_time_s + kStep_s)});
+  return path;
+}
+
+/// Whether `other` gains as much as a change of class has to. Their rejoin points may differ, and
+/// so their costs may not be compared, but the time that they lose.
+bool is_worth_a_switch(const LocalPlan& other, const LocalPlan& kept, const LocalOptions& options) {
+  const auto loss = [&options](const LocalPlan& plan) {
+    return options.weight_duration * std::pow(std::max(0.0, plan.delay_s), 3);
+  };
+  const double kept_loss = loss(kept);
+  return loss(other) <
+         std::min((1.0 - options.switch_margin) * kept_loss, kept_loss - options.switch_gain);
+}
+
+/// Whether a later attempt is to be preferred to an earlier one.
+bool is_better(const LocalPlan& later, const LocalPlan& earlier, const LocalOptions& options) {
+  // A driven path is not given up only because it keeps from what is likely, and another from more.
+  const bool good = std::max(later.met, earlier.met) <= RequirementName::kDetourLikely;
+  if (good && later.switches_class != earlier.switches_class) {
+    return later.switches_class ? is_worth_a_switch(later, earlier, options)
+                                : !is_worth_a_switch(earlier, later, options);
+  }
+  if (later.met != earlier.met) return later.met < earlier.met;
+  if (later.met == RequirementName::kNone)
+    return earlier.candidates.empty() && !later.candidates.empty();
+  return later.delay_s < earlier.delay_s - kSooner_s;
+}
+
+/// Of what begins at that place and time.
+bool begins_inside(const std::vector<MovingThing>& things, const TimedPoint& start) {
+  return std::any_of(things.begin(), things.end(), [&start](const MovingThing& thing) {
+    const MovingObstacle::Disc disc = thing.obstacle->at(start.time_s);
+    return thing.until_s > start.time_s &&
+           (disc.centre - start.position).norm() < thing.keep_m + disc.radius_m;
+  });
+}
+
+}  // namespace
+
+LocalPlanner::LocalPlanner(const RobotModel& robot, const LocalOptions& options, Watch watch)
+    : watch_(std::move(watch)),
+      max_speed_(robot.limits.max_speed),
+      options_(options),
+      space_time_options_(space_time_options(robot, options)),
+      optimizer_(robot, options) {}
+
+double LocalPlanner::rejoin_ahead_s(const LocalQuery& query) const {
+  return std::max(options_.mu_s, query.rejoin_point_s - query.progress_s);
+}
+
+std::vector<LocalPlanner::Task> LocalPlanner::tasks(const LocalQuery& query,
+                                                    const LocalScene& scene) const {
+  const MotionState start = query.committed.at(query.start_time_s);
+  std::vector<Task> tasks;
+  for (const Attempt& tried : kAttempts) {
+    const auto rejoin_point = find_rejoin_point(
+        query.plan, query.progress_s, rejoin_ahead_s(query) + tried.farther * options_.mu_s);
+    if (!rejoin_point) break;
+    if (tried.farther > 0.0 && rejoin_point->plan_time_s >= query.plan.end_time()) continue;
+    Return back = optimizer_.return_to(*rejoin_point, query);
+    SpaceTimeQuery paths;
+    paths.start = {start.pose.position, query.start_time_s};
+    paths.goal = {rejoin_point->place(),
+                  query.start_time_s + back.earliest_s + tried.later * options_.mu_s};
+    paths.moving = foreseen(moving(query, scene));
+    for (MovingThing& thing : paths.moving) thing.keep_m += kSlack_m;
+    paths.driven = driven_to(*rejoin_point, query);
+    tasks.push_back({std::move(back), std::move(paths)});
+  }
+  return tasks;
+}
+
+std::vector<MovingThing> LocalPlanner::moving(const LocalQuery& query,
+                                              const LocalScene& scene) const {
+  return kept_apart(scene, optimizer_.requirements()[query.wanted].from(query.start_time_s));
+}
+
+Cuts<2> LocalPlanner::cuts_for(const std::vector<Task>& tasks, const LocalScene& scene) const {
+  Eigen::AlignedBox2d reach;
+  for (const Task& task : tasks) reach.extend(reach_of(task.paths, max_speed_));
+  return cuts_within(*scene.static_map, reach, tasks.front().paths.start.position,
+                     space_time_options_);
+}
+
+void LocalPlanner::select(const LocalQuery& query, const LocalScene& scene, const Return& back,
+                          LocalPlan& plan) const {
+  for (const LocalCandidate& each : plan.candidates) plan.met = std::min(plan.met, each.met);
+  for (LocalCandidate& each : plan.candidates) {
+    const bool good = each.met == plan.met && plan.met != RequirementName::kNone;
+    each.reason = good ? PlanReason::kSolved : PlanReason::kNotCertified;
+  }
+  const int best = winner(plan.candidates, options_.switch_margin, options_.switch_gain);
+  if (best < 0) {
+    const LocalCandidate& first = plan.candidates.front();
+    plan.reason = first.reason;
+    plan.violation = first.violation;
+    plan.message =
+        first.motion.empty() ? "the optimisation found no motion" : describe(first.violation);
+    return;
+  }
+  LocalCandidate& chosen = plan.candidates[best];
+  chosen.selected = true;
+  plan.reason = PlanReason::kSolved;
+  plan.message = "solved";
+  plan.violation = {};
+  plan.motion = chosen.motion;
+  plan.rejoins_s = chosen.rejoins_s;
+  const double drive_s = chosen.rejoins_s - query.start_time_s;
+  plan.delay_s = drive_s - back.rejoin_point.drive_s;
+  // Against a rejoin point that is farther, it takes longer in any case.
+  plan.late = drive_s - back.rejoin_point.drive_s > options_.t_epsilon_s - options_.mu_s;
+  plan.beyond = optimizer_.violation_of(plan.motion, scene, query.wanted, chosen.rejoins_s);
+  plan.switches_class = !chosen.driven;
+}
+
+LocalPlan LocalPlanner::along(const std::vector<SpaceTimePath>& paths, const LocalQuery& query,
+                              const LocalScene& scene, const Return& back) const {
+  LocalPlan plan;
+  plan.message = "no path through space-time back to the plan";
+  plan.rejoin_point = back.rejoin_point;
+  if (paths.empty()) return plan;
+  watch_(LocalStage::kOptimisation);
+  plan.candidates.resize(paths.size());
+  in_parallel(paths.size(), options_.threads, [&](std::size_t i) {
+    plan.candidates[i] = optimizer_.optimize(query, scene, back, paths[i]);
+  });
+  select(query, scene, back, plan);
+  watch_(LocalStage::kDone);
+  return plan;
+}
+
+LocalPlan LocalPlanner::attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,
+                                const Cuts<2>& cuts) const {
+  watch_(LocalStage::kFrontEnd);
+  const auto found =
+      find_space_time_paths(*scene.static_map, cuts, task.paths, space_time_options_);
+  watch_(LocalStage::kDone);
+  return along(found.paths, query, scene, task.back);
+}
+
+LocalPlan LocalPlanner::keep_on(const LocalQuery& query, const LocalScene& scene) const {
+  const auto rejoin_point = find_rejoin_point(query.plan, query.progress_s, rejoin_ahead_s(query));
+  if (query.driven.empty() || !rejoin_point) return {};
+  SpaceTimePath path;
+  path.points = driven_to(*rejoin_point, query);
+  path.driven = true;
+  if (path.points.empty()) return {};
+  return along({path}, query, scene, optimizer_.return_to(*rejoin_point, query));
+}
+
+LocalPlan LocalPlanner::again(const LocalQuery& query, const LocalScene& scene,
+                              const LocalPlan& failed) const {
+  std::vector<SpaceTimePath> paths;
+  for (const LocalCandidate& each : failed.candidates)
+    paths.push_back({each.path, 0.0, each.signature, each.driven});
+  return along(paths, query, scene, optimizer_.return_to(failed.rejoin_point, query));
+}
+
+LocalPlan LocalPlanner::search(const LocalQuery& query, const LocalScene& scene) const {
+  LocalPlan kept = keep_on(query, scene);
+  const bool is_kept = kept.met == query.wanted;
+  // Costs are not negative: nothing could be cheaper by enough.
+  if (is_kept && kept.candidates.front().cost < options_.switch_gain) return kept;
+  LocalPlan other = anew(query, scene);
+  return is_better(other, kept, options_) ? other : kept;
+}
+
+LocalPlan LocalPlanner::anew(const LocalQuery& query, const LocalScene& scene) const {
+  const std::vector<Task> tasks = this->tasks(query, scene);
+  std::vector<LocalPlan> plans(std::max<std::size_t>(1, tasks.size()));
+  if (tasks.empty()) return plans.front();
+  const Cuts<2> cuts = cuts_for(tasks, scene);
+  // The first one is mostly good enough. Where it is not, it is urgent.
+  plans[0] = attempt(query, scene, tasks[0], cuts);
+  if (plans[0].met == query.wanted && plans[0].delay_s < kLittle_s) return plans[0];
+  in_parallel(tasks.size() - 1, options_.threads,
+              [&](std::size_t i) { plans[i + 1] = attempt(query, scene, tasks[i + 1], cuts); });
+  const LocalPlan* best = &plans[0];
+  for (const LocalPlan& plan : plans) {
+    if (is_better(plan, *best, options_)) best = &plan;
+  }
+  return *best;
+}
+
+LocalPlan LocalPlanner::plan(const LocalQuery& query, const LocalScene& scene) const {
+  const MotionState start = query.committed.at(query.start_time_s);
+  const bool alike = scene.likely.empty();
+  LocalQuery wanted = query;
+  wanted.wanted = RequirementName::kDetour;
+  LocalPlan confident;
+  // A robot that is too near already cannot keep the distance that is asked for.
+  if (alike || !begins_inside(moving(wanted, scene), {start.pose.position, query.start_time_s}))
+    confident = search(wanted, scene);
+  if (alike || confident.met <= RequirementName::kDetourLikely) return confident;
+  wanted.wanted = RequirementName::kDetourLikely;
+  LocalPlan likely = search(wanted, scene);
+  const bool better = likely.met < confident.met || confident.candidates.empty();
+  return better ? likely : confident;
+}
+
+}  // namespace mocha

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <vector>
+
+#include "safety/requirement.h"
+
+namespace mocha {
+
+/// What a robot that has promised a motion is in.
+enum class Situation {
+  kHolds,       ///< the promise is certified, and the plan meets nothing that moves
+  kPlanMeets,   ///< the promise is certified, but the plan meets something that moves, paper (37)
+  kThreatened,  ///< under way, the promise meets something that moves
+  kBlocked,     ///< under way, the promise violates anything else
+  kInTheWay,    ///< the robot stands, though it wants to go on, in the way of something that moves
+};
+
+/// What is done in a step. The values are those of ReplannerStatus.msg.
+enum class Row {
+  kKeep = 0,           ///< nothing: what is promised is kept
+  kWait = 1,           ///< nothing, until the proposal at hand is answered
+  kStand = 2,          ///< promises to stand where it stands, without a promise so far
+  kStopHere = 3,       ///< brakes from where it is, off its motion or without one
+  kStopBlind = 4,      ///< brakes along its motion, as nothing can be certified without data
+  kEmergencyStop = 5,  ///< says how an emergency stop brakes
+  kFollow = 6,         ///< promises more of the plan
+  kRejoinSooner = 7,   ///< a shorter detour than the one that is driven
+  kDetour = 8,
+  kDetourLikely = 9,  ///< past the likely course of what moves
+  kBrakeSoon = 10,
+  kBrakeInTime = 11,
+  kBrakeInTimeAtOnce = 12,
+  kBrakeLikely = 13,
+  kBrakeInTimeLikely = 14,
+  kBrakeInTimeAtOnceLikely = 15,
+  kSidestep = 16,
+  kSidestepLikely = 17,
+  kBrakeHard = 18,
+  kEmergencyDetour = 19,
+  kMostRoom = 20,    ///< keeps clear of all but the predictions, and as far as possible of these
+  kLastResort = 21,  ///< nothing is certified
+};
+
+/// What generates the motions of a row.
+enum class ManeuverKind {
+  kFollow,
+  kRejoinSooner,
+  kDetour,
+  kBrakeSoon,
+  kBrakeInTime,
+  kBrakeInTimeAtOnce,
+  kSidestep,
+  kBrakeHard,
+  kEmergencyDetour,
+  kMostRoom,
+  kLastResort,
+};
+
+/// One row of the ladder: the first motion of the maneuver that is certified is proposed.
+struct Rung {
+  Row row;
+  ManeuverKind maneuver;
+  RequirementName required;
+  /// Is tried though another proposal waits for its answer, which it then replaces.
+  bool replaces_pending;
+};
+
+/// The rows that a situation goes down.
+const std::vector<Rung>& ladder_of(Situation situation);
+
+/// In words: "detour on the likely course".
+const char* to_text(Row row);
+
+}  // namespace mocha

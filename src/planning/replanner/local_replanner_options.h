@@ -1,0 +1,22 @@
+#pragma once
+
+#include "config/parameter_table.h"
+#include "world/robot_model.h"
+
+namespace mocha {
+
+/// Times and bounds of the local replanner; each stands in config/local_replanner.yaml.
+struct LocalReplannerOptions {
+  double settle_s;          ///< a proposal made now is binding after this time
+  double emergency_s;       ///< the same for an emergency motion
+  double horizon_s;         ///< promises reach about this far, then brake
+  double extend_every_s;    ///< a promise is extended when this much of its horizon is used up
+  double answer_timeout_s;  ///< a proposal without answer is given up after this time
+  double max_error_m;       ///< actual against promised position
+  double max_error_rad;     ///< the same for the heading
+  double mu_pre_s;          ///< paper (37): so far ahead the plan is held against what moves
+
+  static LocalReplannerOptions from(const ParameterTable& values, const RobotModel& robot);
+};
+
+}  // namespace mocha

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <mocha_ugv/PredictedObstacles.h>
+#include <ros/node_handle.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "world/moving_obstacle.h"
+
+namespace mocha {
+
+/// How far predictions are trusted.
+struct PredictionOptions {
+  double confidence;  ///< with which a disc holds its thing, at any one time
+  double growth_s;    ///< how far ahead its radius grows
+};
+
+/// A prediction as a disc at constant velocity, whose radius grows with the covariance. Throws
+/// std::invalid_argument for values that are not finite or not plausible (faster than 30 m/s,
+/// larger than 20 m, farther than 100 km).
+std::shared_ptr<const MovingObstacle> from_message(const mocha_ugv::PredictedObstacle& message,
+                                                   ros::Time stamp,
+                                                   const PredictionOptions& options);
+
+/// The newest of the messages about what moves around the robot.
+class NewestPredictions {
+ public:
+  /// A message in another frame than `frame`, with more than a thousand obstacles, or with one that
+  /// from_message() refuses, is refused as a whole and counted: what is left out could be what the
+  /// robot runs into, so the former message holds until it is too old.
+  NewestPredictions(std::string frame, const PredictionOptions& options);
+
+  void on_predictions(const mocha_ugv::PredictedObstacles& message);
+
+  const std::vector<std::shared_ptr<const MovingObstacle>>& obstacles() const { return obstacles_; }
+  /// The same on their most likely course, without room for what is not known.
+  const std::vector<std::shared_ptr<const MovingObstacle>>& expected() const { return expected_; }
+  /// Since the stamp of the newest message [s]; infinity before the first.
+  double age_s(ros::Time now) const;
+  int refused() const { return refused_; }
+  const std::string& refusal() const { return refusal_; }  ///< why, the last time
+
+ private:
+  const std::string frame_;
+  const PredictionOptions options_;
+  std::vector<std::shared_ptr<const MovingObstacle>> obstacles_;
+  std::vector<std::shared_ptr<const MovingObstacle>> expected_;
+  ros::Time stamp_;
+  int refused_ = 0;
+  std::string refusal_;
+};
+
+/// The newest predictions for this node's robot, from `predicted_obstacles`.
+class PredictionSource : public NewestPredictions {
+ public:
+  PredictionSource(ros::NodeHandle& node, std::string frame, const PredictionOptions& options);
+
+ private:
+  ros::Subscriber predictions_;
+};
+
+}  // namespace mocha

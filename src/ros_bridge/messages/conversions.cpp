@@ -1,0 +1,148 @@
+#include "ros_bridge/messages/conversions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "trajectory/descriptor.h"
+
+namespace mocha {
+namespace {
+
+constexpr int kOrder = 3;
+
+void put_derivatives(const Eigen::Matrix2d& derivatives, std::vector<double>& values) {
+  values.assign(derivatives.data(), derivatives.data() + derivatives.size());
+}
+
+void get_derivatives(const std::vector<double>& values, Eigen::Matrix2d& derivatives) {
+  if (values.size() != 4)
+    throw std::invalid_argument("Trajectory: a drive's derivatives need 4 values");
+  std::copy(values.begin(), values.end(), derivatives.data());
+}
+
+mocha_ugv::MotionPhase to_message(const PhaseDescriptor& phase) {
+  mocha_ugv::MotionPhase message;
+  message.kind = static_cast<uint8_t>(phase.kind);
+  message.direction = static_cast<int8_t>(phase.direction);
+  message.yaw_start = phase.yaw_start_rad;
+  message.yaw_change = phase.yaw_change_rad;
+  message.durations = phase.durations_s;
+  for (const Vector2& point : phase.points) {
+    message.x.push_back(point.x());
+    message.y.push_back(point.y());
+  }
+  if (phase.kind == PhaseDescriptor::Kind::kDrive) {
+    put_derivatives(phase.start_derivatives, message.start_derivatives);
+    put_derivatives(phase.end_derivatives, message.end_derivatives);
+  }
+  return message;
+}
+
+PhaseDescriptor from_message(const mocha_ugv::MotionPhase& message) {
+  if (message.kind > mocha_ugv::MotionPhase::STAND) {
+    throw std::invalid_argument("Trajectory: unknown kind of phase");
+  }
+  if (message.x.size() != message.y.size()) {
+    throw std::invalid_argument("Trajectory: x and y differ in size");
+  }
+  PhaseDescriptor phase;
+  phase.kind = static_cast<PhaseDescriptor::Kind>(message.kind);
+  phase.direction = message.direction;
+  phase.yaw_start_rad = message.yaw_start;
+  phase.yaw_change_rad = message.yaw_change;
+  phase.durations_s = message.durations;
+  for (std::size_t i = 0; i < message.x.size(); ++i) {
+    phase.points.emplace_back(message.x[i], message.y[i]);
+  }
+  if (phase.kind == PhaseDescriptor::Kind::kDrive) {
+    get_derivatives(message.start_derivatives, phase.start_derivatives);
+    get_derivatives(message.end_derivatives, phase.end_derivatives);
+  }
+  return phase;
+}
+
+}  // namespace
+
+void to_message(const Motion& motion, mocha_ugv::Trajectory& message) {
+  const MotionDescriptor descriptor = describe(motion);
+  message.start = ros::Time(descriptor.start_time_s);
+  message.s = kOrder;
+  message.phases.clear();
+  for (const PhaseDescriptor& phase : descriptor.phases)
+    message.phases.push_back(to_message(phase));
+}
+
+Motion from_message(const mocha_ugv::Trajectory& message) {
+  if (message.s != kOrder) throw std::invalid_argument("Trajectory: s is not 3");
+  MotionDescriptor descriptor;
+  descriptor.start_time_s = message.start.toSec();
+  for (const auto& phase : message.phases) descriptor.phases.push_back(from_message(phase));
+  return rebuild(descriptor);
+}
+
+geometry_msgs::TransformStamped transform_message(ros::Time stamp, const std::string& parent,
+                                                  const std::string& child, const Pose& pose,
+                                                  double height_m) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  message.transform.translation.x = pose.position.x();
+  message.transform.translation.y = pose.position.y();
+  message.transform.translation.z = height_m;
+  message.transform.rotation = quaternion_of(pose.yaw_rad);
+  return message;
+}
+
+OccupancyGrid from_message(const nav_msgs::OccupancyGrid& map) {
+  constexpr int kOccupiedFrom = 65;
+  constexpr int kFreeUpTo = 25;
+  constexpr std::size_t kMostCells = 100'000'000;
+  const Pose origin = from_message(map.info.origin);
+  const std::size_t cells = static_cast<std::size_t>(map.info.width) * map.info.height;
+  if (cells == 0 || cells > kMostCells || map.data.size() != cells) {
+    throw std::invalid_argument("has sizes that do not match");
+  }
+  if (!(map.info.resolution > 1e-4f) || !std::isfinite(map.info.resolution) ||
+      !origin.position.allFinite()) {
+    throw std::invalid_argument("has no finite resolution or origin");
+  }
+  if (!(std::abs(origin.yaw_rad) < 1e-6)) throw std::invalid_argument("has a rotated origin");
+  OccupancyGrid grid;
+  grid.resolution_m = map.info.resolution;
+  grid.origin = origin.position;
+  grid.width = static_cast<int>(map.info.width);
+  grid.height = static_cast<int>(map.info.height);
+  grid.cells.reserve(cells);
+  for (const int8_t value : map.data) {
+    const bool free = value >= 0 && value <= kFreeUpTo;
+    grid.cells.push_back(value >= kOccupiedFrom ? OccupancyGrid::kOccupied
+                         : free                 ? OccupancyGrid::kFree
+                                                : OccupancyGrid::kUnknown);
+  }
+  return grid;
+}
+
+geometry_msgs::Quaternion quaternion_of(double yaw_rad) {
+  geometry_msgs::Quaternion quaternion;
+  quaternion.z = std::sin(0.5 * yaw_rad);
+  quaternion.w = std::cos(0.5 * yaw_rad);
+  return quaternion;
+}
+
+geometry_msgs::Pose to_message(const Pose& pose) {
+  geometry_msgs::Pose message;
+  message.position.x = pose.position.x();
+  message.position.y = pose.position.y();
+  message.orientation = quaternion_of(pose.yaw_rad);
+  return message;
+}
+
+Pose from_message(const geometry_msgs::Pose& pose) {
+  const auto& q = pose.orientation;
+  const double yaw = std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
+  return {Vector2(pose.position.x, pose.position.y), yaw};
+}
+
+}  // namespace mocha

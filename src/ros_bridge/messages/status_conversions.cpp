@@ -1,0 +1,123 @@
+#include "ros_bridge/messages/status_conversions.h"
+
+#include "ros_bridge/rviz/candidate_drawing.h"
+
+namespace mocha {
+namespace {
+
+/// Zero where ROS has no such time.
+ros::Time ros_time(double t) {
+  constexpr double kLatest_s = 4294967295.0;
+  return t >= 0.0 && t < kLatest_s ? ros::Time(t) : ros::Time();
+}
+
+}  // namespace
+
+// The enumerations are sent as their numbers.
+using Status = mocha_ugv::PlannerStatus;
+static_assert(static_cast<int>(PlanReason::kBackingOut) == Status::BACKING_OUT);
+static_assert(static_cast<int>(PlanReason::kCannotWin) == Status::CANNOT_WIN);
+static_assert(static_cast<int>(PlanReason::kEmergencyStop) == Status::EMERGENCY_STOP);
+static_assert(static_cast<int>(PlanReason::kPeerConflict) == Status::PEER_CONFLICT);
+static_assert(static_cast<int>(ViolatedTerm::kSeparation) == Status::SEPARATION);
+static_assert(static_cast<int>(ViolatedTerm::kUnseenSpace) == Status::UNSEEN_SPACE);
+static_assert(static_cast<int>(ViolatedTerm::kWheelSpeed) == Status::WHEEL_SPEED);
+using ReplannerStatus = mocha_ugv::ReplannerStatus;
+static_assert(static_cast<int>(Row::kEmergencyStop) == ReplannerStatus::EMERGENCY_STOP);
+static_assert(static_cast<int>(Row::kDetourLikely) == ReplannerStatus::DETOUR_LIKELY);
+static_assert(static_cast<int>(Row::kSidestepLikely) == ReplannerStatus::SIDESTEP_LIKELY);
+static_assert(static_cast<int>(Row::kLastResort) == ReplannerStatus::LAST_RESORT);
+
+const char* to_text(PlanReason reason) {
+  switch (reason) {
+    case PlanReason::kSolved:
+      return "solved";
+    case PlanReason::kNoGoal:
+      return "no goal";
+    case PlanReason::kNoMap:
+      return "no map";
+    case PlanReason::kNoPose:
+      return "no pose";
+    case PlanReason::kInvalidInput:
+      return "invalid input";
+    case PlanReason::kStartOccupied:
+      return "start occupied";
+    case PlanReason::kGoalOccupied:
+      return "goal occupied";
+    case PlanReason::kNoPath:
+      return "no path";
+    case PlanReason::kNotCertified:
+      return "not certified";
+    case PlanReason::kBudgetExhausted:
+      return "budget exhausted";
+    case PlanReason::kPeerConflict:
+      return "peer conflict";
+    case PlanReason::kBraking:
+      return "braking";
+    case PlanReason::kBackingOut:
+      return "backing out";
+    case PlanReason::kCannotWin:
+      return "cannot win";
+    case PlanReason::kEmergencyStop:
+      return "emergency stop";
+  }
+  return "unknown";
+}
+
+Status to_message(PlanReason reason, const Violation& violation, const std::string& text,
+                  const std::string& frame, ros::Time stamp) {
+  Status status;
+  status.header.frame_id = frame;
+  status.header.stamp = stamp;
+  status.reason = static_cast<uint8_t>(reason);
+  status.message = text;
+  status.violated = static_cast<uint8_t>(violation.term);
+  if (!violation) return status;
+  status.at = ros_time(violation.time_s);
+  status.place.x = violation.place.x();
+  status.place.y = violation.place.y();
+  status.value = violation.value;
+  status.limit = violation.limit;
+  status.peer = violation.peer;
+  return status;
+}
+
+mocha_ugv::ReplannerStatus to_message(Row row, const Status& status) {
+  mocha_ugv::ReplannerStatus message;
+  message.header = status.header;
+  message.row = static_cast<uint8_t>(row);
+  message.doing = to_text(row);
+  message.status = status;
+  return message;
+}
+
+mocha_ugv::Candidate to_message(const PlanCandidate& candidate, const std::string& frame,
+                                ros::Time stamp) {
+  mocha_ugv::Candidate message;
+  message.signature.assign(candidate.signature.begin(), candidate.signature.end());
+  message.selected = candidate.selected;
+  message.cost = candidate.cost;
+  for (const auto& [name, value] : candidate.terms) {
+    mocha_ugv::CostTerm term;
+    term.name = name;
+    term.value = value;
+    message.terms.push_back(term);
+  }
+  message.status =
+      to_message(candidate.reason, candidate.violation,
+                 candidate.violation ? describe(candidate.violation) : to_text(candidate.reason),
+                 frame, stamp);
+  if (!candidate.motion.empty()) {
+    message.duration = candidate.motion.end_time() - candidate.motion.start_time();
+    message.length = candidate.motion.length_m();
+  }
+  for (const Vector2& point : drawn_path(candidate)) {
+    geometry_msgs::Point place;
+    place.x = point.x();
+    place.y = point.y();
+    message.path.push_back(place);
+  }
+  return message;
+}
+
+}  // namespace mocha

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <mocha_ugv/Candidates.h>
+#include <mocha_ugv/PlannerStatus.h>
+#include <mocha_ugv/ReplannerStatus.h>
+
+#include <string>
+
+#include "planning/candidates/plan_result.h"
+#include "planning/replanner/ladder.h"
+
+namespace mocha {
+
+mocha_ugv::PlannerStatus to_message(PlanReason reason, const Violation& violation,
+                                    const std::string& text, const std::string& frame,
+                                    ros::Time stamp);
+
+/// What a step of the local replanner came to.
+mocha_ugv::ReplannerStatus to_message(Row row, const mocha_ugv::PlannerStatus& status);
+
+mocha_ugv::Candidate to_message(const PlanCandidate& candidate, const std::string& frame,
+                                ros::Time stamp);
+
+/// The reason in a word, such as "goal occupied".
+const char* to_text(PlanReason reason);
+
+}  // namespace mocha

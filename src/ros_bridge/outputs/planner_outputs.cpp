@@ -1,0 +1,72 @@
+#include "ros_bridge/outputs/planner_outputs.h"
+
+#include <mocha_ugv/Candidates.h>
+#include <mocha_ugv/PlannerStatus.h>
+#include <nav_msgs/Path.h>
+
+#include "ros_bridge/messages/conversions.h"
+#include "ros_bridge/messages/status_conversions.h"
+#include "ros_bridge/rviz/candidate_drawing.h"
+#include "ros_bridge/rviz/markers.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kPathStep_s = 0.1;  // of what is drawn
+
+}  // namespace
+
+PlannerOutputs::PlannerOutputs(ros::NodeHandle& node, const RobotIdentity& identity,
+                               const RobotModel& model)
+    : identity_(identity),
+      radius_m_(model.footprint.circumscribed_radius_m()),
+      plans_(node.advertise<mocha_ugv::Trajectory>("global_trajectory", 2, true)),
+      candidates_(node.advertise<mocha_ugv::Candidates>("candidates", 2, true)),
+      statuses_(node.advertise<mocha_ugv::PlannerStatus>("planner_status", 10, true)),
+      paths_(node.advertise<nav_msgs::Path>("global_path", 2, true)),
+      drawings_(node.advertise<visualization_msgs::MarkerArray>("planner_markers", 2, true)) {}
+
+mocha_ugv::Trajectory PlannerOutputs::planned(const Motion& motion, ros::Time now) const {
+  mocha_ugv::Trajectory message;
+  message.header.stamp = now;
+  message.header.frame_id = identity_.map_frame;
+  message.state = mocha_ugv::Trajectory::PLANNED;
+  message.agent = identity_.name;
+  message.sequence = adopted_;
+  message.footprint_radius = radius_m_;
+  to_message(motion, message);
+  return message;
+}
+
+void PlannerOutputs::adopt(const Motion& motion, ros::Time now) {
+  ++adopted_;
+  plans_.publish(planned(motion, now));
+  paths_.publish(to_path(motion, identity_.map_frame, kPathStep_s));
+}
+
+void PlannerOutputs::show_candidates(const PlanResult& result, const Goal& goal, ros::Time now) {
+  mocha_ugv::Candidates message;
+  message.header.stamp = now;
+  message.header.frame_id = identity_.map_frame;
+  Drawing drawing(identity_.map_frame, now);
+  for (const PlanCandidate& candidate : result.candidates) {
+    message.candidates.push_back(to_message(candidate, identity_.map_frame, now));
+  }
+  draw_candidates("candidates", result.candidates, drawing);
+  drawing.add_goal(identity_.name, goal.position, goal.yaw_rad);
+  candidates_.publish(message);
+  drawings_.publish(drawing.markers());
+}
+
+void PlannerOutputs::report(PlanReason reason, const Violation& violation, const std::string& text,
+                            ros::Time now) {
+  const bool news = reason != reason_ || text != text_;
+  reason_ = reason;
+  text_ = text;
+  statuses_.publish(to_message(reason, violation, text, identity_.map_frame, now));
+  if (news && reason != PlanReason::kSolved) {
+    ROS_WARN_THROTTLE(2.0, "%s: %s: %s", identity_.name.c_str(), to_text(reason), text.c_str());
+  }
+}
+
+}  // namespace mocha

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <mocha_ugv/Trajectory.h>
+#include <ros/ros.h>
+
+#include <cstdint>
+#include <string>
+
+#include "planning/candidates/plan_result.h"
+#include "planning/executive/goal_queue.h"
+#include "ros_bridge/runtime/robot_identity.h"
+#include "world/robot_model.h"
+
+namespace mocha {
+
+/// What a global planner tells the others and rviz: the plan as `global_trajectory` and
+/// `global_path`, every candidate with its costs, and `planner_status`.
+class PlannerOutputs {
+ public:
+  PlannerOutputs(ros::NodeHandle& node, const RobotIdentity& identity, const RobotModel& model);
+
+  /// The plan that is to be driven from now on.
+  void adopt(const Motion& motion, ros::Time now);
+  /// How often that was done; the sequence of the newest plan.
+  std::uint32_t adopted() const { return adopted_; }
+  /// A plan as message, whether adopted or not.
+  mocha_ugv::Trajectory planned(const Motion& motion, ros::Time now) const;
+
+  void show_candidates(const PlanResult& result, const Goal& goal, ros::Time now);
+
+  /// Publishes the status; news that are not a success are logged as well.
+  void report(PlanReason reason, const Violation& violation, const std::string& text,
+              ros::Time now);
+  /// The last report.
+  PlanReason reason() const { return reason_; }
+  const std::string& text() const { return text_; }
+
+ private:
+  const RobotIdentity identity_;
+  const double radius_m_;
+  ros::Publisher plans_;
+  ros::Publisher candidates_;
+  ros::Publisher statuses_;
+  ros::Publisher paths_;
+  ros::Publisher drawings_;
+  std::uint32_t adopted_ = 0;
+  PlanReason reason_ = PlanReason::kNoGoal;
+  std::string text_;
+};
+
+}  // namespace mocha

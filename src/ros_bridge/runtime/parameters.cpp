@@ -1,0 +1,44 @@
+#include "ros_bridge/runtime/parameters.h"
+
+#include <ros/package.h>
+
+namespace mocha {
+namespace {
+
+YAML::Node to_yaml(XmlRpc::XmlRpcValue value, const std::string& where) {
+  switch (value.getType()) {
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      return YAML::Node(static_cast<bool>(value));
+    case XmlRpc::XmlRpcValue::TypeInt:
+      return YAML::Node(static_cast<int>(value));
+    case XmlRpc::XmlRpcValue::TypeDouble:
+      return YAML::Node(static_cast<double>(value));
+    case XmlRpc::XmlRpcValue::TypeString:
+      return YAML::Node(static_cast<std::string>(value));
+    default:
+      throw ParameterError(where + ": is not a single value");
+  }
+}
+
+}  // namespace
+
+std::string config_path(const std::string& relative) {
+  const std::string package = ros::package::getPath("mocha_ugv");
+  if (package.empty()) throw ParameterError("the package mocha_ugv is not on ROS_PACKAGE_PATH");
+  return package + "/config/" + relative;
+}
+
+ParameterTable read_parameters(const ros::NodeHandle& private_node, const std::string& schema) {
+  ParameterTable table = ParameterTable::from_schema(config_path(schema + ".yaml"));
+  XmlRpc::XmlRpcValue values;
+  if (!private_node.getParam("", values) || values.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
+    return table;
+  }
+  const std::string source = private_node.getNamespace();
+  YAML::Node map;
+  for (auto& item : values) map[item.first] = to_yaml(item.second, source + "/" + item.first);
+  table.assign(map, source);
+  return table;
+}
+
+}  // namespace mocha

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "safety/certificate.h"
+
+namespace mocha {
+
+// Proofs for robots that may already be closer than they should, because the map got better or a
+// peer stopped near by.
+
+/// How a motion that begins closer to obstacles than its margin may go on: it never loses room that
+/// it has gained, and has all of the margin after a metre. So what is certified once is certified
+/// at every later moment of the drive, too.
+struct Leaving {
+  /// The gap [m] that it has to have after 0.3 m already: the tracking error, below which a
+  /// contact cannot be excluded.
+  double floor_m = 0.0;
+};
+
+/// Clearance as check_clearance() proves it, with that exception. It is none for a robot whose
+/// discs reach more than 5 cm into an obstacle.
+Violation check_clearance_or_leaving(const Motion& motion, const Footprint& footprint,
+                                     const ObstacleField<2>& field, double margin_m,
+                                     const Leaving& leaving, double from_s);
+
+/// Separation as check_separation() proves it until `until_s`, with one exception: until the robot
+/// has regained the clearance, it does not come closer than it is.
+Violation check_separation_or_leaving(const Motion& motion, double own_radius_m,
+                                      const MovingObstacle& other, double clearance_m,
+                                      double from_s, double until_s);
+
+}  // namespace mocha

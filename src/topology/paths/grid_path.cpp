@@ -1,0 +1,175 @@
+#include "topology/paths/grid_path.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <queue>
+
+namespace mocha {
+namespace {
+
+constexpr double kRounding = 1e-6;
+
+/// Over a lattice that holds the corners of a map: A* to a goal, or Dijkstra's search for a place
+/// that suits.
+class LatticeSearch {
+ public:
+  using Suits = std::function<bool(const Vector2&)>;
+
+  LatticeSearch(const StaticMap& static_map, const TravelCost& cost, double step_m)
+      : static_map_(static_map), cost_(cost) {
+    const double finest_m = 2.0 * static_map.detail_m();
+    step_m_ = finest_m * std::max(1.0, std::round(step_m / finest_m));
+    const Vector2 steps = static_map.bounds().sizes() / step_m_;
+    columns_ = static_cast<int>(steps.x() + kRounding) + 1;
+    rows_ = static_cast<int>(steps.y() + kRounding) + 1;
+  }
+
+  /// Start, nodes between, goal; nothing if there is no path.
+  std::vector<Vector2> run(const Vector2& start, const Vector2& goal) {
+    const int to = entry_node(goal);
+    if (to < 0) return {};
+    std::vector<Vector2> points =
+        search(start, to, nullptr, std::numeric_limits<double>::infinity());
+    if (!points.empty()) points.push_back(goal);
+    return points;
+  }
+
+  std::vector<Vector2> run(const Vector2& start, const Suits& suits, double most_m) {
+    return search(start, kNowhere, suits, most_m);
+  }
+
+ private:
+  static constexpr int kNowhere = -1;
+
+  struct Entry {
+    float bound;
+    int node;
+    bool operator<(const Entry& other) const { return bound > other.bound; }
+  };
+
+  std::vector<Vector2> search(const Vector2& start, int to, const Suits& suits, double most_m) {
+    const int from = entry_node(start);
+    if (from < 0) return {};
+    const std::size_t nodes = static_cast<std::size_t>(columns_) * rows_;
+    best_.assign(nodes, std::numeric_limits<float>::infinity());
+    parent_.assign(nodes, -1);
+    best_[from] = 0.0f;
+    parent_[from] = from;
+    queue_.push({heuristic(from, to), from});
+    while (!queue_.empty()) {
+      const Entry entry = queue_.top();
+      queue_.pop();
+      if (entry.bound > most_m) return {};
+      if (entry.bound > best_[entry.node] + heuristic(entry.node, to) + 1e-4f) continue;
+      const bool there = suits ? suits(position(entry.node)) : entry.node == to;
+      if (there) return trace(start, from, entry.node);
+      expand(entry.node, to);
+    }
+    return {};
+  }
+
+  /// The node around p to which the straight line is cheapest; -1 if all are blocked.
+  int entry_node(const Vector2& p) const {
+    const Vector2 at = (p - static_map_.bounds().min()) / step_m_;
+    int best = -1;
+    double least = TravelCost::kInfinity;
+    for (int corner = 0; corner < 4; ++corner) {
+      const int x = std::clamp(static_cast<int>(at.x()) + corner % 2, 0, columns_ - 1);
+      const int y = std::clamp(static_cast<int>(at.y()) + corner / 2, 0, rows_ - 1);
+      const int node = y * columns_ + x;
+      const double cost = cost_.of_line(p, position(node));
+      if (cost < least) {
+        least = cost;
+        best = node;
+      }
+    }
+    return best;
+  }
+
+  Vector2 position(int node) const {
+    return static_map_.bounds().min() + step_m_ * Vector2(node % columns_, node / columns_);
+  }
+
+  float heuristic(int node, int to) const {
+    if (to == kNowhere) return 0.0f;
+    const float dx = std::abs(node % columns_ - to % columns_);
+    const float dy = std::abs(node / columns_ - to / columns_);
+    const float octile = std::max(dx, dy) + 0.41421356f * std::min(dx, dy);
+    return octile * static_cast<float>(step_m_) * 0.9999f;
+  }
+
+  void expand(int node, int to) {
+    const int x = node % columns_;
+    const int y = node / columns_;
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int nx = x + dx;
+        const int ny = y + dy;
+        if ((dx == 0 && dy == 0) || nx < 0 || ny < 0 || nx >= columns_ || ny >= rows_) continue;
+        const int next = ny * columns_ + nx;
+        const double length = step_m_ * (dx != 0 && dy != 0 ? M_SQRT2 : 1.0);
+        if (!(best_[node] + static_cast<float>(length) < best_[next])) continue;
+        const double distance_m = static_map_.field().sample(position(next)).distance_m;
+        const double here = cost_.at(position(next), distance_m);
+        const float reached = best_[node] + static_cast<float>(length * here);
+        if (!(reached < best_[next])) continue;
+        // The middle of a step may be closer to obstacles than both of its ends.
+        const bool roomy = distance_m >= cost_.options().required_clearance_m + length;
+        if (!roomy && cost_.of_line(position(node), position(next)) == TravelCost::kInfinity)
+          continue;
+        best_[next] = reached;
+        parent_[next] = node;
+        queue_.push({reached + heuristic(next, to), next});
+      }
+    }
+  }
+
+  std::vector<Vector2> trace(const Vector2& start, int from, int to) const {
+    std::vector<Vector2> points;
+    for (int node = to; node != from; node = parent_[node]) points.push_back(position(node));
+    points.push_back(position(from));
+    points.push_back(start);
+    std::reverse(points.begin(), points.end());
+    return points;
+  }
+
+  const StaticMap& static_map_;
+  const TravelCost& cost_;
+  int columns_;
+  int rows_;
+  double step_m_;
+  std::vector<float> best_;
+  std::vector<int> parent_;
+  std::priority_queue<Entry> queue_;
+};
+
+}  // namespace
+
+GridPath find_nearest_place(const StaticMap& static_map, const Vector2& start,
+                            const TravelCost& cost, double step_m, double most_m,
+                            const LatticeSearch::Suits& suits) {
+  GridPath path;
+  path.outcome = GridPath::Outcome::kStartBlocked;
+  if (!static_map.bounds().contains(start) || cost.at(start) == TravelCost::kInfinity) return path;
+  path.points = suits(start) ? std::vector<Vector2>{start}
+                             : LatticeSearch(static_map, cost, step_m).run(start, suits, most_m);
+  path.outcome = path.points.empty() ? GridPath::Outcome::kNoPath : GridPath::Outcome::kFound;
+  return path;
+}
+
+GridPath find_grid_path(const StaticMap& static_map, const Vector2& start, const Vector2& goal,
+                        const TravelCost& cost, double step_m) {
+  GridPath path;
+  path.outcome = GridPath::Outcome::kStartBlocked;
+  if (!static_map.bounds().contains(start) || cost.at(start) == TravelCost::kInfinity) return path;
+  path.outcome = GridPath::Outcome::kGoalBlocked;
+  if (!static_map.bounds().contains(goal) || cost.at(goal) == TravelCost::kInfinity) return path;
+  path.points = LatticeSearch(static_map, cost, step_m).run(start, goal);
+  path.outcome = path.points.empty() ? GridPath::Outcome::kNoPath : GridPath::Outcome::kFound;
+  return path;
+}
+
+}  // namespace mocha

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "topology/paths/grid_path.h"
+#include "topology/signatures/h_signature.h"
+#include "topology/static_map/travel_cost.h"
+
+namespace mocha {
+
+enum class RoadmapKind { kApollonius, kVisibilityPrm };
+
+/// By its name: `apollonius`, `visibility_prm`, or `best` for the former where it was built. Throws
+/// std::invalid_argument for other names, and for `apollonius` where it was not built.
+RoadmapKind roadmap_kind(const std::string& name);
+
+struct HomotopyPathOptions {
+  TravelOptions travel;
+  RoadmapKind roadmap = RoadmapKind::kApollonius;
+  int classes = 6;             ///< at most this many paths
+  double longest_ratio = 2.0;  ///< a path that costs more than the cheapest by this is none
+  int prm_samples = 1000;      ///< of the visibility roadmap
+  double lattice_step_m = 0.05;
+};
+
+/// A path from start to goal of one class.
+struct HomotopyPath {
+  std::vector<Vector2> points;  ///< straight between them
+  double cost_m = 0.0;          ///< length, longer where it is narrow
+  double least_length_m = 0.0;  ///< of any path of this class, proved
+  Signature signature;          ///< lead-in included
+};
+
+struct HomotopyPaths {
+  GridPath::Outcome outcome = GridPath::Outcome::kNoPath;
+  std::vector<HomotopyPath>
+      paths;         ///< of pairwise different classes, cheapest first; empty unless found
+  Cuts<2> cuts{{}};  ///< that tell the classes apart
+  std::optional<Signature> driven;  ///< class of the path that is being driven
+};
+
+/// From where to where.
+struct HomotopyPathQuery {
+  /// What is driven before the paths begin, in any case: from where the robot is to their start. It
+  /// counts for their classes. At least one point.
+  std::vector<Vector2> lead_in;
+  Vector2 goal = Vector2::Zero();
+  /// Obstacles besides the static map, to be passed on either side.
+  std::vector<BlockedDisc> blocked;
+  /// The path that is being driven to the same goal, from the front of `lead_in` on; or empty.
+  std::vector<Vector2> driven;
+
+  const Vector2& start() const { return lead_in.back(); }
+};
+
+/// The cheapest paths of pairwise different classes (paper IV-E). The path that is being driven is
+/// classified anew among the obstacles of now; if it is still possible, and there is no lead-in,
+/// its class is among the paths even where it is not among the cheapest.
+HomotopyPaths find_homotopy_paths(const StaticMap& static_map, const HomotopyPathQuery& query,
+                                  const HomotopyPathOptions& options);
+
+}  // namespace mocha

@@ -1,0 +1,187 @@
+#!/usr/bin/python3
+"""Checks docs/architecture.md and its picture against the sources: topics, paths, the rows of the ladder, the states of the executive, the
+named requirements; README's table of nodes, too. Each rule is also tried on a planted fault."""
+import pathlib
+import re
+import sys
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "scripts"))
+from mocha_scripts import architecture_plot, node_topics  # noqa: E402
+
+SPAN = re.compile(r"`([^`]+)`")
+PATH = re.compile(r"(?:src|test|config|msg|launch|scripts)/[\w./]*[\w/]")
+LADDER = "src/planning/replanner/ladder"
+EXECUTIVE = "src/planning/executive/executive_state"
+SITUATIONS = {"H": "kHolds", "P": "kPlanMeets", "T": "kThreatened", "B": "kBlocked", "W": "kInTheWay"}
+ELSEWHERE = {"diagnostics", "tf", "move_base"}  # names of topics that no call of ours spells out
+
+
+def read(name):
+    return (ROOT / name).read_text()
+
+
+def code():
+    """The sources, and what else defines names, without comments."""
+    files = [path for folder in ("src", "config", "msg") for path in (ROOT / folder).rglob("*") if path.is_file() and path.suffix != ".bt"]
+    return "\n".join(node_topics.text_of(path) for path in sorted(files))
+
+
+def section(page, title):
+    return page.partition(f"\n## {title}")[2].partition("\n## ")[0]
+
+
+def tables(text):
+    """The cells of each row of the tables in a text, headings and rulers included."""
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("|")]
+
+
+def enumerators(text, name):
+    body = re.search(rf"enum class {name}[^{{]*{{(.*?)}};", text, re.DOTALL).group(1)
+    return re.findall(r"\b(k[A-Z]\w*)", body)
+
+
+def words(text, enumeration):
+    return dict(re.findall(rf'case {enumeration}::(k\w+):\s*return "([^"]+)"', text))
+
+
+def absent_names(page, sources):
+    """Names in code type that no source has."""
+    known = set(re.findall(r"\w+", sources))
+    spans = [span for span in SPAN.findall(page) if re.fullmatch(r"[\w/]+", span) and not PATH.match(span)]
+    return sorted({span for span in spans if f'"{span}"' not in sources
+                   and not all(word in known | ELSEWHERE for word in span.replace("ugv1", "/").strip("/").split("/") if word)})
+
+
+def absent_paths(page):
+    return sorted({path for path in PATH.findall(page) if not (ROOT / path).exists()})
+
+
+def absent_topics(topics, places):
+    """Topics that a node writes and no place names."""
+    named = {name for place in places for name in re.findall(r"[\w/]+", place)}
+    return sorted({name for each in topics.values() for name in each.writes} - named)
+
+
+def unread_calls(root):
+    """Calls that advertise or subscribe and that the picture does not know: none but those of LCM and dynamic_reconfigure."""
+    for path in sorted((root / "src").rglob("*.cpp")):
+        text = node_topics.text_of(path)
+        calls = len(re.findall(r"\b(?:advertise|advertiseService|subscribe)\s*[<(]", text))
+        if "dynamic_reconfigure::" not in text and "lcm::" not in text and calls != len(node_topics.CALL.findall(text)):
+            yield path.name
+
+
+def ladder_faults(page, header, source):
+    rungs = dict(re.findall(r"constexpr Rung (\w+){\s*Row::k\w+,\s*K::k\w+,\s*R::(k\w+)", source))
+    rows = dict(re.findall(r"constexpr Rung (\w+){\s*Row::(k\w+)", source))
+    order = {name: [rows[rung] for rung in re.findall(r"k\w+", body)]
+             for name, body in re.findall(r"std::vector<Rung> (k\w+) = {(.*?)};", source, re.DOTALL)}
+    text = section(page, "The ladder")
+    listed = {cells[0].strip("`"): cells for cells in tables(text) if cells[0].startswith("`k")}
+    said = words(source, "Row")
+    for row in enumerators(header, "Row"):
+        cells = listed.get(row)
+        if cells is None:
+            if f"`{row}` ({said[row]}" not in " ".join(text.split()) or row in rows.values():
+                yield f"{row}: is not there, or not as \"{said[row]}\""
+            continue
+        numbers = [str(order[name].index(row) + 1) if row in order[name] else "" for name in SITUATIONS.values()]
+        if cells[1] != said[row] or SPAN.findall(cells[2])[0] != rungs[row] or cells[4:] != numbers:
+            yield f"{row}: \"{said[row]}\", {rungs[row]}, {numbers}"
+    for letter, name in SITUATIONS.items():
+        if f"`{name}` ({letter}:" not in text:
+            yield f"{name}: is not there"
+    if list(SITUATIONS.values()) != enumerators(header, "Situation"):
+        yield "Situation: has other values"
+
+
+def executive_faults(page, header, source):
+    text = section(page, "The goal executive")
+    listed = {cells[0].strip("`"): cells for cells in tables(text) if cells[0].startswith("`k")}
+    leads = set(re.findall(r"{S::(k\w+), E::k\w+, S::(k\w+)}", source))
+    said = words(source, "S")
+    for state in enumerators(header, "ExecutiveState"):
+        cells = listed.get(state)
+        if cells is None or cells[1] != said[state]:
+            yield f"{state}: is not there, or not as \"{said[state]}\""
+            continue
+        for target in SPAN.findall(cells[2]):
+            if target.startswith("k") and (state, target) not in leads and "as `" not in cells[2]:
+                yield f"{state}: does not lead to {target}"
+
+
+def requirement_faults(page, header):
+    listed = [cells[0].strip("`") for cells in tables(section(page, "The certifier")) if cells[0].startswith("`k")]
+    names = enumerators(header, "RequirementName")
+    return [f"{name}: is not there" for name in names if name not in listed] + [f"{name}: is none" for name in listed if name not in names]
+
+
+def node_table_faults(readme, topics):
+    """What README's table says of a node that the node does not have."""
+    nodes = {cells[0].split("`")[1]: cells for cells in tables(section(readme, "Nodes")) if cells[0].startswith("`")}
+    for node, each in topics.items():
+        if node not in nodes:
+            yield f"{node}: is not there"
+            continue
+        spelled = " ".join(nodes[node][1:])
+        for name in sorted(name for name in each.writes if name not in ("tf", "/diagnostics", "/fleet_simulator/acks")):
+            if name.split("/")[-1] not in spelled:
+                yield f"{node}: does not say that it writes {name}"
+        known = {*each.writes, *each.reads, *each.services}
+        for name in re.findall(r"`([a-z_/]+)`", spelled):
+            if not any(name.strip("/") == other.strip("/") or other.endswith("/" + name) for other in known):
+                yield f"{node}: has no {name}"
+
+
+class ArchitecturePage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.page = read("docs/architecture.md")
+        cls.readme = read("README.md")
+        cls.sources = code()
+        cls.topics = node_topics.read_topics(ROOT)
+
+    def check(self, faults, page, plant, complaint):
+        """No faults on the page; the complaint where something is planted in it, a pair (old, new)."""
+        self.assertEqual(list(faults(page)), [])
+        self.assertIn(plant[0], page)
+        self.assertIn(complaint, "\n".join(faults(page.replace(*plant))))
+
+    def test_names_exist(self):
+        self.check(lambda page: absent_names(page, self.sources), self.page, ("`proposed_trajectory`", "`wished_trajectory`"), "wished_trajectory")
+
+    def test_paths_exist(self):
+        for path in sorted((ROOT / "docs").glob("*.md")):
+            self.assertEqual(absent_paths(path.read_text()), [], path.name)
+        self.check(absent_paths, self.page, ("src/control/lease.h", "src/control/leash.h"), "leash.h")
+
+    def test_picture_is_what_the_sources_say(self):
+        self.assertEqual(read("docs/architecture.svg"), architecture_plot.Picture(self.topics).svg(), "draw it anew: scripts/plots architecture --out docs")
+
+    def test_every_topic_has_its_place(self):
+        self.check(lambda picture: absent_topics(self.topics, [picture]), read("docs/architecture.svg"), (">settlement<", ">verdict<"), "settlement")
+        self.assertEqual(list(unread_calls(ROOT)), [])
+
+    def test_ladder(self):
+        faults = lambda page: ladder_faults(page, read(LADDER + ".h"), read(LADDER + ".cpp"))  # noqa: E731
+        self.check(faults, self.page, ("`kSidestep` | sidestep | `kPromise`", "`kSidestep` | sidestep | `kRenewal`"), "kSidestep: ")
+        self.check(faults, self.page, ("| 3 | 1 | 2 | 2 | 2 |", "| 1 | 3 | 2 | 2 | 2 |"), "kDetour: ")
+        self.check(faults, self.page, ("`kStopBlind` (", "`kStop` ("), "kStopBlind: ")
+
+    def test_executive(self):
+        faults = lambda page: executive_faults(page, read(EXECUTIVE + ".h"), read(EXECUTIVE + ".cpp"))  # noqa: E731
+        self.check(faults, self.page, ("| `kPulling", "| `kDriving"), "kPullingOver: ")
+        self.check(faults, self.page, ("backing out | `kPlanning`", "backing out | `kParked`"), "kBackingOut: does not lead to kParked")
+
+    def test_requirements(self):
+        self.check(lambda page: requirement_faults(page, read("src/safety/requirement.h")), self.page, ("| `kEscape`", "| `kFlight`"), "kEscape: is not")
+
+    def test_readme_says_what_nodes_read_and_write(self):
+        faults = lambda page: node_table_faults(page, self.topics)  # noqa: E731
+        self.check(faults, self.readme, ("`replanner_status`", "`replanner_state`"), "local_replanner: has no replanner_state")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,24 @@
+"""Measurements by name."""
+import argparse
+import sys
+
+from benchmarks import (bench_barn, bench_crossing, bench_deadlock, bench_evaluation, bench_fleet_delay, bench_fleet_scale,
+                        bench_footprint, bench_localization, bench_replan, bench_table1, bench_table2, bench_table3)
+
+BENCHES = {"barn": bench_barn, "crossing": bench_crossing, "deadlock": bench_deadlock, "evaluation": bench_evaluation,
+           "fleet_delay": bench_fleet_delay, "fleet_scale": bench_fleet_scale, "footprint": bench_footprint,
+           "localization": bench_localization, "replan": bench_replan, "table1": bench_table1, "table2": bench_table2, "table3": bench_table3}
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="scripts/bench", description=__doc__)
+    names = parser.add_subparsers(dest="name", metavar="NAME", required=True)
+    for name, module in BENCHES.items():
+        module.add_arguments(names.add_parser(name, help=module.__doc__.strip().split("\n")[0],
+                                              description=module.__doc__))
+    options = parser.parse_args(arguments)
+    return BENCHES[options.name].run(options)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <random>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "fleet/protocol/commitment_protocol.h"
+#include "fleet/protocol/motions.h"
+#include "simulation/lossy_network.h"
+
+namespace mocha::test {
+
+/// Robots that run the protocol over a network which delays, reorders and loses; it knows the truth
+/// about all of them.
+class Network {
+ public:
+  struct Link : NetworkLink {
+    bool heartbeats = true;
+  };
+  static constexpr double kRadius_m = 0.3;
+
+  Network(int seed, const Link& link)
+      : network_(seed, link), sends_heartbeats_(link.heartbeats), random_(seed) {}
+
+  void add(const CommitmentOptions& options) { robots_.emplace_back(options); }
+  CommitmentProtocol& robot(int i) { return robots_[i]; }
+  int size() const { return static_cast<int>(robots_.size()); }
+  double now() const { return now_; }
+  std::mt19937& random() { return random_; }
+
+  void propose(int i, Motion motion) {
+    apply(i, robots_[i].propose({++tag_, kRadius_m, shared(std::move(motion))}, now_));
+  }
+  void brake(int i, Motion motion) {
+    apply(i, robots_[i].brake({++tag_, kRadius_m, shared(std::move(motion))}, now_));
+  }
+  /// A robot that is cut off neither sends nor receives.
+  void cut_off(int i, bool off) { network_.cut_off(i, off); }
+  void restart(int i, const CommitmentOptions& options) {
+    robots_[i] = CommitmentProtocol(options);
+  }
+
+  void run(double seconds, double step_s = 0.01) {
+    for (const double until = now_ + seconds; now_ < until;) {
+      now_ += step_s;
+      for (const auto& delivery : network_.receive(now_)) {
+        CommitmentProtocol& receiver = robots_[delivery.to];
+        apply(delivery.to,
+              std::visit([&](const auto& each) { return receiver.receive(each, now_); },
+                         delivery.message));
+      }
+      for (int i = 0; i < size(); ++i) apply(i, robots_[i].tick(now_));
+    }
+  }
+
+  /// Events of robot i of one kind so far.
+  std::vector<CommitmentEvent> events(int i, CommitmentEvent::Kind kind) const {
+    std::vector<CommitmentEvent> found;
+    for (const auto& [robot, event] : events_) {
+      if (robot == i && event.kind == kind) found.push_back(event);
+    }
+    return found;
+  }
+  int settled(int i) const {
+    return static_cast<int>(events(i, CommitmentEvent::Kind::kSettled).size());
+  }
+  /// Heartbeats of all so far.
+  int heartbeats() const { return heartbeats_; }
+  /// How often a motion was settled that meets one already binding at another robot.
+  int broken() const { return broken_; }
+
+ private:
+  using Message = std::variant<CommittedTrajectory, Heartbeat>;
+
+  void apply(int i, const CommitmentActions& actions) {
+    heartbeats_ += actions.heartbeat.has_value();
+    for (const CommittedTrajectory& trajectory : actions.trajectories)
+      network_.broadcast(i, size(), trajectory, now_);
+    if (actions.heartbeat && sends_heartbeats_)
+      network_.broadcast(i, size(), *actions.heartbeat, now_);
+    for (const CommitmentEvent& event : actions.events) {
+      events_.emplace_back(i, event);
+      const bool settled = event.kind == CommitmentEvent::Kind::kSettled;
+      if (settled && event.trajectory.state == TrajectoryState::kCommitted)
+        check(i, event.trajectory);
+    }
+  }
+
+  void check(int i, const CommittedTrajectory& trajectory) {
+    for (int j = 0; j < size(); ++j) {
+      if (j == i) continue;
+      for (const Reservation& theirs : robots_[j].binding().reservations()) {
+        const double required = 2.0 * kRadius_m + robots_[i].options().peer_clearance_m - 2e-3;
+        if (first_conflict(reservation_of(trajectory), theirs, required, now_)) ++broken_;
+      }
+    }
+  }
+
+  LossyNetwork<Message> network_;
+  bool sends_heartbeats_;
+  std::mt19937 random_;
+  double now_ = 100.0;
+  std::uint32_t tag_ = 0;
+  std::vector<CommitmentProtocol> robots_;
+  std::vector<std::pair<int, CommitmentEvent>> events_;
+  int broken_ = 0;
+  int heartbeats_ = 0;
+};
+
+inline CommitmentOptions options(const std::string& agent, std::uint32_t epoch = 1) {
+  CommitmentOptions options;
+  options.agent = agent;
+  options.epoch = epoch;
+  return options;
+}
+
+}  // namespace mocha::test

@@ -1,0 +1,237 @@
+#include <gtest/gtest.h>
+#include <octomap/OcTree.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "perception/mapping/map_image.h"
+#include "perception/mapping/occupancy_map.h"
+#include "perception/room.h"
+#include "perception/shipped_options.h"
+
+namespace mocha {
+namespace {
+
+class MapFiles : public testing::Test {
+ protected:
+  MapFiles()
+      : directory_(std::filesystem::temp_directory_path() /
+                   ("mocha_maps_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(directory_);
+    Room room;
+    room.circles = {{{2.0, 0.5}, 0.4}, {{-2.0, -1.5}, 0.25}};
+    for (int i = 0; i < 4; ++i) map_.insert_scan(beams_at(room, {}));
+    map_.insert_points({{{0.0, 0.0, 0.5}, {1.0, 1.0, 0.7}, BeamEnd::kHit, 0.0}});
+  }
+  ~MapFiles() override { std::filesystem::remove_all(directory_); }
+
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+
+  std::string error_of_loading(OccupancyMap& map, const std::string& file) const {
+    try {
+      map.load(file);
+    } catch (const MapError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  std::filesystem::path directory_;
+  OccupancyMap map_{shipped_map_options()};
+};
+
+void expect_same(const OccupancyGrid& a, const OccupancyGrid& b) {
+  ASSERT_EQ(a.width, b.width);
+  ASSERT_EQ(a.height, b.height);
+  EXPECT_TRUE(a.origin.isApprox(b.origin, 1e-9));
+  EXPECT_EQ(a.cells, b.cells);
+}
+
+TEST_F(MapFiles, RoundTripsInEveryFormat) {
+  for (const char* name : {"room.bt", "room.ot", "room.yaml"}) {
+    map_.save(path(name));
+    OccupancyMap loaded(shipped_map_options());
+    loaded.load(path(name));
+    expect_same(loaded.slice(0.5), map_.slice(0.5));
+  }
+  EXPECT_TRUE(std::filesystem::exists(path("room.pgm")));
+}
+
+TEST_F(MapFiles, OctomapReadsWhatWeWrite) {
+  const auto expected = map_.occupied_voxels();
+  map_.save(path("room.bt"));
+  map_.save(path("room.ot"));
+  octomap::OcTree binary(path("room.bt"));
+  const std::unique_ptr<octomap::AbstractOcTree> any(
+      octomap::AbstractOcTree::read(path("room.ot")));
+  const auto* full = dynamic_cast<octomap::OcTree*>(any.get());
+  ASSERT_NE(full, nullptr);
+  for (const octomap::OcTree* tree : {&std::as_const(binary), full}) {
+    std::size_t occupied = 0;
+    for (auto leaf = tree->begin_leafs(); leaf != tree->end_leafs(); ++leaf) {
+      if (tree->isNodeOccupied(*leaf)) ++occupied;
+    }
+    EXPECT_EQ(occupied, expected.size());
+    for (const Eigen::Vector3f& voxel : expected) {
+      const octomap::OcTreeNode* node = tree->search(voxel.x(), voxel.y(), voxel.z());
+      ASSERT_NE(node, nullptr);
+      EXPECT_TRUE(tree->isNodeOccupied(node));
+    }
+    EXPECT_TRUE(tree->isNodeOccupied(tree->getRoot())) << "inner nodes are up to date";
+  }
+}
+
+TEST_F(MapFiles, OctreesKeepHeights) {
+  for (const char* name : {"room.bt", "room.ot"}) {
+    map_.save(path(name));
+    OccupancyMap loaded(shipped_map_options());
+    loaded.load(path(name));
+    const auto voxels = loaded.occupied_voxels();
+    EXPECT_EQ(voxels.size(), map_.occupied_voxels().size());
+    EXPECT_TRUE(std::any_of(voxels.begin(), voxels.end(), [](const Eigen::Vector3f& voxel) {
+      return (voxel - Eigen::Vector3f(1.025F, 1.025F, 0.725F)).norm() < 0.08F;
+    }));
+  }
+}
+
+TEST_F(MapFiles, ALoadedMapIsAPriorThatScansCorrect) {
+  for (const char* name : {"room.bt", "room.ot", "room.yaml"}) {
+    map_.save(path(name));
+    OccupancyMap loaded(shipped_map_options());
+    loaded.load(path(name));
+    Room changed;  // both columns are gone, and a new one stands there
+    changed.circles = {{{-1.0, 1.5}, 0.3}};
+    const auto beams = beams_at(changed, {});
+    loaded.insert_scan(beams);
+    const OccupancyGrid once = loaded.slice(0.0);
+    const Vector2 face =
+        (Vector2(2.0, 0.5) - 0.4 * Vector2(2.0, 0.5).normalized() - once.origin) / 0.05;
+    EXPECT_EQ(once.at(static_cast<int>(face.x()), static_cast<int>(face.y())),
+              OccupancyGrid::kOccupied)
+        << name << ": one scan does not overrule it";
+    for (int i = 0; i < 20; ++i) loaded.insert_scan(beams);
+    const OccupancyGrid later = loaded.slice(0.0);
+    EXPECT_EQ(later.at(static_cast<int>(face.x()), static_cast<int>(face.y())),
+              OccupancyGrid::kFree);
+  }
+}
+
+TEST_F(MapFiles, PrunedOctreesLoadAndCanBeChanged) {
+  // A .bt file, written by hand, of one free cube of 0.4 m (8 voxels an edge) from the origin up.
+  std::string bytes = "# Octomap OcTree binary file\nid OcTree\nsize 14\nres 0.05\ndata\n";
+  for (int depth = 0; depth < 13; ++depth) {
+    const int child = depth == 0 ? 7 : 0;
+    const unsigned bits = (depth == 12 ? 1u : 3u) << (2 * child);
+    bytes += static_cast<char>(bits & 0xff);
+    bytes += static_cast<char>(bits >> 8);
+  }
+  std::ofstream(path("cube.bt"), std::ios::binary) << bytes;
+  OccupancyMap loaded(shipped_map_options());
+  loaded.load(path("cube.bt"));
+  OccupancyGrid grid = loaded.slice(0.0);
+  ASSERT_EQ(grid.width, 8);
+  ASSERT_EQ(grid.height, 8);
+  for (int i = 0; i < 3; ++i) {
+    loaded.insert_scan({{{0.01, 0.01, 0.2}, {0.22, 0.01, 0.2}, BeamEnd::kHit, 0.0}});
+  }
+  grid = loaded.slice(0.0);
+  EXPECT_EQ(grid.at(4, 0), OccupancyGrid::kOccupied);
+  EXPECT_EQ(grid.at(7, 7), OccupancyGrid::kFree);
+  loaded.save(path("cube2.ot"));
+  OccupancyMap again(shipped_map_options());
+  again.load(path("cube2.ot"));
+  expect_same(again.slice(0.0), grid);
+}
+
+TEST_F(MapFiles, AnotherResolutionIsRefused) {
+  OccupancyMapOptions fine = shipped_map_options();
+  fine.resolution_m = 0.025;
+  for (const char* name : {"room.bt", "room.ot", "room.yaml"}) {
+    map_.save(path(name));
+    OccupancyMap other(fine);
+    const std::string error = error_of_loading(other, path(name));
+    EXPECT_NE(error.find(path(name)), std::string::npos) << error;
+    EXPECT_NE(error.find("0.05"), std::string::npos) << error;
+    EXPECT_NE(error.find("0.025"), std::string::npos) << error;
+  }
+}
+
+TEST_F(MapFiles, TruncatedFilesAreRefusedAndChangeNothing) {
+  const OccupancyGrid before = map_.slice(0.5);
+  for (const char* name : {"room.bt", "room.ot", "room.pgm", "room.yaml"}) {
+    map_.save(path("room.yaml"));
+    map_.save(path("room.bt"));
+    map_.save(path("room.ot"));
+    const std::string bytes = read_file(path(name));
+    const std::string loaded = std::string(name) == "room.pgm" ? "room.yaml" : name;
+    std::mt19937 random(5);
+    for (int i = 0; i < 60; ++i) {
+      std::size_t size = std::uniform_int_distribution<std::size_t>(0, bytes.size() - 2)(random);
+      if (std::string(name) == "room.yaml") size /= 2;  // what is cut off is then a needed key
+      write_file(path(name), bytes.substr(0, size));
+      const std::string error = error_of_loading(map_, path(loaded));
+      EXPECT_NE(error.find(directory_.string()), std::string::npos) << name << " cut to " << size;
+      expect_same(map_.slice(0.5), before);
+    }
+  }
+}
+
+TEST_F(MapFiles, GarbageNeverCrashes) {
+  std::mt19937 random(11);
+  std::uniform_int_distribution<int> byte(0, 255);
+  for (const char* name : {"room.bt", "room.ot", "room.pgm", "room.yaml"}) {
+    map_.save(path("room.yaml"));
+    map_.save(path("room.bt"));
+    map_.save(path("room.ot"));
+    const std::string bytes = read_file(path(name));
+    const std::size_t header =
+        bytes.find("data\n") == std::string::npos ? 0 : bytes.find("data\n") + 5;
+    const std::string loaded = std::string(name) == "room.pgm" ? "room.yaml" : name;
+    for (int i = 0; i < 300; ++i) {
+      std::string garbage = bytes;
+      if (i % 3 == 0) {  // a few bytes changed
+        for (int k = 0; k < 5; ++k)
+          garbage[random() % garbage.size()] = static_cast<char>(byte(random));
+      } else {  // nothing but noise, after the header or altogether
+        garbage.resize((i % 3 == 1 ? header : 0) + random() % 3000);
+        for (std::size_t k = i % 3 == 1 ? header : 0; k < garbage.size(); ++k) {
+          garbage[k] = static_cast<char>(byte(random));
+        }
+      }
+      write_file(path(name), garbage);
+      OccupancyMap map(shipped_map_options());
+      error_of_loading(map, path(loaded));  // refused or, where the change does no harm, read
+      map.insert_scan({{{0.0, 0.0, 0.2}, {1.0, 0.0, 0.2}, BeamEnd::kHit, 0.0}});
+    }
+  }
+}
+
+TEST_F(MapFiles, ReasonsAreInWords) {
+  EXPECT_NE(error_of_loading(map_, path("none.bt")).find("No such file"), std::string::npos);
+  EXPECT_NE(error_of_loading(map_, path("map.png")).find(".bt, .ot or .yaml"), std::string::npos);
+  EXPECT_THROW(map_.save(path("map.txt")), MapError);
+  EXPECT_THROW(map_.save("/nonexistent/folder/map.bt"), MapError);
+  EXPECT_THROW(OccupancyMap(shipped_map_options()).save(path("empty.yaml")), MapError);
+  OccupancyMap(shipped_map_options()).save(path("empty.ot"));
+  EXPECT_EQ(error_of_loading(map_, path("empty.ot")), "");
+}
+
+TEST_F(MapFiles, ReadsMapServersConventions) {
+  std::ofstream(path("small.pgm"), std::ios::binary) << "P5\n# made elsewhere\n3 2\n100\n"
+                                                     << std::string("\x64\x00\x50\x50\x64\x00", 6);
+  std::ofstream(path("small.yaml"))
+      << "image: small.pgm\nresolution: 0.05\norigin: [1.0, -2.0, 0.0]\n"
+         "negate: 1\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+  const OccupancyGrid grid = load_map_image(path("small.yaml"));
+  EXPECT_EQ(grid.origin, Vector2(1.0, -2.0));
+  EXPECT_EQ(grid.at(0, 1), OccupancyGrid::kOccupied);  // the first pixel is the upper left one
+  EXPECT_EQ(grid.at(1, 1), OccupancyGrid::kFree);
+  EXPECT_EQ(grid.at(2, 0), OccupancyGrid::kFree);
+  map_.load(path("small.yaml"));
+  EXPECT_EQ(map_.slice(0.0).width, 3);
+}
+
+}  // namespace
+}  // namespace mocha

@@ -1,0 +1,167 @@
+#include "planning/executive/executive_state.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace mocha {
+namespace {
+
+using S = ExecutiveState;
+using E = ExecutiveEvent;
+using Row = std::map<E, S>;
+
+constexpr S kStates[] = {S::kIdle,
+                         S::kParked,
+                         S::kPlanning,
+                         S::kDriving,
+                         S::kReplanning,
+                         S::kBackingOut,
+                         S::kBlocked,
+                         S::kGoalOccupied,
+                         S::kPlanningPullOver,
+                         S::kPullingOver,
+                         S::kBackingOutToPullOver,
+                         S::kPullOverBlocked,
+                         S::kWaiting};
+constexpr E kEvents[] = {E::kGoalGiven,       E::kStopped,           E::kPlanRequested,
+                         E::kFollowed,        E::kGoalReached,       E::kAllReached,
+                         E::kPlanEnded,       E::kAtPullOverPoint,   E::kStrayed,
+                         E::kPlanFound,       E::kPlanInTheWay,      E::kBackOutFound,
+                         E::kNoPlan,          E::kPullOver,          E::kGoalFoundOccupied,
+                         E::kPullOverHere,    E::kNowhereToPullOver, E::kWayIsClear,
+                         E::kNoNeedToPullOver};
+
+/// What each event leads to in each state; an event that is not named is not heeded.
+std::map<S, Row> table() {
+  const Row without_plan = {{E::kPlanFound, S::kDriving},
+                            {E::kPlanInTheWay, S::kWaiting},
+                            {E::kBackOutFound, S::kBackingOut},
+                            {E::kNoPlan, S::kBlocked},
+                            {E::kGoalFoundOccupied, S::kGoalOccupied}};
+  const Row makes_room = {{E::kAtPullOverPoint, S::kWaiting},
+                          {E::kWayIsClear, S::kPlanning},
+                          {E::kNoNeedToPullOver, S::kParked}};
+  std::map<S, Row> rows;
+  rows[S::kIdle] = {};
+  rows[S::kParked] = {};
+  rows[S::kPlanning] = without_plan;
+  rows[S::kDriving] = {{E::kPlanRequested, S::kReplanning},
+                       {E::kFollowed, S::kDriving},
+                       {E::kPlanEnded, S::kBlocked},
+                       {E::kPlanFound, S::kDriving}};
+  rows[S::kReplanning] = {
+      {E::kFollowed, S::kReplanning},       {E::kPlanEnded, S::kBlocked},
+      {E::kPlanFound, S::kDriving},         {E::kPlanInTheWay, S::kDriving},
+      {E::kBackOutFound, S::kBackingOut},   {E::kNoPlan, S::kDriving},
+      {E::kGoalFoundOccupied, S::kDriving},
+  };
+  rows[S::kBackingOut] = {{E::kPlanRequested, S::kPlanning}, {E::kPlanEnded, S::kPlanning}};
+  rows[S::kBlocked] = without_plan;
+  rows[S::kBlocked].erase(E::kNoPlan);
+  rows[S::kBlocked].insert({{E::kPlanRequested, S::kPlanning}, {E::kFollowed, S::kDriving}});
+  rows[S::kGoalOccupied] = without_plan;
+  rows[S::kGoalOccupied].erase(E::kGoalFoundOccupied);
+  rows[S::kGoalOccupied][E::kFollowed] = S::kDriving;
+  rows[S::kPlanningPullOver] = makes_room;
+  rows[S::kPlanningPullOver].insert({{E::kPlanFound, S::kPullingOver},
+                                     {E::kBackOutFound, S::kBackingOutToPullOver},
+                                     {E::kNoPlan, S::kPullOverBlocked}});
+  rows[S::kPullingOver] = makes_room;
+  rows[S::kPullingOver].insert({{E::kPlanRequested, S::kPlanningPullOver},
+                                {E::kFollowed, S::kPullingOver},
+                                {E::kPlanEnded, S::kPlanningPullOver}});
+  rows[S::kBackingOutToPullOver] = makes_room;
+  rows[S::kBackingOutToPullOver].insert(
+      {{E::kPlanRequested, S::kPlanningPullOver}, {E::kPlanEnded, S::kPlanningPullOver}});
+  rows[S::kPullOverBlocked] = makes_room;
+  rows[S::kPullOverBlocked].insert({{E::kPlanRequested, S::kPlanningPullOver},
+                                    {E::kPlanFound, S::kPullingOver},
+                                    {E::kBackOutFound, S::kBackingOutToPullOver}});
+  rows[S::kWaiting] = {{E::kStrayed, S::kPlanningPullOver},
+                       {E::kPlanFound, S::kDriving},
+                       {E::kBackOutFound, S::kBackingOut},
+                       {E::kWayIsClear, S::kPlanning}};
+  for (const S state : kStates) {
+    Row& row = rows[state];
+    row.insert({{E::kGoalGiven, S::kPlanning},
+                {E::kStopped, S::kIdle},
+                {E::kGoalReached, S::kPlanning},
+                {E::kAllReached, S::kParked}});
+    if (state == S::kIdle) continue;
+    row.insert({{E::kPullOver, S::kPlanningPullOver}, {E::kPullOverHere, S::kPullingOver}});
+    if (state != S::kParked) row[E::kNowhereToPullOver] = S::kPlanning;
+  }
+  return rows;
+}
+
+TEST(ExecutiveState, FollowsTheTable) {
+  const std::map<S, Row> expected = table();
+  for (const S state : kStates) {
+    for (std::size_t i = 0; i < std::size(kEvents); ++i) {
+      const Row& row = expected.at(state);
+      const auto entry = row.find(kEvents[i]);
+      const bool named = entry != row.end();
+      EXPECT_EQ(heeds(state, kEvents[i]), named) << to_text(state) << ", event " << i;
+      EXPECT_EQ(next_state(state, kEvents[i]), named ? entry->second : state)
+          << to_text(state) << ", event " << i;
+    }
+  }
+}
+
+TEST(ExecutiveState, EveryStateIsReachedFromEveryOther) {
+  for (const S start : kStates) {
+    std::set<S> reached = {start};
+    for (std::vector<S> open = {start}; !open.empty();) {
+      const S state = open.back();
+      open.pop_back();
+      for (const E event : kEvents) {
+        const S next = next_state(state, event);
+        if (reached.insert(next).second) open.push_back(next);
+      }
+    }
+    EXPECT_EQ(reached.size(), std::size(kStates)) << to_text(start);
+  }
+}
+
+TEST(ExecutiveState, OnlyAGoalEndsIdleness) {
+  for (const E event : kEvents) {
+    const bool of_a_goal =
+        event == E::kGoalGiven || event == E::kGoalReached || event == E::kAllReached;
+    EXPECT_EQ(next_state(S::kIdle, event) != S::kIdle, of_a_goal);
+  }
+}
+
+TEST(ExecutiveState, AStopAndANewGoalGoBeforeEverything) {
+  for (const S state : kStates) {
+    EXPECT_EQ(next_state(state, E::kStopped), S::kIdle);
+    EXPECT_EQ(next_state(state, E::kGoalGiven), S::kPlanning);
+  }
+}
+
+/// A robot without a goal gets none by making room.
+TEST(ExecutiveState, ParkedRobotsMakeRoomAndAreParkedAgain) {
+  const S there = next_state(S::kParked, E::kPullOver);
+  for (const E event : {E::kPlanFound, E::kNoPlan, E::kBackOutFound}) {
+    const S state = next_state(there, event);
+    EXPECT_TRUE(makes_room(state));
+    EXPECT_EQ(next_state(state, E::kNoNeedToPullOver), S::kParked);
+  }
+}
+
+TEST(ExecutiveState, ANameForEach) {
+  std::set<std::string> names;
+  for (const S state : kStates) {
+    names.insert(to_text(state));
+    EXPECT_LE(makes_room(state) + (state == S::kWaiting), 1);
+    EXPECT_LE(drives_plan(state) + backs_out(state), 1);
+  }
+  EXPECT_EQ(names.size(), std::size(kStates));
+  EXPECT_EQ(names.count("unknown"), 0u);
+}
+
+}  // namespace
+}  // namespace mocha

@@ -1,0 +1,31 @@
+#include "planning/executive/goal_executive_options.h"
+
+#include <gtest/gtest.h>
+
+namespace mocha {
+namespace {
+
+using S = ExecutiveState;
+
+TEST(GoalExecutiveOptions, AreThoseOfTheSchema) {
+  ParameterTable values = ParameterTable::from_schema("config/global_planner.yaml");
+  values.assign(YAML::Load("{replan_period: 1.5, retry_period: 0.4, planning_time: 0.7}"), "test");
+  const auto options = GoalExecutiveOptions::from(values);
+  EXPECT_EQ(options.planning_time_s, 0.7);
+  EXPECT_EQ(options.planning_period_s(S::kDriving), 1.5);
+  for (const S state : {S::kBlocked, S::kGoalOccupied, S::kPullOverBlocked, S::kWaiting})
+    EXPECT_EQ(options.planning_period_s(state), 0.4) << to_text(state);
+}
+
+TEST(GoalExecutiveOptions, PlanSoonWhereThereIsNoPlanYetAndNotAtAllWhereNoneIsNeeded) {
+  const auto options =
+      GoalExecutiveOptions::from(ParameterTable::from_schema("config/global_planner.yaml"));
+  for (const S state : {S::kPlanning, S::kReplanning, S::kPlanningPullOver})
+    EXPECT_LT(options.planning_period_s(state), options.retry_period_s) << to_text(state);
+  for (const S state :
+       {S::kIdle, S::kParked, S::kBackingOut, S::kPullingOver, S::kBackingOutToPullOver})
+    EXPECT_FALSE(options.planning_period_s(state)) << to_text(state);
+}
+
+}  // namespace
+}  // namespace mocha

@@ -1,0 +1,103 @@
+#include "ros_bridge/inputs/map_source.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "ros_bridge/messages/map_conversions.h"
+#include "topology/grid_world.h"
+
+namespace mocha {
+namespace {
+
+using Solid = DistanceField::Solid;
+
+nav_msgs::OccupancyGrid message(const OccupancyGrid& grid, double stamp_s,
+                                const std::string& frame = "map") {
+  nav_msgs::OccupancyGrid map;
+  map.header.stamp = ros::Time(stamp_s);
+  map.header.frame_id = frame;
+  map.info.origin.orientation.w = 1.0;
+  to_message(grid, map);
+  return map;
+}
+
+struct NewestMapTest : ::testing::Test {
+  NewestMapTest() {
+    ros::Time::init();  // warnings are throttled
+    fill_disc(grid, {2.0, 2.0}, 0.5, OccupancyGrid::kOccupied);
+  }
+
+  NewestMap maps{"map"};
+  OccupancyGrid grid = free_grid({0.0, 0.0}, {6.0, 4.0});
+};
+
+TEST_F(NewestMapTest, HasNothingAtFirst) {
+  EXPECT_FALSE(maps.available());
+  EXPECT_EQ(maps.age_s(ros::Time(100.0)), std::numeric_limits<double>::infinity());
+}
+
+TEST_F(NewestMapTest, KnowsAgeAndDistances) {
+  maps.on_map(message(grid, 10.0));
+  ASSERT_TRUE(maps.available());
+  EXPECT_NEAR(maps.age_s(ros::Time(11.5)), 1.5, 1e-9);
+  const auto field = maps.field(Solid::kOccupied, {{3.0, 2.0}}, 1.0);
+  EXPECT_NEAR(field->distance_bound({3.0, 2.0}), 0.5, 0.05);
+}
+
+TEST_F(NewestMapTest, UnknownSpaceIsSolidOnlyWhereAskedFor) {
+  fill_box(grid, {4.0, 0.0}, {6.0, 4.0}, OccupancyGrid::kUnknown);
+  maps.on_map(message(grid, 10.0));
+  EXPECT_GT(maps.field(Solid::kOccupied, {{5.0, 2.0}}, 1.0)->distance_bound({5.0, 2.0}), 2.0);
+  EXPECT_EQ(maps.field(Solid::kOccupiedOrUnknown, {{5.0, 2.0}}, 1.0)->distance_bound({5.0, 2.0}),
+            0.0);
+}
+
+TEST_F(NewestMapTest, GrowsToHoldThePoints) {
+  maps.on_map(message(grid, 10.0));
+  const auto field = maps.field(Solid::kOccupied, {{-3.0, 9.0}, {1.0, 1.0}}, 2.0);
+  EXPECT_LE(field->origin().x(), -5.0 + 0.051);
+  EXPECT_GE(field->corner(0, field->rows() - 1).y(), 11.0 - 0.051);
+  EXPECT_NEAR(field->distance_bound({3.0, 2.0}), 0.5, 0.05);  // the map is where it was
+}
+
+TEST_F(NewestMapTest, FieldsAreKeptWhileTheyServe) {
+  maps.on_map(message(grid, 10.0));
+  const auto first = maps.field(Solid::kOccupied, {{3.0, 2.0}}, 1.0);
+  EXPECT_EQ(maps.field(Solid::kOccupied, {{3.5, 2.0}}, 1.0), first);
+  EXPECT_NE(maps.field(Solid::kOccupiedOrUnknown, {{3.0, 2.0}}, 1.0), first);
+  EXPECT_EQ(maps.field(Solid::kOccupied, {{3.0, 2.0}}, 1.0), first);  // both kinds are kept
+  const auto wider = maps.field(Solid::kOccupied, {{9.0, 2.0}}, 1.0);
+  EXPECT_NE(wider, first);
+  maps.on_map(message(grid, 11.0));
+  EXPECT_NE(maps.field(Solid::kOccupied, {{9.0, 2.0}}, 1.0), wider);
+}
+
+TEST_F(NewestMapTest, RefusedMapsAreCountedAndLeaveTheFormerOne) {
+  maps.on_map(message(grid, 10.0));
+  const int revision = maps.revision();
+  maps.on_map(message(grid, 11.0, "odom"));
+  nav_msgs::OccupancyGrid broken = message(grid, 11.0);
+  broken.data.pop_back();
+  maps.on_map(broken);
+  broken = message(grid, 11.0);
+  broken.info.resolution = NAN;
+  maps.on_map(broken);
+  EXPECT_EQ(maps.refused(), 3);
+  EXPECT_EQ(maps.revision(), revision);
+  EXPECT_NEAR(maps.age_s(ros::Time(12.0)), 2.0, 1e-9);
+}
+
+TEST_F(NewestMapTest, PlacesOutOfThisWorldAreLeftOut) {
+  maps.on_map(message(grid, 10.0));
+  for (const double far :
+       {1e6, 1e9, 1e300, -1e300, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    const auto field = maps.field(Solid::kOccupied, {{3.0, 2.0}, {far, 1.0}}, 3.0);
+    EXPECT_LT(field->columns(), 1000) << far;
+    EXPECT_NEAR(field->distance_bound({3.0, 2.0}), 0.5, 0.05) << far;
+  }
+}
+
+}  // namespace
+}  // namespace mocha

@@ -1,0 +1,246 @@
+#include "safety/leaving.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "safety/circle_field.h"
+#include "trajectory/random_motion.h"
+#include "trajectory/simple_motions.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kMargin_m = 0.1;
+constexpr double kFloor_m = 0.06;
+const Footprint kDisc = Footprint::disc(0.3);
+const Leaving kLeaving{kFloor_m};
+
+/// A circle so large that it is a wall at y = `y` above the robot.
+CircleField wall(double y) { return CircleField({{{0.0, y + 1000.0}, 1000.0}}); }
+
+Violation clearance(const Motion& motion, const ObstacleField<2>& field, double from_s = 0.0) {
+  return check_clearance_or_leaving(motion, kDisc, field, kMargin_m, kLeaving, from_s);
+}
+
+Motion drive(double yaw_rad, double length_m = 2.0) {
+  return straight_drive(0.0, {0.0, 0.0}, yaw_rad, length_m, 0.8, 0.5);
+}
+
+double gap_m(const Motion& motion, const Footprint& footprint, const ObstacleField<2>& field,
+             double t) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const auto& disc : footprint.cover()) {
+    const Vector2 centre = cover_centre(motion.at(t).pose, disc);
+    least_m = std::min(least_m, field.sample(centre).distance_m - disc.radius_m);
+  }
+  return least_m;
+}
+
+TEST(Leaving, WithTheMarginItIsTheStrictProof) {
+  EXPECT_FALSE(clearance(drive(0.0), wall(0.5)));
+  const Violation violation = clearance(drive(0.3), wall(0.5));
+  EXPECT_EQ(violation.term, ViolatedTerm::kClearance);
+  EXPECT_NEAR(violation.limit, kMargin_m, 1e-12);
+}
+
+TEST(Leaving, ARobotThatIsTooCloseMayStayAndMayLeave) {
+  for (const double y : {0.28, 0.302, 0.32, 0.35}) {
+    EXPECT_FALSE(clearance(standing(0.0, {0.0, 0.0}, 0.0), wall(y))) << y;
+    EXPECT_FALSE(clearance(drive(-0.5), wall(y))) << y;
+    EXPECT_FALSE(clearance(drive(-1.5), wall(y))) << y;
+  }
+}
+
+TEST(Leaving, ARobotThatIsTooCloseMayNotComeCloser) {
+  EXPECT_TRUE(clearance(drive(0.1), wall(0.35)));
+  EXPECT_TRUE(clearance(drive(1.5), wall(0.35)));
+  EXPECT_TRUE(clearance(drive(0.1, 0.15), wall(0.35)));
+}
+
+TEST(Leaving, AlongAWallThatIsTooCloseItGoesNowhere) {
+  for (const double y : {0.32, 0.352, 0.38}) {
+    const Violation violation = clearance(drive(0.0), wall(y));
+    EXPECT_EQ(violation.term, ViolatedTerm::kClearance) << y;
+    EXPECT_NEAR(violation.value, y - 0.3, 2e-3);
+    EXPECT_GT(violation.limit, violation.value);
+  }
+  EXPECT_FALSE(clearance(drive(0.0, 0.25), wall(0.32)));
+  EXPECT_TRUE(clearance(drive(0.0, 0.35), wall(0.32)));
+}
+
+TEST(Leaving, AfterAThirdOfAMetreItHasTheTrackingError) {
+  // 20 mm at first, 50 mm after 0.3 m, 120 mm after a metre.
+  const Motion slanting = drive(-0.1);
+  const CircleField near = wall(0.32);
+  const Violation violation = clearance(slanting, near);
+  ASSERT_TRUE(violation);
+  EXPECT_NEAR(violation.limit, kFloor_m, 1e-9);
+  EXPECT_NEAR(slanting.position(violation.time_s).norm(), 0.3, 0.02);
+  EXPECT_FALSE(check_clearance_or_leaving(slanting, kDisc, near, kMargin_m, Leaving{}, 0.0));
+  EXPECT_FALSE(clearance(drive(-0.15), near));
+}
+
+TEST(Leaving, AfterAMetreItHasAllOfTheMargin) {
+  // 65 mm at first: above the tracking error all the way.
+  const CircleField near = wall(0.365);
+  EXPECT_TRUE(clearance(drive(-0.03), near));
+  EXPECT_FALSE(clearance(drive(-0.04), near));
+  for (const double speed : {0.2, 0.9, 2.0}) {
+    const Motion parallel = straight_drive(0.0, {0.0, 0.0}, 0.0, 8.0, speed, 2.0);
+    const Violation violation = clearance(parallel, near);
+    ASSERT_TRUE(violation) << speed;
+    EXPECT_NEAR(violation.limit, kMargin_m, 1e-12) << speed;
+    EXPECT_NEAR(parallel.position(violation.time_s).x(), 1.0, 0.02) << speed;
+  }
+}
+
+TEST(Leaving, WhatIsGainedIsNotLostAgain) {
+  // Away from what is behind, 35 mm at first, and past a corner at 60 mm.
+  const CircleField::Circle behind{{-0.335, 0.0}, 0.0};
+  const CircleField::Circle corner{{0.5, 0.36}, 0.0};
+  EXPECT_FALSE(clearance(drive(0.0), CircleField({behind})));
+  const Violation violation = clearance(drive(0.0), CircleField({behind, corner}));
+  EXPECT_EQ(violation.term, ViolatedTerm::kClearance);
+  EXPECT_NEAR(violation.value, 0.06, 1e-3);
+  EXPECT_GT(violation.limit, 0.06);
+}
+
+TEST(Leaving, TurningInPlaceNeedsNoMoreRoomThanStanding) {
+  for (const double y : {0.3, 0.32, 0.35}) {
+    const Motion turn(0.0, {TurnPhase{{{0.0, 0.0}, 0.0}, 2.0, 3.0}});
+    EXPECT_FALSE(clearance(turn, wall(y))) << y;
+    const Motion turns_and_leaves(
+        0.0, {TurnPhase{{{0.0, 0.0}, 0.0}, -1.2, 3.0}, drive(-1.2).phases().front()});
+    EXPECT_FALSE(clearance(turns_and_leaves, wall(y))) << y;
+    const Motion turns_and_follows_it(
+        0.0, {TurnPhase{{{0.0, 0.0}, -1.2}, 1.2, 3.0}, drive(0.0).phases().front()});
+    EXPECT_TRUE(clearance(turns_and_follows_it, wall(y))) << y;
+  }
+}
+
+TEST(Leaving, OnceClearItMustStayClear) {
+  // Away from one wall, and then too close to another one.
+  const CircleField two({{{0.0, 1000.35}, 1000.0}, {{0.0, -2.2}, 0.5}});
+  EXPECT_TRUE(clearance(drive(-M_PI / 2.0), two));
+  const CircleField nearly(
+      {{{0.0, 1000.35}, 1000.0}, {{0.0, -2.87}, 0.5}});  // 7 cm: more than at the start
+  EXPECT_EQ(clearance(drive(-M_PI / 2.0), nearly).term, ViolatedTerm::kClearance);
+  const CircleField farther({{{0.0, 1000.35}, 1000.0}, {{0.0, -3.0}, 0.5}});
+  EXPECT_FALSE(clearance(drive(-M_PI / 2.0), farther));
+}
+
+TEST(Leaving, DeepInsideAnObstacleThereIsNoLeaving) {
+  EXPECT_TRUE(clearance(standing(0.0, {0.0, 0.0}, 0.0), wall(0.2)));
+  EXPECT_TRUE(clearance(drive(-1.5), wall(0.2)));
+}
+
+/// Random drives that begin too close to something, of a disc and of a rectangle.
+class LeavingDrives : public ::testing::TestWithParam<const char*> {
+ protected:
+  static Motion motion(int seed) {
+    return within(random_drive(seed, 5, seed % 2 == 0 ? 1 : -1),
+                  {0.4 + 0.1 * (seed % 16), 1.5, 2.0}, 0.0);
+  }
+  /// Something behind the start or beside it, and some more farther along.
+  CircleField field(int seed, const Motion& motion) const {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const Vector2 course = motion.velocity(0.1);
+    const double behind_rad = std::atan2(-course.y(), -course.x()) + 1.7 * unit(random);
+    const Vector2 out(std::cos(behind_rad), std::sin(behind_rad));
+    const double radius_m = std::pow(10.0, 1.0 + 2.0 * unit(random));
+    CircleField::Circle first{(1.0 + radius_m) * out, radius_m};
+    const double wanted_m = 0.5 * (kMargin_m - 0.02) + 0.5 * (kMargin_m + 0.02) * unit(random);
+    first.centre -= (gap(motion, CircleField({first}), 0.0) - wanted_m) * out;
+    const auto beside = [&](const Vector2& place) {
+      const double angle = M_PI * unit(random);
+      return CircleField::Circle{place + 0.75 * Vector2(std::cos(angle), std::sin(angle)), 0.3};
+    };
+    return CircleField({first, beside(motion.position(0.3 * motion.end_time())),
+                        beside(motion.end_pose().position)});
+  }
+  double gap(const Motion& motion, const CircleField& field, double t) const {
+    return gap_m(motion, footprint_, field, t);
+  }
+  Violation check(const Motion& motion, const CircleField& field, double from_s) const {
+    return check_clearance_or_leaving(motion, footprint_, field, kMargin_m, kLeaving, from_s);
+  }
+
+  const Footprint footprint_ = load_robot_model("config", GetParam()).footprint;
+};
+
+TEST_P(LeavingDrives, GainRoomWithTheWay) {
+  int certified = 0;
+  int refused = 0;
+  for (int seed = 0; seed < 1500; ++seed) {
+    const Motion motion = this->motion(seed);
+    const CircleField field = this->field(seed, motion);
+    const double here_m = gap(motion, field, 0.0);
+    if (here_m >= kMargin_m) continue;
+    if (check(motion, field, 0.0)) {
+      ++refused;
+      continue;
+    }
+    ++certified;
+    double way_m = 0.0;
+    double least_m = here_m;           // all the way
+    double least_after_first_m = 1.0;  // 0.3 m
+    double least_after_all_m = 1.0;    // a metre
+    for (double t = 0.0; t < motion.end_time(); t += 0.002) {
+      way_m += 0.002 * motion.velocity(t).norm();
+      const double now_m = gap(motion, field, t);
+      least_m = std::min(least_m, now_m);
+      if (way_m > 0.305) least_after_first_m = std::min(least_after_first_m, now_m);
+      if (way_m > 1.01) least_after_all_m = std::min(least_after_all_m, now_m);
+    }
+    EXPECT_GE(least_m, here_m - 0.004) << seed;
+    EXPECT_GE(least_after_first_m, kFloor_m - 1e-3) << seed;
+    EXPECT_GE(least_after_all_m, kMargin_m - 1e-3) << seed;
+  }
+  EXPECT_GT(certified, 100);
+  EXPECT_GT(refused, 100);
+}
+
+TEST_P(LeavingDrives, WhatIsCertifiedStaysCertifiedOnItsWay) {
+  int certified = 0;
+  for (int seed = 0; seed < 1500; ++seed) {
+    const Motion motion = this->motion(seed);
+    const CircleField field = this->field(seed, motion);
+    if (gap(motion, field, 0.0) >= kMargin_m || check(motion, field, 0.0)) continue;
+    ++certified;
+    for (double t = 0.1; t < motion.end_time() + 1.0; t += 0.1) {
+      const Violation violation = check(motion, field, t);
+      EXPECT_FALSE(violation) << seed << ", after " << t << " s: " << describe(violation);
+      if (violation) break;
+    }
+  }
+  EXPECT_GT(certified, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, LeavingDrives, ::testing::Values("rover", "jackal"));
+
+TEST(Leaving, SeparationLikewise) {
+  const auto check = [](const Motion& motion, double y) {
+    const PeerObstacle peer("ugv2", std::make_shared<const Motion>(standing(0.0, {0.0, y}, 0.0)),
+                            0.3);
+    return check_separation_or_leaving(motion, 0.3, peer, 0.4, 0.0, 30.0);
+  };
+  EXPECT_FALSE(check(drive(0.0), 1.1));
+  EXPECT_TRUE(check(drive(1.0), 1.1));
+  EXPECT_FALSE(check(standing(0.0, {0.0, 0.0}, 0.0), 0.8));
+  EXPECT_FALSE(check(drive(-0.5), 0.8));
+  EXPECT_EQ(check(drive(0.8), 0.8).term, ViolatedTerm::kSeparation);
+  EXPECT_EQ(check(drive(0.8), 0.8).peer, "ugv2");
+}
+
+TEST(Leaving, APeerThatComesIsNoLeaving) {
+  const auto comes =
+      std::make_shared<const Motion>(straight_drive(0.0, {0.8, 0.0}, M_PI, 1.5, 0.8, 0.5));
+  const PeerObstacle peer("ugv2", comes, 0.3);
+  EXPECT_TRUE(
+      check_separation_or_leaving(standing(0.0, {0.0, 0.0}, 0.0), 0.3, peer, 0.4, 0.0, 30.0));
+}
+
+}  // namespace
+}  // namespace mocha

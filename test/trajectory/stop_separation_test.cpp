@@ -1,0 +1,185 @@
+#include "trajectory/stop_separation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "fleet/protocol/motions.h"
+#include "trajectory/separation.h"
+#include "trajectory/stopping.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kApart_m = 0.6;
+constexpr double kTolerance_m = 0.02;
+constexpr StopOptions kOptions{0.5, 0.3};
+
+/// How close they come if a brakes at t and b after the reaction time, along real braking motions.
+double closest_where_first_brakes(const Motion& a, const Motion& b, double t) {
+  const auto braking = [](const Motion& motion, double when) {
+    return with_brake(motion, motion.start_time(), std::max(when, motion.start_time()),
+                      kOptions.deceleration);
+  };
+  return closest_approach(braking(a, t), braking(b, t + kOptions.reaction_s), t, t + 30.0)
+      .distance_m;
+}
+
+double closest_stop(const Motion& a, const Motion& b, double t) {
+  return std::min(closest_where_first_brakes(a, b, t), closest_where_first_brakes(b, a, t));
+}
+
+/// From rest to rest, at `speed` [m/s] but for the first metre and the last.
+Motion along(double start_s, const Vector2& from, const Vector2& to, double speed) {
+  const int pieces = std::max(2, static_cast<int>((to - from).norm()));
+  const Vector2 step = (to - from) / pieces;
+  PlanarMinco::State start = PlanarMinco::State::Zero();
+  PlanarMinco::State end = PlanarMinco::State::Zero();
+  start.col(0) = from;
+  end.col(0) = to;
+  PlanarMinco::Knots knots(2, pieces - 1);
+  for (int i = 1; i < pieces; ++i) knots.col(i - 1) = from + i * step;
+  Eigen::VectorXd durations = Eigen::VectorXd::Constant(pieces, step.norm() / speed);
+  durations[0] *= 1.9;
+  durations[pieces - 1] *= 1.9;
+  PlanarMinco minco;
+  minco.resize(pieces);
+  minco.solve(start, end, knots, durations);
+  return Motion(start_s, {DrivePhase{1, minco.curve()}});
+}
+
+TEST(StopSeparation, AFollowerKeepsWhatTheReactionTakes) {
+  // The leader brakes: the follower comes closer by what it drives in 0.3 s, at about 1 m/s.
+  const Motion leader = along(0.0, {0.0, 0.0}, {12.0, 0.0}, 1.0);
+  const auto follower = [](double behind_m) {
+    return along(0.0, {-behind_m, 0.0}, {12.0 - behind_m, 0.0}, 1.0);
+  };
+  EXPECT_FALSE(first_stop_meeting(leader, follower(1.1), kApart_m, kOptions, 0.0));
+  const auto meeting = first_stop_meeting(leader, follower(0.8), kApart_m, kOptions, 0.0);
+  ASSERT_TRUE(meeting);
+  EXPECT_NEAR(closest_approach(leader, follower(0.8), 0.0, 1e3).distance_m, 0.8, 1e-3);
+  EXPECT_LT(meeting->distance_m, kApart_m);
+  EXPECT_NEAR(meeting->distance_m, 0.8 - 0.3, 0.08);
+}
+
+TEST(StopSeparation, WhoCrossesFirstMustNotStopInTheWay) {
+  const Motion first = along(0.0, {-4.0, 0.0}, {4.0, 0.0}, 1.0);
+  const auto second = [](double later_s) { return along(later_s, {0.0, -4.0}, {0.0, 4.0}, 1.0); };
+  ASSERT_GT(closest_approach(first, second(0.9), 0.0, 1e3).distance_m, kApart_m)
+      << "they never meet while both drive on";
+  const auto meeting = first_stop_meeting(first, second(0.9), kApart_m, kOptions, 0.0);
+  ASSERT_TRUE(meeting);
+  EXPECT_LT(closest_stop(first, second(0.9), meeting->brakes_s), kApart_m + kTolerance_m);
+  EXPECT_LT(meeting->place.norm(), 1.5);
+  EXPECT_FALSE(first_stop_meeting(first, second(1.5), kApart_m, kOptions, 0.0));
+}
+
+TEST(StopSeparation, TwoHeadOnMustBothBeAbleToStop) {
+  const Motion one = along(0.0, {-4.0, 0.0}, {-0.5, 0.0}, 1.0);
+  const Motion other = along(0.0, {4.0, 0.0}, {0.5, 0.0}, 1.0);
+  EXPECT_FALSE(first_stop_meeting(one, other, kApart_m, kOptions, 0.0));
+  // One leaves the lane of the other in time, if it does not brake in it.
+  const Motion aside = test::drive(0.0, {{3.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.0, 3.0}}, 1.0);
+  const Motion comes = along(-1.4, {-4.0, 0.0}, {4.0, 0.0}, 1.0);
+  ASSERT_GT(closest_approach(aside, comes, 0.0, 1e3).distance_m, kApart_m + 0.1);
+  EXPECT_FALSE(first_stop_meeting(aside, comes, kApart_m, kOptions, 0.0));
+  EXPECT_TRUE(first_stop_meeting(aside, comes, kApart_m, {kOptions.deceleration, 1.2}, 0.0))
+      << "hears of it late";
+}
+
+TEST(StopSeparation, IsTheSameForBoth) {
+  std::mt19937 random(4);
+  int meetings = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Motion a = test::random_drive(random, 0.0, 4, 3.0);
+    const Motion b = test::random_drive(random, 0.4, 4, 3.0);
+    const auto one = first_stop_meeting(a, b, kApart_m, kOptions, 0.0);
+    const auto other = first_stop_meeting(b, a, kApart_m, kOptions, 0.0);
+    ASSERT_EQ(one.has_value(), other.has_value());
+    if (!one) continue;
+    ++meetings;
+    EXPECT_EQ(one->brakes_s, other->brakes_s);
+    EXPECT_EQ(one->distance_m, other->distance_m);
+  }
+  EXPECT_GT(meetings, 20);
+}
+
+TEST(StopSeparation, AgreesWithRealBrakingAtEveryMoment) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> angle(-3.0, 3.0);
+  std::uniform_real_distribution<double> late_s(-1.5, 1.5);
+  int apart = 0;
+  int meetings = 0;
+  for (int trial = 0; trial < 120; ++trial) {
+    const double start_s = 1.75e9 + 0.01 * trial;
+    const Motion a = along(start_s, {-3.0, 0.0}, {3.0, 0.4}, 0.7 + 0.001 * trial);
+    const double towards_rad = angle(random);
+    const Vector2 way(3.0 * std::cos(towards_rad), 3.0 * std::sin(towards_rad));
+    const Motion b = trial % 3 == 0 ? test::random_drive(random, start_s + 0.3, 3, 2.5)
+                                    : along(start_s + late_s(random), -way, way, 0.9);
+    const double until_s = std::max(a.end_time(), b.end_time());
+    if (bounds(b).acceleration > 2.0) continue;
+    const auto meeting = first_stop_meeting(a, b, kApart_m, kOptions, start_s);
+    if (meeting) {
+      ++meetings;
+      EXPECT_LT(closest_stop(a, b, meeting->brakes_s), kApart_m + 0.06);
+    } else {
+      ++apart;
+    }
+    const double until_meeting_s = meeting ? meeting->brakes_s - 0.1 : until_s;
+    const double begin_s = std::ceil(start_s / 0.1) * 0.1;
+    for (double t = begin_s; t < until_meeting_s; t += 0.07)
+      EXPECT_GT(closest_stop(a, b, t), kApart_m - kTolerance_m) << trial << " at " << t - start_s;
+  }
+  EXPECT_GT(apart, 15);
+  EXPECT_GT(meetings, 30);
+}
+
+TEST(StopSeparation, FindsMeetingsBetweenItsMoments) {
+  constexpr double kNear_m = 0.1;
+  constexpr StopOptions kFast{3.0, 0.3};
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> angle(0.5, 2.6);
+  std::uniform_real_distribution<double> late_s(-0.3, 0.3);
+  int meetings = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const double towards_rad = angle(random);
+    const Vector2 way(6.0 * std::cos(towards_rad), 6.0 * std::sin(towards_rad));
+    const double start_s = late_s(random);
+    bool found = false;
+    bool missed = false;
+    for (double shift_s = 0.0; shift_s < 0.095; shift_s += 0.01) {
+      const Motion a = along(1.0 + shift_s, {-6.0, 0.0}, {6.0, 0.0}, 3.0);
+      const Motion b = along(1.0 + shift_s + start_s, -way, way, 3.0);
+      found |= first_stop_meeting(a, b, kNear_m, kFast, 0.0).has_value();
+      missed |= !first_stop_meeting(a, b, kNear_m + 0.03, kFast, 0.0).has_value();
+    }
+    EXPECT_FALSE(found && missed) << trial;
+    meetings += found;
+  }
+  EXPECT_GT(meetings, 10);
+}
+
+TEST(StopSeparation, LooksOnlyAsLongAsItIsAsked) {
+  const Motion first = along(0.0, {-4.0, 0.0}, {4.0, 0.0}, 1.0);
+  const Motion second = along(0.9, {0.0, -4.0}, {0.0, 4.0}, 1.0);
+  const auto meeting = first_stop_meeting(first, second, kApart_m, kOptions, 0.0);
+  ASSERT_TRUE(meeting);
+  EXPECT_FALSE(first_stop_meeting(first, second, kApart_m, kOptions, 0.0, meeting->brakes_s - 0.2));
+  EXPECT_FALSE(first_stop_meeting(first, second, kApart_m, kOptions, 60.0));
+}
+
+TEST(StopSeparation, RefusesWhatIsNoRule) {
+  const Motion a = test::stand(0.0, {0.0, 0.0});
+  EXPECT_THROW(first_stop_meeting(a, Motion(), 0.6, kOptions, 0.0), std::invalid_argument);
+  EXPECT_THROW(first_stop_meeting(a, a, 0.6, {0.0, 0.3}, 0.0), std::invalid_argument);
+  EXPECT_THROW(first_stop_meeting(a, a, 0.6, {0.5, -0.1}, 0.0), std::invalid_argument);
+  EXPECT_THROW(first_stop_meeting(a, a, 0.6, {0.5, 11.0}, 0.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mocha
