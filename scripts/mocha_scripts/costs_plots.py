@@ -62,12 +62,12 @@ class Recording:
         return {one.agent: promised_places(one) for one in known[-1]} if known else {}
 
     def leader(self):
-        """Who was the first to promise a drive to anybody; None where nobody did."""
+        """The first robot to promise a drive; None where none did."""
         promised = [(stamp, one.agent) for heard in self._heard.values() for stamp, trajectories in heard for one in trajectories]
         return min(promised)[1] if promised else None
 
     def telling_plan(self, name):
-        """The leader's first plan, everybody else's first that knew a promise of a team-mate's drive; and the plan before it. None where
+        """The leader's first plan, every other robot's first that knew a promise of a team-mate's drive; and the plan before it. None where
         there is no such plan."""
         plans = self.plans[name]
         index = 0 if name == self.leader() else next((k for k, plan in enumerate(plans) if plan.promises), len(plans))
@@ -191,7 +191,7 @@ def draw_plan(axes, name, plan, before, world, radius_m):
     axes.add_patch(Circle(start, radius_m[name], fc="w", ec="k", zorder=7))
     axes.annotate(name, start, ha="center", va="center", fontsize=7, zorder=8)
     axes.plot(*goal, "*", color="w", ms=15, mec="k", zorder=7)
-    knows = "knows the promise of " + " and ".join(sorted(plan.promises)) if plan.promises else "nobody has promised a drive yet"
+    knows = "knows the promise of " + " and ".join(sorted(plan.promises)) if plan.promises else "no drive is promised yet"
     axes.set(aspect="equal", xlim=window(plan, world), ylim=[world["bounds"][end][1] for end in ("min", "max")], xlabel="x [m]", ylabel="y [m]",
              title=f"{name} plans at {plan.time_s:.2f} s on its map (grey: not seen yet): {knows}")
     earlier = f"in its plan at {before.time_s:.2f} s \u2192\n" if before else ""

@@ -53,7 +53,7 @@ def shown(path):
 
 
 class Progress:
-    """A line every few seconds: how far everybody has driven; and every contact at once."""
+    """A line every few seconds: how far each robot has driven; and every contact at once."""
 
     def __init__(self, period_s=2.0):
         self._period_s = period_s

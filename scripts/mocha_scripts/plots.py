@@ -79,15 +79,15 @@ def add_replan(what):
     return replan
 
 
-def add_swerve(what):
-    swerve = what.add_parser("swerve", help="a recorded drive around what moves, as in the paper's Figs. 10 and 11",
-                             description="Writes swerve.png: the global plan, the local trajectories with their rejoin points, what was seen to move, "
+def add_detour(what):
+    detour = what.add_parser("detour", help="a recorded drive around what moves, as in the paper's Figs. 10 and 11",
+                             description="Writes detour.png: the global plan, the local trajectories with their rejoin points, what was seen to move, "
                              "and below the clearance over time.")
-    swerve.add_argument("bag", help="drive.bag of a demo")
-    swerve.add_argument("--world", default=os.path.join(ROOT, "config/worlds/swerve.yaml"), metavar="FILE",
+    detour.add_argument("bag", help="drive.bag of a demo")
+    detour.add_argument("--world", default=os.path.join(ROOT, "config/worlds/detour.yaml"), metavar="FILE",
                         help="world file that was driven (default: the scene of Fig. 10)")
-    swerve.set_defaults(draw=draw_swerve)
-    return swerve
+    detour.set_defaults(draw=draw_detour)
+    return detour
 
 
 def add_costs(what):
@@ -146,9 +146,9 @@ def draw_replan(options):
     replan_plots.draw_replan(options.scene, options.out)
 
 
-def draw_swerve(options):
-    from mocha_scripts import swerve_plots
-    swerve_plots.draw_swerve(options.bag, options.world, options.out)
+def draw_detour(options):
+    from mocha_scripts import detour_plots
+    detour_plots.draw_detour(options.bag, options.world, options.out)
 
 
 def draw_costs(options):
@@ -165,7 +165,7 @@ def main(arguments):
     parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
     what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
     for plots in (add_drive(what), add_table1(what), add_table2(what), add_table3(what), add_classes(what), add_tracks(what),
-                  add_replan(what), add_swerve(what), add_costs(what), add_architecture(what)):
+                  add_replan(what), add_detour(what), add_costs(what), add_architecture(what)):
         plots.add_argument("--out", default=".", metavar="DIR", help="files go there (default: here)")
     options = parser.parse_args(arguments)
     os.makedirs(options.out, exist_ok=True)

@@ -2,7 +2,7 @@
 set -eo pipefail  # not -u: catkin reads unset variables
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
 setup=${MOCHA_BUILD:-$root/_build}/devel/setup.bash
-enter() { . "$setup"; }  # a function, as catkin reads the arguments of who sources it
+enter() { . "$setup"; }  # a function, as catkin reads the arguments of the script that sources it
 
 if [[ " $* " != *" --help "* && " $* " != *" -h "* ]]; then "$root/scripts/build"; fi
 export PATH=/usr/bin:/bin:/usr/sbin:/sbin

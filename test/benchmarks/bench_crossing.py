@@ -1,6 +1,6 @@
 """Drives seeded halls with three people each through the whole stack, lidar only, and the same halls empty.
 
-The people cross, come towards the rover or walk ahead of it at 0.4 to 1.2 m/s, there and back, and heed nobody. A contact or 120 s end a
+The people cross, come towards the rover or walk ahead of it at 0.4 to 1.2 m/s, there and back, and heed no robot. A contact or 120 s end a
 run. The lost share is the time with people over the time without, less one.
 """
 import json

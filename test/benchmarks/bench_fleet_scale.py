@@ -1,6 +1,6 @@
 """What a robot's planning, talking and remembering cost as the fleet grows, at constant density.
 
-Every robot has 40 m^2 and a pillar to itself and drives 8 m. All hear all, so everybody has to agree to every motion; --reach says how far
+Every robot has 40 m^2 and a pillar to itself and drives 8 m. All hear all, so all have to agree to every motion; --reach says how far
 messages go instead: 15 m is about 17 others.
 All planners run in one process, in simulated time, each on one thread. replan_s is the processor time of a global plan, step_s that of a
 step of the local replanner, both in the median; bytes_per_s is what one robot sends; memory_bytes is what is held at the end, by the number

@@ -1,7 +1,7 @@
 """Local replanning in 200 seeded scenes with movers, in closed loop and with a perfect tracker.
 
 1 to 8 discs of 0.2 to 0.4 m radius at 0.2 to 1.4 m/s cross, come towards or overtake a rover on its drive of 10 to 14 m, in the open and in
-corridors; they heed nobody. Those of the group `accelerating` also accelerate, brake or turn, which the predictions do not know. A search
+corridors; they heed no robot. Those of the group `accelerating` also accelerate, brake or turn, which the predictions do not know. A search
 in space and time that has nothing in common with the planner, and knows the future, says which scenes can be solved. Time lost is
 against the same drive without movers; planning time is wall time of a step in which the replanner planned locally.
 """

@@ -74,7 +74,7 @@ def fair(walk, others, goal):
 
 
 def draw_box(draw, walks):
-    """Along a wall, out of everybody's way."""
+    """Along a wall, out of the others' way."""
     while True:
         x, width, depth = draw.uniform(2.5, 12.5), draw.uniform(0.5, 0.9), draw.uniform(0.4, 0.8)
         y = HALF_M - depth if draw.random() < 0.5 else -HALF_M

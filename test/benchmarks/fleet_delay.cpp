@@ -26,7 +26,7 @@ FleetOptions rules_for(Protocol protocol, double delay_s, double loss) {
   return options;
 }
 
-/// By how much each robot arrives later than alone, with nobody to ask, on average.
+/// By how much each robot arrives later than alone, without team-mates, on average.
 double time_lost_s(const FleetWorld& world, const FleetRun& run) {
   double lost_s = 0.0;
   for (std::size_t i = 0; i < run.agents.size(); ++i) {

@@ -28,7 +28,7 @@ class Fleet {
       std::string number = std::to_string(i + 1);
       number.insert(0, digits - number.size(), '0');
       robots_.emplace_back("ugv" + number, scene.agents[i], scene.options);
-      // Nobody looks at the same moment as all the others.
+      // Robots do not all look at the same moment.
       late_ms_.push_back(static_cast<int>(random_() % (kProposal_ms / kStep_ms)) * kStep_ms);
     }
     for (const FleetAgent& agent : scene.agents) places_.push_back(agent.start.position);

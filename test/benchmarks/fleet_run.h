@@ -15,7 +15,7 @@ struct FleetScene {
   std::vector<FleetAgent> agents;
   FleetOptions options;
   NetworkLink link;
-  /// Who is farther away hears nothing.
+  /// A robot farther away hears nothing.
   double reach_m = std::numeric_limits<double>::infinity();
   std::uint64_t seed = 1;  ///< of the network, and of when robots look
   double longest_s = 60.0;

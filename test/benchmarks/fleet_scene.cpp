@@ -116,7 +116,7 @@ FleetWorld crossing_robots(int seed) {
   constexpr double kAside_rad = 0.7;
   Draw draw(2000 + seed);
   const int count = 2 + seed % 3;
-  std::vector<Vector2> taken;  // nobody starts or ends where somebody else does
+  std::vector<Vector2> taken;  // no two robots start or end at one place
   FleetWorld world;
   for (int attempt = 0; attempt < kAttempts && static_cast<int>(taken.size()) < 2 * count;
        ++attempt) {

@@ -7,7 +7,7 @@ namespace mocha {
 namespace {
 
 constexpr double kContinuity_m = 0.05;
-constexpr double kRounding_m = 1e-3;  // who is too close already may come no closer
+constexpr double kRounding_m = 1e-3;  // a robot that is too close already may come no closer
 
 }  // namespace
 

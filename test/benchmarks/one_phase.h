@@ -5,9 +5,9 @@
 namespace mocha {
 
 /// The paper's protocol (paper IV-D 4), to be measured against: a trajectory that meets nothing
-/// known so far is binding at once, and then broadcast. Nobody is asked, so that of two robots that
-/// promise within one message's delay neither knows of the other. Calls and answers are those of
-/// Commitment; what is in force is sent again every resend_period, heartbeats there are none.
+/// known so far is binding at once, and then broadcast. No robot is asked, so that of two robots
+/// that promise within one message's delay neither knows of the other. Calls and answers are those
+/// of Commitment; what is in force is sent again every resend_period, heartbeats there are none.
 class OnePhase {
  public:
   /// Of the options, those about settling have no meaning.

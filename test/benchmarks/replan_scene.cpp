@@ -11,8 +11,8 @@ namespace mocha {
 namespace {
 
 constexpr double kWatched_s = 25.0;  // how long movers keep clear of walls and of each other
-constexpr double kFair_s = 2.2;      // nobody touches the robot sooner, whatever it does
-constexpr double kFair_m = 1.5;      // nobody starts nearer, surface to surface
+constexpr double kFair_s = 2.2;      // nothing touches the robot sooner, whatever it does
+constexpr double kFair_m = 1.5;      // nothing starts nearer, surface to surface
 constexpr double kDoor_m = 1.8;
 constexpr double kDegree = M_PI / 180.0;
 
@@ -80,7 +80,7 @@ class Maker {
     draw_pillars();
   }
 
-  /// StartManeuvers opposite each other, for those who cross.
+  /// StartManeuvers opposite each other, for those that cross.
   void draw_doors() {
     const int doors = scene_.kind == "crossing" ? draw_.integer(1, 2) : draw_.integer(0, 1);
     for (int i = 0; i < doors; ++i) {

@@ -15,7 +15,7 @@ struct MoverLeg {
   double yaw_rate;      ///< [rad/s], positive to the left
 };
 
-/// A disc that goes its way and heeds nobody. After its last leg it goes straight on.
+/// A disc that goes its way and heeds no robot. After its last leg it goes straight on.
 struct SceneMover {
   double radius_m;
   Vector2 start;

@@ -22,7 +22,7 @@ constexpr int kMostExpansions = 4000000;
 
 constexpr int kLongestRest = 4;  // steps; after these, one may leave in any direction
 
-/// Position, velocity and time in units of the lattice; of one who stands, which way he looks, in
+/// Position, velocity and time in units of the lattice; of one that stands, its heading, in
 /// eighths of a turn, and for how many steps.
 struct State {
   int x, y, vx, vy, step;
@@ -170,7 +170,8 @@ class Search {
   }
 
   void expand(const State& state, int ax, int ay) {
-    if (state.step == 0 && (ax != 0 || ay != 0)) return;  // who promises first reacts no sooner
+    if (state.step == 0 && (ax != 0 || ay != 0))
+      return;  // a robot that promises first reacts no sooner
     if (kPush * std::hypot(ax, ay) > options_.max_acceleration) return;
     const State next = state.pushed(ax, ay);
     if (next.velocity().norm() > options_.max_speed + 1e-9 || next.step > last_step_) return;
@@ -178,9 +179,9 @@ class Search {
     add(next);
   }
 
-  /// Whether the direction of travel changes slowly enough. Who stands has to turn first, so that
-  /// his front or his back points where he goes; a turn from rest to rest takes 15/8 of what it
-  /// would at the highest rate.
+  /// Whether the direction of travel changes slowly enough. A robot that stands has to turn first,
+  /// so that his front or his back points where he goes; a turn from rest to rest takes 15/8 of
+  /// what it would at the highest rate.
   bool turns(const State& from, const State& to) const {
     const Vector2 a = from.velocity();
     const Vector2 b = to.velocity();

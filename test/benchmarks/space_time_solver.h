@@ -24,8 +24,8 @@ struct SolverOptions {
 /// A*, on a lattice of a double integrator: half a second at a time at -0.5, 0 or 0.5 m/s^2 along
 /// each axis, every way checked each 0.05 s. Of states within 0.25 m at the same velocity and time
 /// one is followed up, all of them near the goal. The first half second goes on as it began, as no
-/// motion is driven before it is promised, and who stands has to turn before he drives off. A way
-/// that is found is a proof; that none is found is strong evidence.
+/// motion is driven before it is promised, and a robot that stands has to turn before it drives
+/// off. A way that is found is a proof; that none is found is strong evidence.
 std::optional<double> arrival_time_s(const ReplanScene& scene, const SolverOptions& options);
 
 }  // namespace mocha

@@ -95,7 +95,7 @@ class Adapter:
             self._drop()
 
     def _drop(self):
-        """Wakes who reads from it, on both ends, so that they connect anew."""
+        """Wakes the readers, on both ends, so that they connect anew."""
         with contextlib.suppress(OSError):
             self._connection.shutdown(socket.SHUT_RDWR)
         self._connection = None

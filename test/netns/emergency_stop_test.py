@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The fleet's emergency stop over a network that loses a fifth: it reaches all, and whoever was cut off or lost its computer learns it."""
+"""The fleet's emergency stop over a network that loses a fifth: it reaches all, and a robot that was cut off or lost its computer learns of it."""
 import os
 import unittest
 
@@ -49,7 +49,7 @@ class EmergencyStopTest(unittest.TestCase):
             self.assertIn("no emergency stop", self.stop(fleet, "ugv2", False))
             fleet.run(2.0)
             self.assertIn("emergency stop of the fleet by ugv2", first.complaint())
-            # Out of reach, the other stop is nobody's to reset.
+            # Out of reach, the other stop cannot be reset.
             self.stop(fleet, "ugv1", True)
             self.stop(fleet, "ugv2", True)
             self.stop(fleet, "ugv2", False)

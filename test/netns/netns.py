@@ -2,7 +2,7 @@
 
 The robots' `eth0` (10.76.0.1, .2 ...) meet at a bridge, which stands with the relay (relay.py) in a namespace of its own; between
 a robot and the bridge nothing passes but what the relay carries. A link of its own joins the simulator (10.77.N.1) with the N-th robot
-(10.77.N.2): for what simulates its sensors and wheels, and for whoever watches.
+(10.77.N.2): for what simulates its sensors and wheels, and for recording.
 
 Run as a program, it says why this machine does not let it (exit status 77), or nothing."""
 import contextlib
@@ -133,7 +133,7 @@ class Hosts:
                 _no_ipv6()
             _ip("link set lo up", name)
         fleet, simulator = self._names[FLEET], self._names[SIMULATOR]
-        # No snooping: there is no querier here that would keep its tables of who listens.
+        # No snooping: there is no querier here that would keep tables of the listeners.
         _ip("link add bridge0 type bridge stp_state 0 mcast_snooping 0\nlink set bridge0 up", fleet)
         for number, robot in enumerate(self.robots, 1):
             name = self._names[robot]

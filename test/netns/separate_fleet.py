@@ -80,7 +80,7 @@ class Robot:
         self._goals.publish(goal)
 
     def send_again(self):
-        """The goal, if it was lost: it passes the adapter, and who listens beyond that may have come late."""
+        """The goal, if it was lost: it passes the adapter, and a subscriber beyond that may have come late."""
         if self._goal is not None:
             self._goals.publish(self._goal)
 

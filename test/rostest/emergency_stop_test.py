@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Emergency stops of a robot and of the fleet, at full speed: within one control period, whoever else is dead, and until the reset."""
+"""Emergency stops of a robot and of the fleet, at full speed: within one control period, whatever else is dead, and until the reset."""
 
 import math
 import os

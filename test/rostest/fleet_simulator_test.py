@@ -80,7 +80,7 @@ class Driver:
         return round((clock_s - START_S) / STEP_S)
 
     def waited_s(self, clock_s):
-        """For how long the simulator waited there, on the wall's clock, before it went on without anybody; steps may then be missed here."""
+        """For how long the simulator waited there, on the wall's clock, before it went on without any node; steps may then be missed here."""
         step = self.step_of(clock_s)
         wait_until(lambda: max(self.came) > step, "it goes on from %.2f s" % clock_s, 30.0)
         return min(wall_s for later, wall_s in list(self.came.items()) if later > step) - self.came[step]

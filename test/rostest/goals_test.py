@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Goals by every road: action, rviz, waypoints, service; and goals that nobody can reach."""
+"""Goals by every road: action, rviz, waypoints, service; and goals that cannot be reached."""
 
 import math
 import sys

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Without a simulated clock the simulator runs on that of the machine, at its rate, and waits for nobody."""
+"""Without a simulated clock the simulator runs on that of the machine, at its rate, and waits for no node."""
 
 import sys
 import unittest

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A robot with a lidar only gets past somebody who heeds nobody; without usable predictions it stands, says why, and goes on with them."""
+"""A robot with a lidar only gets past a person that heeds no robot; without usable predictions it stands, says why, and goes on with them."""
 
 import math
 import sys
@@ -62,7 +62,7 @@ class PeopleTest(unittest.TestCase):
         return any(at > moment and abs(speed) < 0.03 for at, speed, _ in self.robot.speeds)
 
     def drive_to_speed(self):
-        """From the left end; it can still stop before it is where somebody walks."""
+        """From the left end; it can still stop before it is where the person walks."""
         self.robot.arrive(*LEFT, limit_s=PATIENCE_S)
         self.robot.send(*RIGHT)
         self.robot.run_until(lambda: self.robot.truth.speed > 0.75, PATIENCE_S, "it drives at speed")
@@ -93,7 +93,7 @@ class PeopleTest(unittest.TestCase):
             self.assertEqual(self.robot.outcome()[0], "SUCCEEDED", self.robot.report())
             self.assertLess(self.robot.distance_to(*goal), 0.2)
             self.assertGreater(self.robot.now, begun + 9.0)
-        self.assertTrue(yielded, "it never swerved nor stopped, whoever walked")
+        self.assertTrue(yielded, "it neither swerved nor stopped at any crossing")
         self.robot.run_until(lambda: any("moving thing" in name for name in self.drawn), PATIENCE_S, "predictions are drawn")
 
     def test_perception_dies_while_somebody_walks(self):

@@ -8,7 +8,7 @@ import tty
 
 
 class SerialLine:
-    """Carries bytes between a device (its path) and whoever opens `link`. `damage(bytes)` makes of what the device sends
+    """Carries bytes between a device (its path) and the process that opens `link`. `damage(bytes)` makes of what the device sends
     what arrives; `pull()` and `plug()` are the connector."""
 
     def __init__(self, device, link):
@@ -50,7 +50,7 @@ class SerialLine:
         try:
             os.write(end, data)
         except OSError:
-            pass  # nobody reads: lost, as on a wire
+            pass  # there is no reader: lost, as on a wire
 
     @staticmethod
     def read(end):

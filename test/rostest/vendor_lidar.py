@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Plays the driver of a lidar whose vendor knows nothing of this package: what it sees, on a topic and in a frame of his choice."""
+"""Plays the driver of a lidar whose vendor knows nothing of this package: what it sees, on a topic and in a frame of its choice."""
 
 import rospy
 from sensor_msgs.msg import LaserScan

@@ -21,7 +21,7 @@ class Recording:
     def __init__(self, bag, robot):
         self.truth = []  # time, x, y, clearance
         self.plan = None  # the first global one
-        self.swerves = []  # (time, places up to the rejoin point, rejoin point)
+        self.detours = []  # (time, places up to the rejoin point, rejoin point)
         self.seen = []  # (time, x, y, radius) of what moves, as tracked
         with rosbag.Bag(bag) as messages:
             for topic, message, _ in messages.read_messages():
@@ -36,15 +36,15 @@ class Recording:
         elif topic == "predicted_obstacles":
             self.seen += [(message.header.stamp.to_sec(), thing.position.x, thing.position.y, thing.radius) for thing in message.obstacles]
         elif topic == "local_markers":
-            self._read_swerve(message)
+            self._read_detour(message)
 
-    def _read_swerve(self, message):
+    def _read_detour(self, message):
         parts = {marker.ns: marker for marker in message.markers}
         if "detour" not in parts or "rejoin point" not in parts:
             return
         path, rejoin_point = places(parts["detour"].points), parts["rejoin point"].pose.position
-        if not self.swerves or not np.array_equal(path, self.swerves[-1][1]):
-            self.swerves.append((parts["detour"].header.stamp.to_sec(), path, (rejoin_point.x, rejoin_point.y)))
+        if not self.detours or not np.array_equal(path, self.detours[-1][1]):
+            self.detours.append((parts["detour"].header.stamp.to_sec(), path, (rejoin_point.x, rejoin_point.y)))
 
     def place_at(self, time_s):
         return [np.interp(time_s, self.truth[:, 0], self.truth[:, column]) for column in (1, 2)]
@@ -58,7 +58,7 @@ def draw_scene(axes, recording, world, radius):
     drive_plots.draw_obstacles(axes, world)
     if recording.plan is not None:
         axes.plot(*recording.plan.T, color=PLAN, ls="--", lw=1.6, label="global plan")
-    for k, (_, path, rejoin_point) in enumerate(recording.swerves):
+    for k, (_, path, rejoin_point) in enumerate(recording.detours):
         first = k == 0
         axes.plot(*path.T, color=LOCAL, lw=3.0 if first else 1.0, alpha=0.6, label="local trajectories" if first else None)
         axes.plot(*rejoin_point, "s", color=LOCAL, ms=9 if first else 5, mec="k" if first else "none", ls="", label="rejoin points" if first else None)
@@ -81,15 +81,15 @@ def draw_scene(axes, recording, world, radius):
 def draw_clearance(axes, recording, threshold_m):
     axes.plot(recording.truth[:, 0], np.minimum(recording.truth[:, 3], DEEPEST_M), color=DRIVEN, lw=1.2, label="to the nearest obstacle, moving or not")
     axes.axhline(threshold_m, color=LOCAL, ls="--", lw=1.0, label=f"threshold {threshold_m:.2f} m")
-    for k, (time_s, _, _) in enumerate(recording.swerves):
+    for k, (time_s, _, _) in enumerate(recording.detours):
         axes.axvline(time_s, color=LOCAL, lw=0.6, alpha=0.5, label=None if k else "local trajectories taken")
     axes.set(xlabel="time [s]", ylabel="clearance [m]", ylim=(0.0, None), title="Clearance, ground truth (as Fig. 11)")
     axes.grid(alpha=0.3)
     axes.legend(loc="upper right", fontsize=8)
 
 
-def draw_swerve(bag, world_path, out):
-    """Writes swerve.png to the directory `out`, of the first robot of the world."""
+def draw_detour(bag, world_path, out):
+    """Writes detour.png to the directory `out`, of the first robot of the world."""
     world = worlds.read_world(world_path)
     robot = world["robots"][0]
     values = worlds.robot_values(robot["model"])
@@ -97,7 +97,7 @@ def draw_swerve(bag, world_path, out):
     figure, axes = plt.subplots(2, 1, figsize=(12, 10), gridspec_kw={"height_ratios": [2, 1]})
     draw_scene(axes[0], recording, world, values["footprint_radius"])
     draw_clearance(axes[1], recording, threshold_m(values))
-    drive_plots.save(figure, os.path.join(out, "swerve.png"))
+    drive_plots.save(figure, os.path.join(out, "detour.png"))
     return recording
 
 

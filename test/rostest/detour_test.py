@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A robot with a lidar only swerves around somebody who comes slantwise across its way, and is back on its plan at the rejoin point."""
+"""A robot with a lidar only swerves around a person that comes slantwise across its way, and is back on its plan at the rejoin point."""
 
 import math
 import sys
@@ -12,7 +12,7 @@ from visualization_msgs.msg import MarkerArray
 
 from simulated_robot import SimulatedRobot
 
-GOAL = (16.5, 0.0)  # m, as in config/worlds/swerve.yaml
+GOAL = (16.5, 0.0)  # m, as in config/worlds/detour.yaml
 THRESHOLD_M = 0.7 * 0.2  # of moving_clearance, below which a promise is not kept in force
 PATIENCE_S = 60.0  # simulated
 
@@ -28,11 +28,11 @@ def off_line(place, line):
     return least
 
 
-class SwerveTest(unittest.TestCase):
+class DetourTest(unittest.TestCase):
     def setUp(self):
         self.driven, self.clearances = [], []  # (x, y) and [m]
         self.plan = []  # the first global one
-        self.rejoin_points = []  # of what was driven around somebody
+        self.rejoin_points = []  # of the detours that were driven
         rospy.Subscriber("/fleet_simulator/ground_truth", GroundTruth, self.on_truth)
         rospy.Subscriber("/ugv1/candidates", Candidates, self.on_candidates)
         rospy.Subscriber("/ugv1/local_markers", MarkerArray, self.on_markers)
@@ -72,5 +72,5 @@ class SwerveTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("swerve_test")
-    rostest.rosrun("mocha_ugv", "swerve", SwerveTest, sys.argv)
+    rospy.init_node("detour_test")
+    rostest.rosrun("mocha_ugv", "detour", DetourTest, sys.argv)
