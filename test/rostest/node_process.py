@@ -33,15 +33,28 @@ def end(node, signal):
     wait_until(lambda: not is_running(pid), node + " has ended", 30.0)
 
 
+def served_by(publisher):
+    """Which nodes it sends each of its topics to."""
+    served = {}
+    for _, other, direction, _, topic, up, *_ in proxy_of(publisher).getBusInfo(rospy.get_name())[2]:
+        if direction == "o" and up:
+            served.setdefault(topic, set()).add(other)
+    return served
+
+
 def is_connected(node):
-    """Whether a node is connected to all that listen to it, and to all that it listens to, as far as the master knows of them."""
+    """Whether a node hears all that publish what it subscribes to, and is heard by all that subscribe to what it publishes, as far as
+    the master knows of them. The publishers are asked: a subscriber counts a connection before anything is sent on it."""
     publishers, subscribers, _ = rosgraph.Master(rospy.get_name()).getSystemState()
-    connected = {}
-    for _, other, direction, _, topic, up, *_ in proxy_of(node).getBusInfo(rospy.get_name())[2]:
-        if up:
-            connected.setdefault((direction, topic), set()).add(other)
-    inward = {topic: [name for name in names if name != node] for topic, names in publishers}
-    outward = {topic: [name for name in names if name != node] for topic, names in subscribers}
-    wanted = [(("i", topic), len(inward.get(topic, []))) for topic, names in subscribers if node in names]
-    wanted += [(("o", topic), len(outward.get(topic, []))) for topic, names in publishers if node in names]
-    return all(len(connected.get(way, ())) >= count for way, count in wanted)
+    listeners = dict(subscribers)
+    wanted = {}
+    for topic, names in publishers:
+        for publisher in names:
+            for listener in listeners.get(topic, []):
+                if node in (publisher, listener) and publisher != listener:
+                    wanted.setdefault(publisher, set()).add((topic, listener))
+    try:
+        return all(listener in served.get(topic, ()) for publisher, pairs in wanted.items()
+                   for served in [served_by(publisher)] for topic, listener in pairs)
+    except (OSError, rosnode.ROSNodeIOException):
+        return False  # one of them is just being started again

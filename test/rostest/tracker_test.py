@@ -205,10 +205,10 @@ class TrackerTest(unittest.TestCase):
         self.assertAlmostEqual(self.base.speed, 0.0, delta=1e-3)
 
     def test_brakes_when_the_lease_ends_and_stays(self):
-        x = self.drive_to_half()
+        x = self.drive_to_half(6.0)  # without braking, 3 m more
         self.run_for(4.0)
-        braked = self.base.x - x - 1.0
-        speed = 1.875 * 2.0 / 5.0
+        braked = self.base.x - x - 3.0
+        speed = 1.875 * 6.0 / 15.0
         self.assertLess(braked, speed * 0.5 + speed ** 2 / (2.0 * 0.6 * 0.8) + 0.2 * speed + 0.05)
         self.assertAlmostEqual(self.base.speed, 0.0, delta=1e-3)
         self.assertLess(self.run_for(1.0, lease_of=self.sequence), 1e-3, "a lease alone does not resume")
