@@ -5,9 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fleet/protocol/committed_trajectory.h"
-#include "fleet/protocol/peer_table.h"
-#include "fleet/protocol/reservation_chain.h"
+#include "fleet/protocol/settling_protocol.h"
 #include "trajectory/stop_separation.h"
 
 namespace mocha {
@@ -28,52 +26,6 @@ struct CommitmentOptions {
   /// delta_dc, so that nobody settles later than it would anyway.
   double answer_period_s = 0.025;
   ClockOptions clocks;
-};
-
-/// A motion that the robot would like to make its promise.
-struct Proposal {
-  std::uint32_t tag = 0;  ///< the proposer's own number; comes back in the events
-  double footprint_radius_m = 0.0;
-  std::shared_ptr<const Motion> motion;
-};
-
-/// Why a proposal did not become binding. The numbers are those of mocha_ugv/Settlement.
-enum class Refusal : std::uint8_t {
-  kNone,
-  kListening,      ///< just started: who is there has not been heard of yet
-  kTooLate,        ///< its start came before it was settled, or has passed already
-  kDiscontinuous,  ///< does not begin where the binding motion will be
-  kPeerPromise,    ///< comes too close to what a peer has promised
-  kPeerProposal,   ///< meets a peer's proposal that came first, or one of the same time that ranks
-                   ///< higher
-  kUnanswered,     ///< like kTooLate, because of a peer in reach that did not agree in time
-  kClock,          ///< like kTooLate, because nobody can tell what a peer's clock shows
-  kReplaced,       ///< by a newer proposal of its own robot
-  kEmergency,      ///< its own robot brakes
-};
-
-/// In a word, for reports: "peer_promise".
-const char* name_of(Refusal refusal);
-
-struct CommitmentEvent {
-  enum class Kind {
-    kSettled,    ///< the motion is binding
-    kRejected,   ///< it is not, by the rules; `refusal` says why
-    kWithdrawn,  ///< its own robot has something newer (kReplaced, kEmergency)
-    kBreached,   ///< a peer's binding motion meets our binding one: it brakes, or was out of reach
-  };
-  Kind kind = Kind::kSettled;
-  Refusal refusal = Refusal::kNone;
-  CommittedTrajectory trajectory;  ///< ours; as sent, if it was sent
-  Proposal proposal;               ///< as it came from the proposer
-  Conflict conflict;  ///< its peer is set where one was involved; the rest where two motions meet
-};
-
-/// What follows from a call: messages to every peer, in this order, and news for the own robot.
-struct CommitmentActions {
-  std::vector<CommittedTrajectory> trajectories;
-  std::optional<Heartbeat> heartbeat;
-  std::vector<CommitmentEvent> events;
 };
 
 /// The propose / settle protocol of one robot, as a state machine: time is an argument, messages go
@@ -118,7 +70,7 @@ struct CommitmentActions {
 /// meets it is told (kBreached) and has to brake in turn; until it stands, those two have only
 /// their planners' margins. Robots that already are closer than demanded (after braking, or set
 /// down so) may move as long as they come no closer.
-class CommitmentProtocol {
+class CommitmentProtocol : public SettlingProtocol {
  public:
   enum class State {
     kListening,  ///< since the start, for one reach_timeout: nothing may be proposed
@@ -135,18 +87,19 @@ class CommitmentProtocol {
 
   /// Offers a motion; one that is pending is withdrawn. Throws std::invalid_argument for what
   /// cannot be promised at all (validate()), without any effect.
-  CommitmentActions propose(const Proposal& proposal, double now);
+  CommitmentActions propose(const Proposal& proposal, double now) override;
   /// Makes a braking motion binding at once. Throws like propose().
-  CommitmentActions brake(const Proposal& proposal, double now);
+  CommitmentActions brake(const Proposal& proposal, double now) override;
   /// A validated message of another robot. One that carries our own name is ignored and counted.
-  CommitmentActions receive(const CommittedTrajectory& trajectory, double now);
-  CommitmentActions receive(const Heartbeat& heartbeat, double now);
-  CommitmentActions tick(double now);
+  CommitmentActions receive(const CommittedTrajectory& trajectory, double now) override;
+  CommitmentActions receive(const Heartbeat& heartbeat, double now) override;
+  CommitmentActions tick(double now) override;
 
   State state() const;
+  std::uint32_t epoch() const override { return options_.epoch; }
   const CommitmentOptions& options() const { return options_; }
-  const PeerTable& peers() const { return peers_; }
-  const ReservationChain& binding() const { return binding_; }
+  const PeerTable& peers() const override { return peers_; }
+  const ReservationChain& binding() const override { return binding_; }
   int impostors() const { return impostors_; }
 
  private:
