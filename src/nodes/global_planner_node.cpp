@@ -40,7 +40,7 @@ class GlobalPlannerNode {
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
         values_(values),
         planning_(model_, values,
-                  {false, values.integer("priority"),
+                  {false, neighbour_parameters("trajectory_broadcaster").integer("priority"),
                    identity_.name}),
         stop_(node),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),

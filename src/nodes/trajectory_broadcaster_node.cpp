@@ -82,7 +82,7 @@ class TrajectoryBroadcasterNode {
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
         epoch_file_(memory_file(values.text("epoch_file"), robot_.name, ".epoch")),
         commitment_(commitment_settings(values, robot_.name, model_, epoch_file_)),
-        keeping_(model_, values.number("initial_lease"), commitment_),
+        keeping_(model_, neighbour_parameters("local_replanner").number("lease"), commitment_),
         committed_(node.advertise<mocha_ugv::Trajectory>("committed_trajectory", 10, true)),
         fleet_(node.advertise<mocha_ugv::FleetTrajectories>("fleet/trajectories", 10, true)),
         drawings_(node.advertise<visualization_msgs::MarkerArray>("motion_markers", 2, true)),

@@ -37,7 +37,6 @@ ParameterTable local_values(const FleetOptions& options) {
   ParameterTable values = ParameterTable::from_schema("config/local_replanner.yaml");
   YAML::Node changes;
   changes["settle_time"] = options.settle_s;
-  changes["answer_timeout"] = options.settle_s + 0.3;
   changes["planning_threads"] = options.planning_threads;
   values.assign(changes, "fleet options");
   return values;

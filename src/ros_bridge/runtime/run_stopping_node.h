@@ -21,7 +21,7 @@ int run_stopping_node(int argc, char** argv, const std::string& name, ros::WallD
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   ros::NodeHandle node;  // outside: the console closes with the last handle
   try {
-    Node instance(node, read_parameters(ros::NodeHandle("~"), name));
+    Node instance(node, checked_parameters(name));
     while (ros::ok() && !stop.came()) {
       ros::getGlobalCallbackQueue()->callAvailable(period);
       between(instance);
