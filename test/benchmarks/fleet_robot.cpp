@@ -7,12 +7,12 @@
 #include <functional>
 #include <utility>
 
-#include "safety/margin_budget.h"
 #include "topology/static_map/grid_static_map.h"
 
 namespace mocha {
 namespace {
 
+constexpr std::uint32_t kEpoch = 1;
 constexpr double kRefreshPeriod_s = 0.5;  // of fleet/trajectories
 constexpr double kErrorTurn_radps = 0.7;  // of the tracking error's direction
 
@@ -46,15 +46,8 @@ ParameterTable local_values(const FleetOptions& options) {
 CommitmentOptions commitment_options(const std::string& name, const RobotModel& robot,
                                      const FleetOptions& options) {
   const auto values = ParameterTable::from_schema("config/trajectory_broadcaster.yaml");
-  CommitmentOptions commitment;
-  commitment.agent = name;
+  CommitmentOptions commitment = CommitmentOptions::from(values, robot, name, kEpoch);
   commitment.delta_dc_s = options.delta_dc_s;
-  commitment.reach_timeout_s = values.number("reach_timeout");
-  commitment.peer_clearance_m = robot.peer_clearance_m + MarginBudget::of(robot).peer_margin_m();
-  commitment.stops = robot.stop_options();
-  commitment.stop_clearance_m = MarginBudget::of(robot).peer_margin_m();
-  commitment.heartbeat_period_s = 1.0 / values.number("heartbeat_rate");
-  commitment.resend_period_s = 1.0 / values.number("resend_rate");
   return commitment;
 }
 
@@ -244,7 +237,7 @@ std::vector<FleetRobot::Bytes> FleetRobot::pursue(double now_s) {
   reached_ = reached_ || output.ending == GoalExecutive::Ending::kReached;
   if (!output.plan.empty()) replanner_.set_plan(output.plan);
   if (!output.request) return {};
-  output.request->epoch = CommitmentOptions().epoch;
+  output.request->epoch = kEpoch;
   return link_.pack(*output.request);
 }
 

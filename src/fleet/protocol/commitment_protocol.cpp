@@ -1,7 +1,6 @@
 #include "fleet/protocol/commitment_protocol.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "fleet/protocol/stop_conflict.h"
@@ -13,12 +12,6 @@ namespace {
 constexpr double kContinuity_m = 0.05;
 /// Robots that are too close already may come no closer than now, up to this for rounding.
 constexpr double kRounding_m = 1e-3;
-
-void require(bool condition, const char* name, double value, const char* range) {
-  if (condition) return;
-  throw std::invalid_argument(std::string(name) + " = " + std::to_string(value) + ", allowed is " +
-                              range);
-}
 
 CommitmentEvent event_of(CommitmentEvent::Kind kind, const CommittedTrajectory& trajectory,
                          const Proposal& proposal) {
@@ -60,21 +53,7 @@ const char* name_of(Refusal refusal) {
 CommitmentProtocol::CommitmentProtocol(CommitmentOptions options)
     : options_(std::move(options)),
       peers_(options_.agent, options_.epoch, options_.reach_timeout_s, options_.clocks) {
-  if (options_.agent.empty()) throw std::invalid_argument("the robot has no name");
-  require(options_.delta_dc_s >= 0.0, "delta_dc", options_.delta_dc_s, "0 s or more");
-  require(options_.peer_clearance_m >= 0.0, "peer_clearance", options_.peer_clearance_m,
-          "0 m or more");
-  require(options_.stop_clearance_m >= 0.0, "stop clearance", options_.stop_clearance_m,
-          "0 m or more");
-  require(options_.heartbeat_period_s > 0.0, "heartbeat period", options_.heartbeat_period_s,
-          "above 0 s");
-  require(options_.clocks.tolerance_s >= 0.0, "clock tolerance", options_.clocks.tolerance_s,
-          "0 s or more");
-  require(options_.clocks.max_error_s >= 0.0, "max_clock_error", options_.clocks.max_error_s,
-          "0 s or more");
-  require(options_.answer_period_s >= 0.0, "answer period", options_.answer_period_s,
-          "0 s or more");
-  require(options_.resend_period_s > 0.0, "resend period", options_.resend_period_s, "above 0 s");
+  options_.validate();
 }
 
 CommitmentProtocol::State CommitmentProtocol::state() const {
@@ -272,7 +251,7 @@ void CommitmentProtocol::keep_in_touch(double now, CommitmentActions& actions) {
   const bool periodic = now >= next_heartbeat_s_;
   const bool answers = !answers_.empty() && now >= next_answer_s_;
   if (!periodic && !answers) return;
-  if (!answers_.empty()) next_answer_s_ = now + options_.answer_period_s;
+  if (!answers_.empty()) next_answer_s_ = now + kAnswerPeriod_s;
   actions.heartbeat = periodic ? Heartbeat{options_.agent, options_.epoch, now,
                                            peers_.acknowledgements(now), peers_.echoes(now)}
                                : Heartbeat{options_.agent, options_.epoch, now, answers_, {}};

@@ -5,30 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "fleet/protocol/commitment_options.h"
 #include "fleet/protocol/committed_trajectory.h"
 #include "fleet/protocol/peer_table.h"
 #include "fleet/protocol/reservation_chain.h"
-#include "trajectory/stop_separation.h"
 
 namespace mocha {
-
-struct CommitmentOptions {
-  std::string agent;
-  std::uint32_t epoch = 1;  ///< one more than at the last start
-  int priority = 0;
-  double delta_dc_s = 0.06;
-  double reach_timeout_s = 1.0;
-  double peer_clearance_m = 0.2;
-  /// How robots are to be able to stop for each other, and what their discs keep then [m].
-  std::optional<StopOptions> stops;
-  double stop_clearance_m = 0.0;
-  double heartbeat_period_s = 0.1;
-  double resend_period_s = 1.0;
-  /// Endorsements that come up within this time of the last ones wait, and go together. Well below
-  /// delta_dc, so that nobody settles later than it would anyway.
-  double answer_period_s = 0.025;
-  ClockOptions clocks;
-};
 
 /// A motion that the robot would like to make its promise.
 struct Proposal {
@@ -89,9 +71,9 @@ struct CommitmentActions {
 /// meet, the lower in rank (priority, then name) is withdrawn; the other waits for the news of
 /// that, or loses to it if it became binding first. A robot endorses a proposal that it has seen
 /// unless that meets its own binding promise or its own pending proposal of higher rank; it says so
-/// at once, or within answer_period of the last time, together with whatever else it endorses until
-/// then: a fleet of N robots that all plan anew sends N heartbeats more in that time, not N^2.
-/// Emergency motions bind at once.
+/// at once, or within kAnswerPeriod_s of the last time, together with whatever else it endorses
+/// until then: a fleet of N robots that all plan anew sends N heartbeats more in that time, not
+/// N^2. Emergency motions bind at once.
 ///
 /// Why two motions a and b that meet never both settle while their robots A and B are in reach of
 /// each other, whatever is lost, late or out of order: suppose they did. When A endorsed b, A had
@@ -127,6 +109,10 @@ class CommitmentProtocol {
     kBound,      ///< a binding motion, nothing pending
     kRevising,   ///< a binding motion, and a proposal to follow it
   };
+
+  /// Endorsements that come up within this time of the last ones wait, and go together. Well below
+  /// any useful delta_dc, so that no proposal settles later than it would anyway.
+  static constexpr double kAnswerPeriod_s = 0.025;
 
   /// Throws std::invalid_argument for options out of range.
   explicit CommitmentProtocol(CommitmentOptions options);
