@@ -5,58 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "fleet/protocol/commitment_event.h"
 #include "fleet/protocol/commitment_options.h"
-#include "fleet/protocol/committed_trajectory.h"
+#include "fleet/protocol/meetings.h"
 #include "fleet/protocol/peer_table.h"
 #include "fleet/protocol/reservation_chain.h"
 
 namespace mocha {
-
-/// A motion that the robot would like to make its promise.
-struct Proposal {
-  std::uint32_t tag = 0;  ///< the proposer's own number; comes back in the events
-  double footprint_radius_m = 0.0;
-  std::shared_ptr<const Motion> motion;
-};
-
-/// Why a proposal did not become binding. The numbers are those of mocha_ugv/Settlement.
-enum class Refusal : std::uint8_t {
-  kNone,
-  kListening,      ///< just started: who is there has not been heard of yet
-  kTooLate,        ///< its start came before it was settled, or has passed already
-  kDiscontinuous,  ///< does not begin where the binding motion will be
-  kPeerPromise,    ///< comes too close to what a peer has promised
-  kPeerProposal,   ///< meets a peer's proposal that came first, or one of the same time that ranks
-                   ///< higher
-  kUnanswered,     ///< like kTooLate, because of a peer in reach that did not agree in time
-  kClock,          ///< like kTooLate, because nobody can tell what a peer's clock shows
-  kReplaced,       ///< by a newer proposal of its own robot
-  kEmergency,      ///< its own robot brakes
-};
-
-/// In a word, for reports: "peer_promise".
-const char* name_of(Refusal refusal);
-
-struct CommitmentEvent {
-  enum class Kind {
-    kSettled,    ///< the motion is binding
-    kRejected,   ///< it is not, by the rules; `refusal` says why
-    kWithdrawn,  ///< its own robot has something newer (kReplaced, kEmergency)
-    kBreached,   ///< a peer's binding motion meets our binding one: it brakes, or was out of reach
-  };
-  Kind kind = Kind::kSettled;
-  Refusal refusal = Refusal::kNone;
-  CommittedTrajectory trajectory;  ///< ours; as sent, if it was sent
-  Proposal proposal;               ///< as it came from the proposer
-  Conflict conflict;  ///< its peer is set where one was involved; the rest where two motions meet
-};
-
-/// What follows from a call: messages to every peer, in this order, and news for the own robot.
-struct CommitmentActions {
-  std::vector<CommittedTrajectory> trajectories;
-  std::optional<Heartbeat> heartbeat;
-  std::vector<CommitmentEvent> events;
-};
 
 /// The propose / settle protocol of one robot, as a state machine: time is an argument, messages go
 /// in and come out.
@@ -141,12 +96,6 @@ class CommitmentProtocol {
     Proposal proposal;
     double since_s;
   };
-  /// What stands between a proposal and its settlement.
-  struct Obstacle {
-    Refusal refusal = Refusal::kNone;
-    Conflict conflict;
-    std::string waits_for;  ///< a peer whose outranked proposal is not withdrawn yet
-  };
 
   CommittedTrajectory trajectory_of(const Proposal& proposal, TrajectoryState state) const;
   CommittedTrajectory send(CommittedTrajectory trajectory, CommitmentActions& actions);
@@ -164,18 +113,8 @@ class CommitmentProtocol {
   void send_again(double now, CommitmentActions& actions);
   void report_breach(const std::string& name, double now, CommitmentActions& actions) const;
 
-  Obstacle obstacle(const CommittedTrajectory& proposal, double now) const;
-  Obstacle obstacle_by(const std::string& name, const Peer& peer, const Reservation& mine,
-                       double now) const;
+  Meetings meetings(double now) const { return {options_, binding_, now}; }
   Refusal refusal_by_itself(const Motion& motion, double now) const;
-  bool objects_to(const Peer& peer, const CommittedTrajectory& proposal, double now) const;
-  std::optional<Conflict> meeting(const Reservation& mine, const Peer& peer,
-                                  const Reservation& theirs, double now) const;
-  /// The same for where one of them brakes: of what is binding, and the proposals where there are.
-  std::optional<Conflict> stop_meeting(const CommittedTrajectory* my_proposal, const Peer& peer,
-                                       const CommittedTrajectory* their_proposal, double now) const;
-  /// Robots that are too close already may come as close as this, and no closer.
-  double closest_m(const Motion& mine, const Peer& peer, const Motion& theirs, double now) const;
   /// A peer in reach that has not told us that it has seen the promise; none: empty.
   std::string unaware_peer(TrajectoryId id, double now) const;
   std::string unclocked_peer(double now) const;
