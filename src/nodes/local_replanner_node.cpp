@@ -23,9 +23,9 @@
 #include "ros_bridge/runtime/run_node.h"
 #include "ros_bridge/runtime/step_loop.h"
 #include "ros_bridge/runtime/transport.h"
-#include "safety/margin_budget.h"
 #include "stack/local_replanning.h"
 #include "topology/static_map/grid_static_map.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

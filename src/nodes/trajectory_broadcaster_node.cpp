@@ -22,7 +22,6 @@
 #include "ros_bridge/runtime/step_loop.h"
 #include "ros_bridge/runtime/transport.h"
 #include "ros_bridge/rviz/markers.h"
-#include "safety/margin_budget.h"
 #include "stack/commitment_keeping.h"
 #include "world/robot_model.h"
 
@@ -30,24 +29,6 @@ namespace mocha {
 namespace {
 
 constexpr double kPeriod_s = 0.02;
-
-CommitmentOptions commitment_settings(const ParameterTable& values, const std::string& robot,
-                                      const RobotModel& model, const std::string& epochs) {
-  const MarginBudget margins = MarginBudget::of(model);
-  CommitmentOptions options;
-  options.agent = robot;
-  options.priority = values.integer("priority");
-  options.delta_dc_s = values.number("delta_dc");
-  options.reach_timeout_s = values.number("reach_timeout");
-  options.peer_clearance_m = model.peer_clearance_m + margins.peer_margin_m();
-  options.stops = model.stop_options();
-  options.stop_clearance_m = margins.peer_margin_m();
-  options.heartbeat_period_s = 1.0 / values.number("heartbeat_rate");
-  options.resend_period_s = 1.0 / values.number("resend_rate");
-  options.clocks = {2.0 * margins.clock_s, values.number("max_clock_error")};
-  options.epoch = next_epoch(epochs);
-  return options;
-}
 
 const char* text_of(CommitmentProtocol::State state) {
   switch (state) {
@@ -81,7 +62,7 @@ class TrajectoryBroadcasterNode {
       : robot_(robot_identity()),
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
         epoch_file_(memory_file(values.text("epoch_file"), robot_.name, ".epoch")),
-        commitment_(commitment_settings(values, robot_.name, model_, epoch_file_)),
+        commitment_(CommitmentOptions::from(values, model_, robot_.name, next_epoch(epoch_file_))),
         keeping_(model_, neighbour_parameters("local_replanner").number("lease"), commitment_),
         committed_(node.advertise<mocha_ugv::Trajectory>("committed_trajectory", 10, true)),
         fleet_(node.advertise<mocha_ugv::FleetTrajectories>("fleet/trajectories", 10, true)),

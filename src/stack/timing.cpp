@@ -49,8 +49,8 @@ std::string in_words(const std::vector<std::string>& terms, Values& values) {
   for (const std::string& term : terms) {
     const Parameter& parameter = values.of(term);
     words << (&term == &terms.front() ? "" : " + ")
-          << (parameter.unit == "Hz" ? "a period of " : "") << term.node << "/" << term.parameter
-          << " = " << value_of(parameter) << " " << parameter.unit;
+          << (parameter.unit == "Hz" ? "a period of " : "") << term << " = " << value_of(parameter)
+          << " " << parameter.unit;
   }
   return words.str();
 }

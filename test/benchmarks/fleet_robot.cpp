@@ -8,12 +8,12 @@
 
 #include "benchmarks/one_phase.h"
 #include "fleet/protocol/commitment_protocol.h"
-#include "safety/margin_budget.h"
 #include "topology/static_map/grid_static_map.h"
 
 namespace mocha {
 namespace {
 
+constexpr std::uint32_t kEpoch = 1;
 constexpr double kErrorTurn_radps = 0.7;  // of the tracking error's direction
 
 /// Of this thread's work alone where there is no other; else of the wall clock.
@@ -45,15 +45,8 @@ ParameterTable local_values(const FleetOptions& options) {
 CommitmentOptions commitment_options(const std::string& name, const RobotModel& robot,
                                      const FleetOptions& options) {
   const auto values = ParameterTable::from_schema("config/trajectory_broadcaster.yaml");
-  CommitmentOptions commitment;
-  commitment.agent = name;
+  CommitmentOptions commitment = CommitmentOptions::from(values, robot, name, kEpoch);
   commitment.delta_dc_s = options.delta_dc_s;
-  commitment.reach_timeout_s = values.number("reach_timeout");
-  commitment.peer_clearance_m = robot.peer_clearance_m + MarginBudget::of(robot).peer_margin_m();
-  commitment.stops = robot.stop_options();
-  commitment.stop_clearance_m = MarginBudget::of(robot).peer_margin_m();
-  commitment.heartbeat_period_s = 1.0 / values.number("heartbeat_rate");
-  commitment.resend_period_s = 1.0 / values.number("resend_rate");
   return commitment;
 }
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "safety/margin_budget.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

@@ -67,7 +67,7 @@ class LateAnswers : public SettlingProtocol {
   const ReservationChain& binding() const override { return binding_; }
 
  private:
-  PeerTable peers_{kAgent, 1, 1.0};
+  PeerTable peers_{kAgent, 1, 1.0, {0.0, 0.25}};
   ReservationChain binding_;
   std::vector<std::pair<Proposal, bool>> waiting_;
   std::uniform_real_distribution<double> share_{0.0, 1.0};

@@ -5,28 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "fleet/protocol/commitment_options.h"
+#include "fleet/protocol/meetings.h"
 #include "fleet/protocol/settling_protocol.h"
-#include "trajectory/stop_separation.h"
 
 namespace mocha {
-
-struct CommitmentOptions {
-  std::string agent;
-  std::uint32_t epoch = 1;  ///< one more than at the last start
-  int priority = 0;
-  double delta_dc_s = 0.06;
-  double reach_timeout_s = 1.0;
-  double peer_clearance_m = 0.2;
-  /// How robots are to be able to stop for each other, and what their discs keep then [m].
-  std::optional<StopOptions> stops;
-  double stop_clearance_m = 0.0;
-  double heartbeat_period_s = 0.1;
-  double resend_period_s = 1.0;
-  /// Endorsements that come up within this time of the last ones wait, and go together. Well below
-  /// delta_dc, so that nobody settles later than it would anyway.
-  double answer_period_s = 0.025;
-  ClockOptions clocks;
-};
 
 /// The propose / settle protocol of one robot, as a state machine: time is an argument, messages go
 /// in and come out.
@@ -41,9 +24,9 @@ struct CommitmentOptions {
 /// meet, the lower in rank (priority, then name) is withdrawn; the other waits for the news of
 /// that, or loses to it if it became binding first. A robot endorses a proposal that it has seen
 /// unless that meets its own binding promise or its own pending proposal of higher rank; it says so
-/// at once, or within answer_period of the last time, together with whatever else it endorses until
-/// then: a fleet of N robots that all plan anew sends N heartbeats more in that time, not N^2.
-/// Emergency motions bind at once.
+/// at once, or within kAnswerPeriod_s of the last time, together with whatever else it endorses
+/// until then: a fleet of N robots that all plan anew sends N heartbeats more in that time, not
+/// N^2. Emergency motions bind at once.
 ///
 /// Why two motions a and b that meet never both settle while their robots A and B are in reach of
 /// each other, whatever is lost, late or out of order: suppose they did. When A endorsed b, A had
@@ -80,6 +63,10 @@ class CommitmentProtocol : public SettlingProtocol {
     kRevising,   ///< a binding motion, and a proposal to follow it
   };
 
+  /// Endorsements that come up within this time of the last ones wait, and go together. Well below
+  /// any useful delta_dc, so that no proposal settles later than it would anyway.
+  static constexpr double kAnswerPeriod_s = 0.025;
+
   /// Throws std::invalid_argument for options out of range.
   explicit CommitmentProtocol(CommitmentOptions options);
 
@@ -108,12 +95,6 @@ class CommitmentProtocol : public SettlingProtocol {
     Proposal proposal;
     double since_s;
   };
-  /// What stands between a proposal and its settlement.
-  struct Obstacle {
-    Refusal refusal = Refusal::kNone;
-    Conflict conflict;
-    std::string waits_for;  ///< a peer whose outranked proposal is not withdrawn yet
-  };
 
   CommittedTrajectory trajectory_of(const Proposal& proposal, TrajectoryState state) const;
   CommittedTrajectory send(CommittedTrajectory trajectory, CommitmentActions& actions);
@@ -131,18 +112,8 @@ class CommitmentProtocol : public SettlingProtocol {
   void send_again(double now, CommitmentActions& actions);
   void report_breach(const std::string& name, double now, CommitmentActions& actions) const;
 
-  Obstacle obstacle(const CommittedTrajectory& proposal, double now) const;
-  Obstacle obstacle_by(const std::string& name, const Peer& peer, const Reservation& mine,
-                       double now) const;
+  Meetings meetings(double now) const { return {options_, binding_, now}; }
   Refusal refusal_by_itself(const Motion& motion, double now) const;
-  bool objects_to(const Peer& peer, const CommittedTrajectory& proposal, double now) const;
-  std::optional<Conflict> meeting(const Reservation& mine, const Peer& peer,
-                                  const Reservation& theirs, double now) const;
-  /// The same for where one of them brakes: of what is binding, and the proposals where there are.
-  std::optional<Conflict> stop_meeting(const CommittedTrajectory* my_proposal, const Peer& peer,
-                                       const CommittedTrajectory* their_proposal, double now) const;
-  /// Robots that are too close already may come as close as this, and no closer.
-  double closest_m(const Motion& mine, const Peer& peer, const Motion& theirs, double now) const;
   /// A peer in reach that has not told us that it has seen the promise; none: empty.
   std::string unaware_peer(TrajectoryId id, double now) const;
   std::string unclocked_peer(double now) const;

@@ -1,4 +1,4 @@
-#include "fleet/protocol/settling_protocol.h"
+#include "fleet/protocol/commitment_event.h"
 
 namespace mocha {
 
