@@ -2,7 +2,7 @@
 function(mocha_benchmark name)
   add_executable(benchmark_${name} EXCLUDE_FROM_ALL test/benchmarks/${name}.cpp test/benchmarks/benchmark_world.cpp ${ARGN})
   target_include_directories(benchmark_${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
-  target_link_libraries(benchmark_${name} mocha_planning)
+  target_link_libraries(benchmark_${name} mocha_stack)
 endfunction()
 
 foreach(name evaluation table1 table1_curves)

@@ -9,14 +9,17 @@ function(mocha_gtest folder)
   target_include_directories(test_${folder} PRIVATE ${PROJECT_SOURCE_DIR}/test)
 endfunction()
 
-foreach(folder config trajectory world camouflage safety perception fleet control base simulation topology optimization planning)
+foreach(folder config trajectory world camouflage safety perception fleet control base simulation topology optimization planning stack)
   mocha_gtest(${folder})
 endforeach()
 
-# The scenes and the judge of scripts/bench replan, and the fleet of scripts/bench table3, fleet_delay and fleet_scale.
-target_sources(test_planning PRIVATE test/benchmarks/replan_scene.cpp test/benchmarks/space_time_solver.cpp
-  test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp test/benchmarks/one_phase.cpp
-  test/benchmarks/benchmark_world.cpp)
+# The scenes and the judge of scripts/bench replan; the planners' closed loop is made of the stack.
+target_sources(test_planning PRIVATE test/benchmarks/replan_scene.cpp test/benchmarks/space_time_solver.cpp)
+target_link_libraries(test_planning mocha_stack)
+
+# The fleet of scripts/bench table3, fleet_delay and fleet_scale.
+target_sources(test_stack PRIVATE test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp
+  test/benchmarks/one_phase.cpp test/benchmarks/benchmark_world.cpp)
 
 # Simulated drives for the localiser.
 target_link_libraries(test_perception mocha_simulation)

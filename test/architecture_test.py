@@ -56,6 +56,7 @@ ROOMS = {
     "ros_bridge/rviz": "Drawings for rviz.",
     "safety": "What may be driven: one proof a file.",
     "simulation": "Vehicles, lidars, bases, networks and moving things without a robot.",
+    "stack": "The brain of one robot without ROS: its planners and promises wired, and what their parameters must keep to work together.",
     "topology/paths": "The cheapest paths of several homotopy classes, and shortcuts that keep the class.",
     "topology/roadmaps": "Graphs that stand for the free space.",
     "topology/signatures": "What tells homotopy classes apart, and how long a path of one is at least.",
@@ -69,7 +70,7 @@ MOST_LINES = 320  # of a source
 
 # Includes between rooms of planning/ that point up or aside, and sources that are too long: each to be removed.
 KNOWN_INCLUDES = {("planning/global/global_planner.cpp", "planning/maneuvers/back_out.h")}
-KNOWN_LONG = {"fleet/protocol/commitment_protocol.cpp", "nodes/trajectory_broadcaster_node.cpp"}
+KNOWN_LONG = set()
 
 # Headers of a library, and the paths below src/ that may include them.
 LIBRARIES = {
@@ -92,6 +93,7 @@ NOT_IN_CORE = {
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 READ = re.compile(r"\.(?:number|integer|flag|text)\(([^()]*)\)")
+NEIGHBOURS = re.compile(r'neighbour_parameters\("(\w+)"\)\s*\.(?:number|integer|flag|text)\("(\w+)"\)')
 SCHEMA = re.compile(r'read_parameters\([^;]*?"(\w+)"\s*\)')
 
 
@@ -162,10 +164,14 @@ def read_names(text):
 
 
 def parameter_faults(root):
-    schemas = {path.stem: set(yaml.safe_load(path.read_text())) for path in (root / "config").glob("*.yaml")}
+    schemas = {path.stem: {name for name, entry in yaml.safe_load(path.read_text()).items() if "gone" not in entry}
+               for path in (root / "config").glob("*.yaml")}
     read = {schema: set() for schema in schemas}
     for path, text in sources(root):
-        names = read_names(text)
+        for schema, name in NEIGHBOURS.findall(text):
+            if name not in schemas.get(schema, set()):
+                yield f"{path}: `{name}` is not declared in config/{schema}.yaml"
+        names = read_names(NEIGHBOURS.sub("", text))
         named = SCHEMA.search(text) if path.startswith("nodes/") else None
         # A file of the core may serve several nodes: its parameters stand together in at least one schema.
         fitting = [named.group(1)] if named else [schema for schema in schemas if names <= schemas[schema]]
@@ -247,6 +253,8 @@ class Architecture(unittest.TestCase):
             ("src/simulation/a.cpp", "std::random_device seed;", "without a seed"),
             ("src/nodes/a_node.cpp", 'read_parameters(ros::NodeHandle("~"), "a"); values.number("gian")', "`gian` is not"),
             ("src/planning/local/a.cpp", 'values.number("gian")', "no schema"),
+            ("src/nodes/a_node.cpp", 'neighbour_parameters("a").number("gian")', "`gian` is not declared in config/a.yaml"),
+            ("config/a.yaml", 'gain: {gone: "it follows from size"}', "no schema"),
             ("config/a.yaml", "unused: {default: 1.0}", "`unused` is read nowhere"),
             ("config/a.yaml", "gain: {default: 1.0, live: true}", "does not serve them"),
             ("src/nodes/a_node.cpp", "LiveParameters parameters_;", "marks none"),

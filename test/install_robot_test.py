@@ -79,7 +79,7 @@ class InstallRobot(unittest.TestCase):
         config = self.launched()
         values = {name: parameter.value for name, parameter in config.params.items()}
         self.assertEqual([values["/ugv5/base_driver/" + name] for name in ("port", "robot_model", "robot_type")], ["/dev/ttyUSB1", "rover", 3])
-        self.assertEqual((values["/ugv5/scan_localizer/map_file"], values["/ugv5/global_planner/priority"]), (map_file, -2))
+        self.assertEqual((values["/ugv5/scan_localizer/map_file"], values["/ugv5/trajectory_broadcaster/priority"]), (map_file, -2))
         broadcaster = "/ugv5/trajectory_broadcaster/"
         self.assertEqual((values[broadcaster + "fleet_key"], values[broadcaster + "lcm_url"]), (key, ""))
         nodes = {node.name: node for node in config.nodes}

@@ -121,17 +121,6 @@ Parameter read_declaration(const YAML::Node& node, const std::string& where) {
   return parameter;
 }
 
-Parameter& find(std::map<std::string, Parameter>& parameters, const std::string& name,
-                const std::string& source) {
-  const auto found = parameters.find(name);
-  if (found != parameters.end()) return found->second;
-  for (const auto& [now, parameter] : parameters) {
-    if (parameter.was == name)
-      throw ParameterError(source + "parameter `" + name + "` is called `" + now + "` now");
-  }
-  throw ParameterError(source + "unknown parameter `" + name + "`");
-}
-
 }  // namespace
 
 ParameterTable ParameterTable::from_schema(const std::string& schema_path) {
@@ -139,9 +128,26 @@ ParameterTable ParameterTable::from_schema(const std::string& schema_path) {
   const YAML::Node schema = read_map(schema_path);
   for (const auto& item : schema) {
     const auto name = item.first.as<std::string>();
-    table.parameters_[name] = read_declaration(item.second, schema_path + ": " + name);
+    if (item.second.IsMap() && item.second["gone"])
+      table.gone_[name] = item.second["gone"].as<std::string>();
+    else
+      table.parameters_[name] = read_declaration(item.second, schema_path + ": " + name);
   }
   return table;
+}
+
+Parameter& ParameterTable::find(std::map<std::string, Parameter>& parameters,
+                                const std::string& name, const std::string& source) const {
+  const auto found = parameters.find(name);
+  if (found != parameters.end()) return found->second;
+  const auto gone = gone_.find(name);
+  if (gone != gone_.end())
+    throw ParameterError(source + "parameter `" + name + "` is gone: " + gone->second);
+  for (const auto& [now, parameter] : parameters) {
+    if (parameter.was == name)
+      throw ParameterError(source + "parameter `" + name + "` is called `" + now + "` now");
+  }
+  throw ParameterError(source + "unknown parameter `" + name + "`");
 }
 
 void ParameterTable::assign(const YAML::Node& values, const std::string& source) {

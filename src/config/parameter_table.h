@@ -40,6 +40,7 @@ struct Parameter {
 /// cell.}`. The type is that of the default: true/false, integer, number or text; text may list
 /// `choices: [...]`. A default of `1.0` is a number, `1` an integer. `live: true` marks what may
 /// change while the node runs. `was: edge` is a former name, which is refused with the new one.
+/// `edge: {gone: follows from m}` is a parameter that is no more, and refused with that text.
 class ParameterTable {
  public:
   /// Reads a schema; every value is its default. Throws ParameterError naming file and key.
@@ -70,7 +71,11 @@ class ParameterTable {
   template <typename T>
   const T& get(const std::string& name) const;
 
+  Parameter& find(std::map<std::string, Parameter>& parameters, const std::string& name,
+                  const std::string& source) const;
+
   std::map<std::string, Parameter> parameters_;
+  std::map<std::string, std::string> gone_;  // by name: why
 };
 
 }  // namespace mocha

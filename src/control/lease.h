@@ -17,6 +17,12 @@ inline bool operator==(const MotionId& a, const MotionId& b) {
   return a.epoch == b.epoch && a.sequence == b.sequence;
 }
 
+/// Until when (absolute) a motion may be driven.
+struct Lease {
+  MotionId id;
+  double end_s = 0.0;
+};
+
 /// What a robot does on `motion` once its lease has ended: from `lease_end_s` on (absolute; at most
 /// 0.1 s before `now_s`, where that was noticed late) it brakes along its path at `deceleration`
 /// [m/s^2]. A turn in place is broken off, and what has not begun does not begin. Throws

@@ -8,8 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "planning/executive/goal_executive.h"
-#include "planning/global/global_planner.h"
 #include "ros_bridge/inputs/committed_trajectory_source.h"
 #include "ros_bridge/inputs/emergency_stop_listener.h"
 #include "ros_bridge/inputs/goal_inputs.h"
@@ -26,6 +24,7 @@
 #include "ros_bridge/runtime/run_node.h"
 #include "ros_bridge/runtime/step_loop.h"
 #include "ros_bridge/runtime/transport.h"
+#include "stack/goal_planning.h"
 #include "topology/static_map/grid_static_map.h"
 
 namespace mocha {
@@ -40,10 +39,9 @@ class GlobalPlannerNode {
       : identity_(robot_identity()),
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
         values_(values),
-        planner_(std::make_unique<GlobalPlanner>(model_, PlannerOptions::from(values))),
-        executive_(GoalExecutiveOptions::from(values), model_.braking_deceleration(),
-                   Yielding({false, values.integer("priority"), identity_.name}, model_,
-                            PlannerOptions::from(values))),
+        planning_(model_, values,
+                  {false, neighbour_parameters("trajectory_broadcaster").integer("priority"),
+                   identity_.name}),
         stop_(node),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
@@ -62,7 +60,8 @@ class GlobalPlannerNode {
         inputs_(node, identity_, pose_.transforms(),
                 {[this](std::deque<Goal> goals) { take(std::move(goals)); },
                  [this](const std::string& why) { stop(why); }, [this] { return stop_.reason(); }}),
-        parameters_(values_, [this](const ParameterTable& changed) { apply(changed); }),
+        parameters_(values_,
+                    [this](const ParameterTable& changed) { planning_.set_options(changed); }),
         loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }) {
     diagnostics_.setHardwareID(identity_.name);
     diagnostics_.add("planning", this, &GlobalPlannerNode::diagnose);
@@ -87,11 +86,6 @@ class GlobalPlannerNode {
 
   void take(std::deque<Goal> goals) { executive_.take(std::move(goals), now_.toSec()); }
 
-  void apply(const ParameterTable& values) {
-    planner_ = std::make_unique<GlobalPlanner>(model_, PlannerOptions::from(values));
-    executive_.set_options(GoalExecutiveOptions::from(values), PlannerOptions::from(values));
-  }
-
   // --- what happens when ---
 
   void step(ros::Time now) {
@@ -104,39 +98,27 @@ class GlobalPlannerNode {
       return;
     }
     if (!executive_.idle()) inputs_.feedback(*reading.state, now);
-    PlannerInterface planner;
-    if (map_.available()) {
-      planner.plan = [this](const PlanQuery& query) { return plan(query); };
-      planner.back_out = [this](const PlanQuery& query) {
-        return planner_->back_out(query, scene_of(query));
-      };
-      planner.scene = [this](const std::vector<Vector2>& places) { return scene(places); };
-    }
-    show(executive_.step(now.toSec(), *reading.state, committed_.motion(), planner));
+    show(planning_.step(now.toSec(), *reading.state, committed_.motion(), scenes()));
   }
 
-  /// When stopped for an emergency, the robot forgets where it was going: it does not set off again
-  /// by itself.
   void heed_stop() {
-    const bool was_reset = stopped_ && !stop_.stopped();
-    stopped_ = stop_.stopped();
-    if (stop_.stops() != heeded_) {
-      heeded_ = stop_.stops();
-      const std::string why = stopped_ ? stop_.reason() : "emergency stop, which is reset by now";
-      executive_.drop();
+    using StopNews = GoalPlanning::StopNews;
+    const StopNews news = planning_.heed(stop_.stopped(), stop_.stops());
+    if (news == StopNews::kStopped) {
+      const std::string why =
+          stop_.stopped() ? stop_.reason() : "emergency stop, which is reset by now";
       inputs_.finish(false, why);
       outputs_.adopt(Motion(), now_);
       report(PlanReason::kEmergencyStop, {}, why);
+    } else if (news == StopNews::kReset) {
+      report(PlanReason::kNoGoal, {}, "the emergency stop is reset");
     }
-    if (was_reset) report(PlanReason::kNoGoal, {}, "the emergency stop is reset");
   }
 
-  PlanResult plan(const PlanQuery& query) {
-    return planner_->plan(query, scene_of(query), [] { return false; });
-  }
-
-  PlanningScene scene_of(const PlanQuery& query) {
-    return scene({query.committed.at(query.start_time_s).pose.position, query.goal});
+  /// Empty while there is no map.
+  SceneSource scenes() {
+    if (!map_.available()) return {};
+    return [this](const std::vector<Vector2>& places) { return scene(places); };
   }
 
   PlanningScene scene(const std::vector<Vector2>& places) {
@@ -186,7 +168,7 @@ class GlobalPlannerNode {
           Motion(now_.toSec(), {StandPhase{{start->position, start->yaw_rad.value_or(0.0)}, 0.1}});
       query.trail.clear();
     }
-    return plan(query);
+    return planning_.plan(query, scenes());
   }
 
   // --- what goes out ---
@@ -230,12 +212,13 @@ class GlobalPlannerNode {
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
-    const bool fine = !stopped_ && (executive_.idle() || outputs_.reason() == PlanReason::kSolved);
+    const bool fine =
+        !planning_.stopped() && (executive_.idle() || outputs_.reason() == PlanReason::kSolved);
     const std::string doing = executive_.idle()
                                   ? to_text(executive_.state())
                                   : to_text(outputs_.reason()) + (": " + outputs_.text());
     status.summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
-                   stopped_ ? stop_.reason() : doing);
+                   planning_.stopped() ? stop_.reason() : doing);
     status.add("state", to_text(executive_.state()));
     status.add("plans made", plans_made_);
     status.add("plans adopted", outputs_.adopted());
@@ -250,11 +233,9 @@ class GlobalPlannerNode {
   const RobotIdentity identity_;
   const RobotModel model_;
   ParameterTable values_;
-  std::unique_ptr<const GlobalPlanner> planner_;
-  GoalExecutive executive_;
+  GoalPlanning planning_;
+  GoalExecutive& executive_ = planning_.executive();
   EmergencyStopListener stop_;
-  int heeded_ = 0;  // of its stops
-  bool stopped_ = false;
   PoseSource pose_;
   MapSource map_;
   PeerSource peers_;

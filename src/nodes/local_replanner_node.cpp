@@ -6,17 +6,15 @@
 #include <mocha_ugv/Trajectory.h>
 #include <ros/ros.h>
 
-#include <cstdio>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
-#include "planning/replanner/local_replanner.h"
 #include "ros_bridge/inputs/emergency_stop_listener.h"
 #include "ros_bridge/inputs/map_source.h"
 #include "ros_bridge/inputs/peer_source.h"
 #include "ros_bridge/inputs/pose_source.h"
 #include "ros_bridge/inputs/prediction_source.h"
+#include "ros_bridge/messages/committed_trajectory_conversions.h"
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/status_conversions.h"
 #include "ros_bridge/outputs/local_outputs.h"
@@ -25,19 +23,14 @@
 #include "ros_bridge/runtime/run_node.h"
 #include "ros_bridge/runtime/step_loop.h"
 #include "ros_bridge/runtime/transport.h"
-#include "safety/margin_budget.h"
+#include "stack/local_replanning.h"
 #include "topology/static_map/grid_static_map.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {
 
 constexpr double kMapBorder_m = 2.0;
-
-std::string seconds(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2f s", value);
-  return text;
-}
 
 /// Promises what the global planner planned and swerves around what moves: plans and predictions
 /// in, proposals and leases out.
@@ -46,12 +39,11 @@ class LocalReplannerNode {
   LocalReplannerNode(ros::NodeHandle& node, const ParameterTable& values)
       : identity_(robot_identity()),
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
-        lease_(values.number("lease")),
-        max_map_age_s_(values.number("max_map_age")),
-        max_fleet_age_s_(values.number("max_fleet_age")),
         max_prediction_age_s_(values.number("max_prediction_age")),
         prediction_horizon_(values.number("prediction_horizon")),
-        replanner_(model_, LocalReplannerOptions::from(values, model_), LocalOptions::from(values)),
+        replanning_(model_, values,
+                    {ros::names::resolve("map"), ros::names::resolve("fleet/trajectories"),
+                     ros::names::resolve("predicted_obstacles")}),
         stop_(node),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
@@ -78,7 +70,7 @@ class LocalReplannerNode {
  private:
   void on_plan(const mocha_ugv::Trajectory& message) {
     try {
-      replanner_.set_plan(message.phases.empty() ? Motion() : from_message(message));
+      replanning_.set_plan(message.phases.empty() ? Motion() : from_message(message));
     } catch (const std::exception& error) {
       refuse("global_trajectory", error.what());
     }
@@ -86,24 +78,15 @@ class LocalReplannerNode {
 
   void on_committed(const mocha_ugv::Trajectory& message) {
     try {
-      replanner_.set_committed(message.sequence, from_message(message));
-      epoch_ = message.epoch;
-      committed_sequence_ = message.sequence;
+      replanning_.set_committed({message.epoch, message.sequence}, from_message(message));
     } catch (const std::exception& error) {
       refuse("committed_trajectory", error.what());
     }
   }
 
   void on_settlement(const mocha_ugv::Settlement& settlement) {
-    using mocha_ugv::Settlement;
-    if (settlement.result == Settlement::SETTLED) return;
-    if (settlement.result == Settlement::BREACHED) {
-      step(ros::Time::now());
-      return;
-    }
-    replanner_.on_refusal(settlement.sequence);
-    last_refusal_ = settlement.message;
-    ++refused_proposals_;
+    replanning_.hear(answer_from_message(settlement));
+    if (replanning_.step_is_due()) step(ros::Time::now());
   }
 
   void refuse(const std::string& topic, const std::string& why) {
@@ -114,31 +97,33 @@ class LocalReplannerNode {
   void step(ros::Time now) {
     now_ = now;
     diagnostics_.update();
-    const PoseReading reading = pose_.read(now);
-    if (stop_.stopped()) {
-      halt(now, reading);
-      return;
-    }
-    const auto [reason, missing] = what_is_missing(now, reading);
-    if (reason != PlanReason::kSolved) {
+    const auto output = replanning_.step(now.toSec(), knowledge(now));
+    if (output.scene)
+      local_.show(output, replanning_.replanner().plan(), output.scene->confident, now);
+    else
       local_.clear(now);
-      const auto output = replanner_.stop_blind(now.toSec());
-      if (output.proposal) propose(now, *output.proposal);
-      report(now, output.row, reason, {}, missing);
-      return;
-    }
-    const LocalScene scene = this->scene(now, reading.state->pose.position);
-    const auto output = replanner_.step(now.toSec(), *reading.state, scene);
-    local_.show(output, replanner_.plan(), scene.confident, now);
     if (output.row == Row::kLastResort)
       ROS_ERROR_THROTTLE(1.0, "%s: %s", identity_.name.c_str(), output.message.c_str());
     if (output.proposal) propose(now, *output.proposal);
-    if (output.renew_lease) renew(now);
-    report(now, output.row, output.reason, output.violation, output.message);
+    if (output.lease) renew(now, *output.lease);
+    report(now, output);
     if (output.request_plan) {
       requests_.publish(
           to_message(output.reason, output.violation, output.message, identity_.map_frame, now));
     }
+  }
+
+  LocalKnowledge knowledge(ros::Time now) {
+    const PoseReading reading = pose_.read(now);
+    LocalKnowledge known;
+    if (stop_.stopped()) known.stop = stop_.reason();
+    known.measured = reading.state;
+    known.no_pose = reading.missing;
+    known.map_age_s = map_.age_s(now);
+    known.fleet_age_s = peers_.age_s(now);
+    known.prediction_age_s = predictions_.age_s(now);
+    known.scene = [this, now](const Vector2& here) { return scene(now, here); };
+    return known;
   }
 
   LocalScene scene(ros::Time now, const Vector2& here) {
@@ -151,41 +136,6 @@ class LocalReplannerNode {
     scene.likely = predictions_.expected();
     scene.predicted_until_s = (now + prediction_horizon_).toSec();
     return scene;
-  }
-
-  /// Needs no map and no word of the others: what the robot does is promised, whatever it meets.
-  void halt(ros::Time now, const PoseReading& reading) {
-    local_.clear(now);
-    if (reading.state) {
-      const auto output = replanner_.halt(now.toSec(), *reading.state);
-      if (output.proposal) propose(now, *output.proposal);
-    }
-    report(now, Row::kEmergencyStop, PlanReason::kEmergencyStop, {},
-           reading.state ? stop_.reason() : stop_.reason() + "; " + reading.missing);
-  }
-
-  /// What nothing can be proved without, as reason and text; kSolved where all is there.
-  std::pair<PlanReason, std::string> what_is_missing(ros::Time now,
-                                                     const PoseReading& reading) const {
-    if (!reading.state) return {PlanReason::kNoPose, reading.missing};
-    if (!map_.available()) {
-      return {PlanReason::kNoMap, "map: none on " + ros::names::resolve("map") + " yet"};
-    }
-    if (map_.age_s(now) > max_map_age_s_) {
-      return {PlanReason::kNoMap, "map: the newest on " + ros::names::resolve("map") + " is " +
-                                      seconds(map_.age_s(now)) + " old"};
-    }
-    if (peers_.age_s(now) > max_fleet_age_s_) {
-      return {PlanReason::kBraking, "fleet: no word from trajectory_broadcaster on " +
-                                        ros::names::resolve("fleet/trajectories") +
-                                        " for more than " + seconds(max_fleet_age_s_)};
-    }
-    if (predictions_.age_s(now) > max_prediction_age_s_) {
-      return {PlanReason::kBraking, "people: no usable word from perception on " +
-                                        ros::names::resolve("predicted_obstacles") +
-                                        " for more than " + seconds(max_prediction_age_s_)};
-    }
-    return {PlanReason::kSolved, ""};
   }
 
   void propose(ros::Time now, const ProposedMotion& proposal) {
@@ -201,26 +151,25 @@ class LocalReplannerNode {
     proposals_.publish(message);
   }
 
-  void renew(ros::Time now) {
+  void renew(ros::Time now, const Lease& renewed) {
     mocha_ugv::Lease lease;
     lease.header.stamp = now;
-    lease.epoch = epoch_;
-    lease.sequence = committed_sequence_;
-    lease.valid_until = now + lease_;
+    lease.epoch = renewed.id.epoch;
+    lease.sequence = renewed.id.sequence;
+    lease.valid_until = ros::Time(renewed.end_s);
     leases_.publish(lease);
   }
 
-  void report(ros::Time now, Row row, PlanReason reason, const Violation& violation,
-              const std::string& text) {
-    const bool news = row != row_ || reason != reason_ || text != text_;
-    row_ = row;
-    reason_ = reason;
-    text_ = text;
+  void report(ros::Time now, const LocalReplanner::Output& output) {
+    const bool news = output.row != row_ || output.reason != reason_ || output.message != text_;
+    row_ = output.row;
+    reason_ = output.reason;
+    text_ = output.message;
     if (!news) return;
     statuses_.publish(
-        to_message(row, to_message(reason, violation, text, identity_.map_frame, now)));
-    if (!text.empty())
-      ROS_INFO_THROTTLE(1.0, "%s: %s: %s", identity_.name.c_str(), to_text(reason), text.c_str());
+        to_message(row_, to_message(reason_, output.violation, text_, identity_.map_frame, now)));
+    if (!text_.empty())
+      ROS_INFO_THROTTLE(1.0, "%s: %s: %s", identity_.name.c_str(), to_text(reason_), text_.c_str());
   }
 
   void diagnose_detours(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -233,7 +182,7 @@ class LocalReplannerNode {
                          : "no usable word on predicted_obstacles");
     const LocalOutputs::Counts& counts = local_.counts();
     status.add("things predicted", things);
-    status.add("age of the predictions", seconds(age_s));
+    status.addf("age of the predictions", "%.2f s", age_s);
     status.add("predictions refused", predictions_.refused());
     status.add("last refusal of predictions", predictions_.refusal());
     status.add("local plans made", counts.made);
@@ -241,7 +190,8 @@ class LocalReplannerNode {
     status.add("local plans followed", counts.followed);
     status.add("switches of class while swerving", counts.switches);
     status.add("last local plan", local_.message());
-    status.add("times no certified motion existed", replanner_.count(Row::kLastResort));
+    status.add("times no certified motion existed",
+               replanning_.replanner().count(Row::kLastResort));
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -253,9 +203,9 @@ class LocalReplannerNode {
                                                         : DiagnosticStatus::WARN;
     status.summary(level, text_.empty() ? to_text(reason_) : text_);
     status.add("doing", to_text(row_));
-    status.add("committed sequence", committed_sequence_);
-    status.add("proposals refused", refused_proposals_);
-    status.add("last refusal", last_refusal_);
+    status.add("committed sequence", replanning_.committed_id().sequence);
+    status.add("proposals refused", replanning_.refused());
+    status.add("last refusal", replanning_.refusal());
     status.add("messages refused", refused_messages_ + map_.refused() + peers_.refused() +
                                        pose_.refused() + predictions_.refused());
     for (const auto& [name, value] : MarginBudget::of(model_).listed()) status.add(name, value);
@@ -263,12 +213,9 @@ class LocalReplannerNode {
 
   const RobotIdentity identity_;
   const RobotModel model_;
-  const ros::Duration lease_;
-  const double max_map_age_s_;
-  const double max_fleet_age_s_;
   const double max_prediction_age_s_;
   const ros::Duration prediction_horizon_;
-  LocalReplanner replanner_;
+  LocalReplanning replanning_;
   EmergencyStopListener stop_;
   PoseSource pose_;
   MapSource map_;
@@ -284,11 +231,7 @@ class LocalReplannerNode {
   ros::Subscriber settlements_;
   diagnostic_updater::Updater diagnostics_;
   ros::Time now_;
-  std::uint32_t epoch_ = 0;
-  std::uint32_t committed_sequence_ = 0;
-  int refused_proposals_ = 0;
   int refused_messages_ = 0;
-  std::string last_refusal_;
   Row row_ = Row::kKeep;
   PlanReason reason_ = PlanReason::kNoPose;
   std::string text_ = "starting";

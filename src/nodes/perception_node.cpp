@@ -32,6 +32,7 @@
 #include "ros_bridge/runtime/run_node.h"
 #include "ros_bridge/runtime/step_loop.h"
 #include "ros_bridge/runtime/transport.h"
+#include "stack/timing.h"
 #include "world/robot_model.h"
 #include "world/world_file.h"
 
@@ -39,7 +40,6 @@ namespace mocha {
 namespace {
 
 constexpr double kPeriod_s = 0.02;
-constexpr double kFreshStamp_s = 0.5;  // a map much older than this: perception is dead
 
 /// Scans and clouds in, occupancy and moving things out.
 class PerceptionNode {
@@ -158,7 +158,7 @@ class PerceptionNode {
   void publish_map() {
     const double since_s = (now_ - published_).toSec();
     const bool changed = map_.version() != published_version_;
-    const bool fresh = stamp_ > map_stamp_ && since_s >= kFreshStamp_s;
+    const bool fresh = stamp_ > map_stamp_ && since_s >= kMapPeriod_s;
     if (!(changed || fresh) || since_s < 1.0 / values_.number("map_rate")) return;
     nav_msgs::OccupancyGrid message;
     map_stamp_ = stamp_.isZero() ? now_ : stamp_;

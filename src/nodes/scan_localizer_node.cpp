@@ -10,6 +10,7 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,8 +32,24 @@ namespace {
 
 constexpr double kPeriod_s = 0.02;
 constexpr double kMemoryPeriod_s = 2.0;
-const std::string kMemory = "last_known_pose";  // beside the node: its own parameters are checked
+const std::string kMemory = "last_known_pose";
 const Eigen::Vector3d kMemorySigma(0.5, 0.5, 0.3);  // what may have happened meanwhile [m, m, rad]
+
+/// "x y yaw" [m, m, rad], as to_text() writes it.
+Pose pose_from_text(const std::string& text) {
+  std::istringstream words(text);
+  Pose pose;
+  std::string rest;
+  if (!(words >> pose.position.x() >> pose.position.y() >> pose.yaw_rad) || words >> rest)
+    throw ParameterError(kMemory + " = " + text + ": expected x, y and yaw, such as 1.2 0.5 -1.57");
+  return pose;
+}
+
+std::string to_text(const Pose& pose) {
+  std::ostringstream words;
+  words << pose.position.x() << " " << pose.position.y() << " " << pose.yaw_rad;
+  return words.str();
+}
 
 Pose planar(const Eigen::Isometry3d& pose) {
   return {pose.translation().head<2>(), std::atan2(pose(1, 0), pose(0, 0))};
@@ -77,18 +94,23 @@ class ScanLocalizerNode {
     }
     localizer_.set_map(
         load_saved_slice(path, values.number("min_height"), values.number("max_height")));
-    remember();
+    expect(values.text("last_known_pose"));
   }
 
-  /// Where this node, before it died, knew the robot to be.
-  void remember() {
-    std::vector<double> pose;
-    if (!node_.getParam(kMemory, pose) || pose.size() != 3) return;
-    const PoseEstimate known{{{pose[0], pose[1]}, pose[2]},
+  void expect(const std::string& last_known) {
+    if (last_known.empty()) return;
+    const PoseEstimate known{pose_from_text(last_known),
                              kMemorySigma.cwiseProduct(kMemorySigma).asDiagonal()};
     const std::string fault = fault_of(known);
-    if (!fault.empty()) return refusals_.add(kMemory + ": " + fault);
+    if (!fault.empty()) throw ParameterError("last_known_pose = " + last_known + ": " + fault);
     localizer_.expect(known);
+  }
+
+  /// This node has it again when it is started again.
+  void remember(const Pose& pose) {
+    if (mapping_ || (now_ - remembered_).toSec() < kMemoryPeriod_s) return;
+    remembered_ = now_;
+    private_node_.setParam(kMemory, to_text(pose));
   }
 
   void on_scan(const sensor_msgs::LaserScan& scan) {
@@ -169,11 +191,7 @@ class ScanLocalizerNode {
     if (localization.state != Localization::State::kLocalized) return;
     transform_.sendTransform(map_to_odom(localization, robot_));
     poses_.publish(pose_message(localization, robot_));
-    if (mapping_ || (now_ - remembered_).toSec() < kMemoryPeriod_s) return;
-    remembered_ = now_;
-    const Pose& pose = localization.base.pose;
-    node_.setParam(kMemory,
-                   std::vector<double>{pose.position.x(), pose.position.y(), pose.yaw_rad});
+    remember(localization.base.pose);
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -202,6 +220,7 @@ class ScanLocalizerNode {
   }
 
   ros::NodeHandle node_;
+  ros::NodeHandle private_node_{"~"};
   const RobotIdentity robot_;
   const RobotModel model_;
   const bool mapping_;

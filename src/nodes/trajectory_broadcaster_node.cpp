@@ -4,73 +4,31 @@
 #include <ros/ros.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <map>
-#include <memory>
 #include <stdexcept>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "control/lease.h"
 #include "fleet/protocol/commitment_protocol.h"
 #include "fleet/storage/epoch_store.h"
-#include "fleet/wire/wire_format.h"
 #include "ros_bridge/inputs/emergency_stop_controls.h"
 #include "ros_bridge/messages/committed_trajectory_conversions.h"
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/yield_request_conversions.h"
 #include "ros_bridge/network/fleet_network.h"
 #include "ros_bridge/outputs/peer_diagnostics.h"
+#include "ros_bridge/runtime/memory_file.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/robot_identity.h"
 #include "ros_bridge/runtime/run_node.h"
 #include "ros_bridge/runtime/step_loop.h"
 #include "ros_bridge/runtime/transport.h"
 #include "ros_bridge/rviz/markers.h"
-#include "safety/margin_budget.h"
+#include "stack/commitment_keeping.h"
 #include "world/robot_model.h"
 
 namespace mocha {
 namespace {
 
 constexpr double kPeriod_s = 0.02;
-constexpr double kFleetPeriod_s = 0.5;
-
-std::string epoch_file(const std::string& parameter, const std::string& robot) {
-  if (!parameter.empty()) return parameter;
-  const char* ros_home = std::getenv("ROS_HOME");
-  const char* home = std::getenv("HOME");
-  if (ros_home == nullptr && home == nullptr) {
-    throw std::runtime_error("epoch_file is empty, and there is neither ROS_HOME nor HOME");
-  }
-  const std::string folder = ros_home != nullptr ? ros_home : std::string(home) + "/.ros";
-  return folder + "/mocha_ugv/" + robot + ".epoch";
-}
-
-/// Beside the file that counts the starts.
-std::string stop_file(const std::string& epochs) {
-  return std::filesystem::path(epochs).replace_extension(".stops").string();
-}
-
-CommitmentOptions commitment_settings(const ParameterTable& values, const std::string& robot,
-                                      const RobotModel& model, const std::string& epochs) {
-  const MarginBudget margins = MarginBudget::of(model);
-  CommitmentOptions options;
-  options.agent = robot;
-  options.priority = values.integer("priority");
-  options.delta_dc_s = values.number("delta_dc");
-  options.reach_timeout_s = values.number("reach_timeout");
-  options.peer_clearance_m = model.peer_clearance_m + margins.peer_margin_m();
-  options.stops = model.stop_options();
-  options.stop_clearance_m = margins.peer_margin_m();
-  options.heartbeat_period_s = 1.0 / values.number("heartbeat_rate");
-  options.resend_period_s = 1.0 / values.number("resend_rate");
-  options.clocks = {2.0 * margins.clock_s, values.number("max_clock_error")};
-  options.epoch = next_epoch(epochs);
-  return options;
-}
 
 const char* text_of(CommitmentProtocol::State state) {
   switch (state) {
@@ -103,9 +61,9 @@ class TrajectoryBroadcasterNode {
   TrajectoryBroadcasterNode(ros::NodeHandle& node, const ParameterTable& values)
       : robot_(robot_identity()),
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
-        initial_lease_(values.number("initial_lease")),
-        epoch_file_(epoch_file(values.text("epoch_file"), robot_.name)),
-        commitment_(commitment_settings(values, robot_.name, model_, epoch_file_)),
+        epoch_file_(memory_file(values.text("epoch_file"), robot_.name, ".epoch")),
+        commitment_(CommitmentOptions::from(values, model_, robot_.name, next_epoch(epoch_file_))),
+        keeping_(model_, neighbour_parameters("local_replanner").number("lease"), commitment_),
         committed_(node.advertise<mocha_ugv::Trajectory>("committed_trajectory", 10, true)),
         fleet_(node.advertise<mocha_ugv::FleetTrajectories>("fleet/trajectories", 10, true)),
         drawings_(node.advertise<visualization_msgs::MarkerArray>("motion_markers", 2, true)),
@@ -120,7 +78,7 @@ class TrajectoryBroadcasterNode {
                                  this, at_once())),
         network_(node, robot_, {values.text("lcm_url"), values.text("fleet_key")},
                  [this](const FleetMessage& message) { hear(message); }),
-        stop_(node, robot_, commitment_.options().epoch, stop_file(epoch_file_),
+        stop_(node, robot_, commitment_.epoch(), beside(epoch_file_, ".stops"),
               {[this](const FleetStops& stops) { network_.send(stops, now_); },
                [this] { draw(drawn_); }}),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
@@ -129,7 +87,7 @@ class TrajectoryBroadcasterNode {
     diagnostics_.add("emergency stop", &stop_, &EmergencyStopControls::diagnose);
     diagnostics_.add("fleet network", this, &TrajectoryBroadcasterNode::diagnose_network);
     draw(Motion());
-    ROS_INFO("%s: epoch %u", robot_.name.c_str(), commitment_.options().epoch);
+    ROS_INFO("%s: epoch %u", robot_.name.c_str(), commitment_.epoch());
   }
 
  private:
@@ -139,37 +97,29 @@ class TrajectoryBroadcasterNode {
       if (message.agent != robot_.name) {
         throw std::invalid_argument("is of '" + message.agent + "'");
       }
-      // As everybody else will hear it.
-      const CommittedTrajectory wish =
-          quantised(trajectory_from_message(message, robot_.map_frame));
-      if (message.sequence <= stop_sequence_) {
-        throw std::invalid_argument("was made before the robot braked, as its lease had ended");
-      }
-      newest_sequence_ = std::max(newest_sequence_, message.sequence);
-      const Proposal proposal{message.sequence, wish.footprint_radius_m, wish.motion};
-      if (wish.state == TrajectoryState::kProposed && stop_.stopped()) {
-        throw std::invalid_argument(stop_.message());
-      }
-      if (wish.state == TrajectoryState::kProposed) {
-        apply(commitment_.propose(proposal, now_.toSec()));
-      } else if (wish.state == TrajectoryState::kEmergency) {
-        apply(commitment_.brake(proposal, now_.toSec()));
-      } else {
-        throw std::invalid_argument("is neither PROPOSED nor EMERGENCY");
-      }
+      apply(keeping_.propose(message.sequence, trajectory_from_message(message, robot_.map_frame),
+                             now_.toSec(), stop_.stopped() ? stop_.message() : ""));
     } catch (const std::invalid_argument& error) {
-      ++refused_;
-      refusal_ = error.what();
-      ROS_WARN_THROTTLE(1.0, "Refused a message on proposed_trajectory: %s", error.what());
-      mocha_ugv::Settlement settlement;
-      settlement.header.stamp = now_;
-      settlement.header.frame_id = robot_.map_frame;
-      settlement.result = mocha_ugv::Settlement::INVALID;
-      settlement.epoch = commitment_.options().epoch;
-      settlement.sequence = message.sequence;
-      settlement.message = error.what();
-      settlements_.publish(settlement);
+      refuse("proposed_trajectory", error.what());
+      answer_invalid(message.sequence, error.what());
     }
+  }
+
+  void answer_invalid(std::uint32_t sequence, const std::string& why) {
+    mocha_ugv::Settlement settlement;
+    settlement.header.stamp = now_;
+    settlement.header.frame_id = robot_.map_frame;
+    settlement.result = mocha_ugv::Settlement::INVALID;
+    settlement.epoch = commitment_.epoch();
+    settlement.sequence = sequence;
+    settlement.message = why;
+    settlements_.publish(settlement);
+  }
+
+  void refuse(const std::string& topic, const std::string& why) {
+    ++refused_;
+    refusal_ = why;
+    ROS_WARN_THROTTLE(1.0, "Refused a message on %s: %s", topic.c_str(), why.c_str());
   }
 
   /// For all team-mates, who make nothing of one in another name.
@@ -180,17 +130,15 @@ class TrajectoryBroadcasterNode {
       if (request.agent != robot_.name) {
         throw std::invalid_argument("is of '" + request.agent + "'");
       }
-      request.epoch = commitment_.options().epoch;
+      request.epoch = commitment_.epoch();
       network_.send(request, now_);
     } catch (const std::invalid_argument& error) {
-      ++refused_;
-      refusal_ = error.what();
-      ROS_WARN_THROTTLE(1.0, "Refused a message on yield_request: %s", error.what());
+      refuse("yield_request", error.what());
     }
   }
 
   void on_lease(const mocha_ugv::Lease& message) {
-    lease_.renew({message.epoch, message.sequence}, message.valid_until.toSec());
+    keeping_.renew({{message.epoch, message.sequence}, message.valid_until.toSec()});
   }
 
   void hear(const FleetMessage& message) {
@@ -200,9 +148,9 @@ class TrajectoryBroadcasterNode {
     } else if (const auto* stops = std::get_if<FleetStops>(&message)) {
       stop_.hear(*stops, now_);
     } else if (const auto* trajectory = std::get_if<CommittedTrajectory>(&message)) {
-      apply(commitment_.receive(*trajectory, now_.toSec()));
+      apply(keeping_.receive(*trajectory, now_.toSec()));
     } else {
-      apply(commitment_.receive(std::get<Heartbeat>(message), now_.toSec()));
+      apply(keeping_.receive(std::get<Heartbeat>(message), now_.toSec()));
     }
   }
 
@@ -218,8 +166,7 @@ class TrajectoryBroadcasterNode {
   void step(ros::Time now) {
     if (!advance_clock(now)) return;
     stop_.step(now_);
-    stop_where_the_lease_ended();
-    apply(commitment_.tick(now_.toSec()));
+    apply(keeping_.tick(now_.toSec()));
     go_on_after_known_epoch();
     publish_fleet();
     diagnostics_.update();
@@ -228,31 +175,33 @@ class TrajectoryBroadcasterNode {
   /// Where the file that counts the starts was lost, the peers take this robot for its own past.
   void go_on_after_known_epoch() {
     const std::uint32_t known = commitment_.peers().known_epoch();
-    if (known <= commitment_.options().epoch) return;
+    if (known <= commitment_.epoch()) return;
     raise_epoch(epoch_file_, known);
     throw std::runtime_error("peers know epoch " + std::to_string(known) + " of this robot, but " +
-                             epoch_file_ + " said " + std::to_string(commitment_.options().epoch) +
+                             epoch_file_ + " said " + std::to_string(commitment_.epoch()) +
                              "; it is set right, and this node starts anew");
   }
 
-  void apply(const CommitmentActions& actions) {
-    for (const CommittedTrajectory& trajectory : actions.trajectories)
-      network_.send(trajectory, now_);
-    if (actions.heartbeat) network_.send(*actions.heartbeat, now_);
-    for (const CommitmentEvent& event : actions.events) report(event);
+  void apply(const CommitmentNews& news) {
+    if (news.lease_ended) {
+      ROS_WARN("%s: the lease of motion %u ended: brakes", robot_.name.c_str(), *news.lease_ended);
+    }
+    if (!news.unsaid.empty()) {
+      ROS_ERROR("%s: the stop cannot be said to the others: %s", robot_.name.c_str(),
+                news.unsaid.c_str());
+    }
+    for (const FleetMessage& message : news.messages) network_.send(message, now_);
+    for (const Settled& settled : news.settled) report(settled);
   }
 
-  void report(const CommitmentEvent& event) {
+  void report(const Settled& settled) {
     using Kind = CommitmentEvent::Kind;
-    mocha_ugv::Settlement settlement = settlement_of(event, robot_.map_frame, now_);
-    if (event.refusal != Refusal::kNone) ++refusals_[name_of(event.refusal)];
-    if (event.kind == Kind::kBreached) {
-      ++breaches_;
+    const mocha_ugv::Settlement settlement = settlement_of(settled, robot_.map_frame, now_);
+    if (settled.in_force) {
+      commit(*settled.in_force);
+    } else if (settled.event.kind == Kind::kBreached) {
       ROS_WARN("%s: %s", robot_.name.c_str(), settlement.message.c_str());
-      settlement.sequence = committed_sequence_;
       publish_fleet();  // what the replanner has to look at
-    } else if (event.kind == Kind::kSettled) {
-      commit(event);
     } else {
       ROS_INFO_THROTTLE(1.0, "%s: proposal %u: %s", robot_.name.c_str(), settlement.sequence,
                         settlement.message.c_str());
@@ -260,43 +209,17 @@ class TrajectoryBroadcasterNode {
     settlements_.publish(settlement);
   }
 
-  /// What is executed begins now: until the new motion starts, the one before it is in force.
-  void commit(const CommitmentEvent& event) {
-    CommittedTrajectory in_force = event.trajectory;
-    in_force.motion = commitment_.binding().composed(now_.toSec());
-    mocha_ugv::Trajectory committed = to_message(in_force, robot_.map_frame, now_);
-    committed.sequence = event.proposal.tag;
-    committed_sequence_ = event.proposal.tag;
+  void commit(const MotionInForce& in_force) {
+    mocha_ugv::Trajectory committed = to_message(in_force.trajectory, robot_.map_frame, now_);
+    committed.sequence = in_force.lease.id.sequence;
     committed_.publish(committed);
-    grant_first_lease(*in_force.motion);
-    draw(*in_force.motion);
-  }
-
-  void grant_first_lease(const Motion& motion) {
     mocha_ugv::Lease lease;
     lease.header.stamp = now_;
-    lease.epoch = commitment_.options().epoch;
-    lease.sequence = committed_sequence_;
-    lease.valid_until = now_ + initial_lease_;
+    lease.epoch = in_force.lease.id.epoch;
+    lease.sequence = in_force.lease.id.sequence;
+    lease.valid_until = ros::Time(in_force.lease.end_s);
     leases_out_.publish(lease);
-    lease_.commit({lease.epoch, lease.sequence}, motion, lease.valid_until.toSec());
-  }
-
-  /// The tracker brakes now: that is what is promised from now on. What the replanner proposed
-  /// before it hears so was made for another motion.
-  void stop_where_the_lease_ended() {
-    const auto stop = lease_.expire(now_.toSec(), model_.braking_deceleration());
-    if (!stop) return;
-    ++lease_stops_;
-    stop_sequence_ = ++newest_sequence_;
-    ROS_WARN("%s: the lease of motion %u ended: brakes", robot_.name.c_str(), committed_sequence_);
-    try {
-      const auto motion = std::make_shared<const Motion>(quantised(*stop));
-      const double radius_m = model_.footprint.circumscribed_radius_m();
-      apply(commitment_.brake({stop_sequence_, radius_m, motion}, now_.toSec()));
-    } catch (const std::invalid_argument& error) {
-      ROS_ERROR("%s: the stop cannot be said to the others: %s", robot_.name.c_str(), error.what());
-    }
+    draw(*in_force.trajectory.motion);
   }
 
   /// The robot, and what it drives.
@@ -310,39 +233,33 @@ class TrajectoryBroadcasterNode {
   }
 
   void publish_fleet() {
-    std::vector<TrajectoryId> news;
-    for (const auto& [name, peer] : commitment_.peers().peers()) {
-      for (const Reservation& reservation : peer.binding.reservations())
-        news.push_back(reservation.trajectory.id);
-    }
-    if (news == published_ && now_ < next_fleet_) return;
-    published_ = std::move(news);
-    next_fleet_ = now_ + ros::Duration(kFleetPeriod_s);
+    const auto news = keeping_.fleet_news(now_.toSec());
+    if (!news) return;
     mocha_ugv::FleetTrajectories fleet;
-    for (const auto& [name, peer] : commitment_.peers().peers()) {
-      for (const Reservation& part : peer.binding.parts(now_.toSec()))
-        fleet.trajectories.push_back(to_message(part.trajectory, robot_.map_frame, now_));
-    }
     fleet.header.stamp = now_;
     fleet.header.frame_id = robot_.map_frame;
+    for (const CommittedTrajectory& promise : *news)
+      fleet.trajectories.push_back(to_message(promise, robot_.map_frame, now_));
     fleet_.publish(fleet);
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
     status.summary(DiagnosticStatus::OK, text_of(commitment_.state()));
-    if (breaches_ > 0) {
+    const CommitmentKeeping::Counts& counts = keeping_.counts();
+    if (counts.breaches > 0) {
       status.mergeSummary(DiagnosticStatus::WARN, "peers broke promises that met ours");
     }
-    status.add("epoch", commitment_.options().epoch);
+    status.add("epoch", commitment_.epoch());
     if (!commitment_.binding().empty()) {
       status.add("binding sequence", commitment_.binding().newest().id.sequence);
     }
-    status.addf("lease remaining (s)", "%.2f", std::max(0.0, lease_.end_s() - now_.toSec()));
-    status.add("stops as a lease ended", lease_stops_);
-    for (const auto& [refusal, count] : refusals_)
+    status.addf("lease remaining (s)", "%.2f",
+                std::max(0.0, keeping_.lease_end_s() - now_.toSec()));
+    status.add("stops as a lease ended", counts.lease_stops);
+    for (const auto& [refusal, count] : counts.refusals)
       status.add("proposals refused: " + refusal, count);
-    status.add("breaches", breaches_);
+    status.add("breaches", counts.breaches);
     status.add("refused proposals", refused_);
     if (refused_ > 0) status.add("last refused proposal", refusal_);
   }
@@ -357,20 +274,11 @@ class TrajectoryBroadcasterNode {
 
   const RobotIdentity robot_;
   const RobotModel model_;
-  const ros::Duration initial_lease_;
   const std::string epoch_file_;
   CommitmentProtocol commitment_;
+  CommitmentKeeping keeping_;
   ros::Time now_;
-  ros::Time next_fleet_;
-  std::vector<TrajectoryId> published_;
   Motion drawn_;
-  std::uint32_t committed_sequence_ = 0;
-  std::uint32_t stop_sequence_ = 0;    // of the newest stop without a lease
-  std::uint32_t newest_sequence_ = 0;  // heard of, or given to a stop
-  int lease_stops_ = 0;
-  LeaseWatch lease_;
-  std::map<std::string, int> refusals_;
-  int breaches_ = 0;
   int refused_ = 0;
   std::string refusal_;
   diagnostic_updater::Updater diagnostics_;

@@ -1,6 +1,6 @@
 #include "safety/requirement.h"
 
-#include "safety/margin_budget.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

@@ -4,17 +4,10 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
-#include <variant>
 #include <vector>
 
-#include "benchmarks/one_phase.h"
-#include "control/lease.h"
-#include "fleet/protocol/commitment_protocol.h"
 #include "fleet/wire/datagram_link.h"
-#include "planning/executive/goal_executive.h"
-#include "planning/global/global_planner.h"
-#include "planning/replanner/local_replanner.h"
+#include "stack/robot_stack.h"
 #include "world/distance_field.h"
 #include "world/occupancy_grid.h"
 
@@ -58,8 +51,34 @@ struct PlanningRecord {
   std::map<std::string, int> refusals;
 };
 
-/// The three planning nodes of one robot and a tracker, in simulated time: plans, proposals,
-/// promises and leases go from one to the next as they do over topics, without delay.
+/// Measures the time that a protocol takes.
+class TimedProtocol : public SettlingProtocol {
+ public:
+  /// `one_thread`: its work alone is measured, else the wall clock.
+  TimedProtocol(std::unique_ptr<SettlingProtocol> protocol, bool one_thread);
+
+  CommitmentActions propose(const Proposal& proposal, double now) override;
+  CommitmentActions brake(const Proposal& proposal, double now) override;
+  CommitmentActions receive(const CommittedTrajectory& trajectory, double now) override;
+  CommitmentActions receive(const Heartbeat& heartbeat, double now) override;
+  CommitmentActions tick(double now) override;
+  std::uint32_t epoch() const override { return protocol_->epoch(); }
+  const PeerTable& peers() const override { return protocol_->peers(); }
+  const ReservationChain& binding() const override { return protocol_->binding(); }
+
+  double took_s() const { return took_s_; }
+
+ private:
+  template <typename Call>
+  CommitmentActions timed(Call call);
+
+  const std::unique_ptr<SettlingProtocol> protocol_;
+  const bool one_thread_;
+  double took_s_ = 0.0;
+};
+
+/// The stack of one robot with its datagrams and a tracker, in simulated time, and what planning
+/// came to.
 class FleetRobot {
  public:
   using Bytes = std::vector<std::uint8_t>;
@@ -77,45 +96,25 @@ class FleetRobot {
   /// Where it really is, and how it moves.
   RobotState state(double now_s) const;
   /// It has heard of a promise that meets its own since its last step: another is due at once.
-  bool breached() const { return breached_; }
+  bool breached() const { return stack_.step_is_due(); }
 
   bool reached() const { return reached_; }
-  const PlanningRecord& record() const { return record_; }
+  PlanningRecord record() const;
   const std::string& name() const { return name_; }
 
  private:
-  std::vector<Bytes> apply(const CommitmentActions& actions, double now_s);
-  void report(const CommitmentEvent& event, double now_s);
-  void adopt(std::uint32_t sequence, const Motion& committed, double now_s);
-  Proposal proposal(std::uint32_t sequence, const Motion& motion) const;
-  void refresh_peers(double now_s);
-  PlanResult plan(const PlanQuery& query);
-  PlanningScene scene() const { return {agent_.map->static_map, others_}; }
-  const PeerTable& peers() const;
-  const ReservationChain& binding() const;
-  template <typename Call>
-  auto timed(double& took_s, Call call) const;
-  template <typename Call>
-  std::vector<Bytes> with_protocol(double now_s, Call call);
+  /// Follows what is in force, if it fits, and packs what is to be said.
+  std::vector<Bytes> apply(const RobotStack::Messages& messages, double now_s);
 
   const std::string name_;
   const RobotModel robot_;
   const FleetAgent agent_;
   const FleetOptions options_;
-  const GlobalPlanner planner_;
-  GoalExecutive executive_;
-  LocalReplanner replanner_;
-  std::variant<CommitmentProtocol, OnePhase> protocol_;
+  TimedProtocol protocol_;
+  RobotStack stack_;
   DatagramLink link_;
-  const double lease_s_;
   Motion driven_;  // what the tracker follows
   MotionId driven_id_;
-  LeaseWatch lease_;
-  bool breached_ = false;
-  std::uint32_t proposed_ = 0;
-  std::vector<std::pair<std::string, TrajectoryId>> known_;
-  std::vector<std::shared_ptr<const MovingObstacle>> others_;
-  double refresh_at_s_ = 0.0;
   bool reached_ = false;
   PlanningRecord record_;
 };

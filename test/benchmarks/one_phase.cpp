@@ -13,7 +13,7 @@ constexpr double kRounding_m = 1e-3;  // a robot that is too close already may c
 
 OnePhase::OnePhase(CommitmentOptions options)
     : options_(std::move(options)),
-      peers_(options_.agent, options_.epoch, options_.reach_timeout_s) {}
+      peers_(options_.agent, options_.epoch, options_.reach_timeout_s, options_.clocks) {}
 
 CommitmentActions OnePhase::propose(const Proposal& proposal, double now) {
   CommitmentActions actions = tick(now);

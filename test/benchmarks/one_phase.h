@@ -7,20 +7,22 @@ namespace mocha {
 /// The paper's protocol (paper IV-D 4), to be measured against: a trajectory that meets nothing
 /// known so far is binding at once, and then broadcast. No robot is asked, so that of two robots
 /// that promise within one message's delay neither knows of the other. Calls and answers are those
-/// of Commitment; what is in force is sent again every resend_period, heartbeats there are none.
-class OnePhase {
+/// of CommitmentProtocol; what is in force is sent again every resend_period, heartbeats there are
+/// none.
+class OnePhase : public SettlingProtocol {
  public:
   /// Of the options, those about settling have no meaning.
   explicit OnePhase(CommitmentOptions options);
 
-  CommitmentActions propose(const Proposal& proposal, double now);
-  CommitmentActions brake(const Proposal& proposal, double now);
-  CommitmentActions receive(const CommittedTrajectory& promise, double now);
-  CommitmentActions receive(const Heartbeat& heartbeat, double now);
-  CommitmentActions tick(double now);
+  CommitmentActions propose(const Proposal& proposal, double now) override;
+  CommitmentActions brake(const Proposal& proposal, double now) override;
+  CommitmentActions receive(const CommittedTrajectory& promise, double now) override;
+  CommitmentActions receive(const Heartbeat& heartbeat, double now) override;
+  CommitmentActions tick(double now) override;
 
-  const PeerTable& peers() const { return peers_; }
-  const ReservationChain& binding() const { return binding_; }
+  std::uint32_t epoch() const override { return options_.epoch; }
+  const PeerTable& peers() const override { return peers_; }
+  const ReservationChain& binding() const override { return binding_; }
 
  private:
   CommitmentEvent bind(const Proposal& proposal, TrajectoryState state, CommitmentActions& actions);

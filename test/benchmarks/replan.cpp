@@ -13,7 +13,7 @@
 #include "benchmarks/replan_run.h"
 #include "benchmarks/space_time_solver.h"
 #include "planning/worlds.h"
-#include "safety/margin_budget.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

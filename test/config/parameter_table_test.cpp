@@ -35,6 +35,7 @@ beams: {default: 360, min: 3, max: 1000, live: true, unit: "-", about: How many.
 enabled: {default: true, live: true, unit: "-", about: Whether.}
 shape: {default: disc, choices: [disc, rectangle], live: true, unit: "-", about: What.}
 frame: {default: map, live: false, unit: "-", about: Where.}
+mass: {gone: "it follows from `beams`"}
 code: {default: "12", unit: "-", about: A text that looks like a number.}
 )";
 
@@ -89,6 +90,7 @@ TEST(ParameterTable, LimitsThemselvesAreAllowed) {
 
 TEST(ParameterTable, RefusesValuesNamingSourceKeyValueAndRange) {
   expect_refused("{sped: 1.0}", {"/ugv1/node", "unknown parameter", "sped"});
+  expect_refused("{mass: 1.0}", {"/ugv1/node", "`mass` is gone: it follows from `beams`"});
   expect_refused("{velocity: 1.0}", {"/ugv1/node", "`velocity` is called `speed` now"});
   expect_refused("{speed: 2.6}", {"/ugv1/node", "speed", "2.6", "0.1", "2.5", "m/s"});
   expect_refused("{speed: 0.0}", {"speed", "0.1 to 2.5"});

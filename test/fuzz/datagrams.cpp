@@ -14,6 +14,7 @@
 
 #include "fleet/protocol/commitment_protocol.h"
 #include "fleet/protocol/motions.h"
+#include "fleet/protocol/shipped_options.h"
 #include "fleet/wire/datagram_link.h"
 #include "fuzz/oddities.h"
 
@@ -37,7 +38,7 @@ class Fuzzer {
       : random_(seed),
         key_(FleetKey::Secret{7}),
         keyed_(keyed),
-        robot_(options()),
+        robot_(test::shipped_options("ugv1")),
         link_("ugv1", keyed ? std::optional<FleetKey>(key_) : std::nullopt) {
     robot_.brake({1, 0.3, test::shared(test::stand(now_s_, {0.0, 0.0}))}, now_s_);
     for (int i = 0; i < 40; ++i) corpus_.push_back(sound());
@@ -55,11 +56,6 @@ class Fuzzer {
   double slowest_s() const { return slowest_s_; }
 
  private:
-  static CommitmentOptions options() {
-    CommitmentOptions options;
-    options.agent = "ugv1";
-    return options;
-  }
   int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
 
   FleetMessage any_message() {

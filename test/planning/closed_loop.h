@@ -5,14 +5,14 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
-#include "fleet/protocol/reservation_chain.h"
 #include "planning/global/global_planner.h"
-#include "planning/replanner/local_replanner.h"
+#include "planning/late_answers.h"
 #include "planning/worlds.h"
+#include "stack/commitment_keeping.h"
+#include "stack/local_replanning.h"
 
 namespace mocha {
 
@@ -21,8 +21,8 @@ inline LocalReplannerOptions default_replanner_options(const RobotModel& robot) 
                                      robot);
 }
 
-/// The planners of one robot in simulated time, with a perfect tracker and a broadcaster that
-/// answers after 0.1 s and turns down a share of the proposals.
+/// The planners of one robot in simulated time, with a perfect tracker and peers that answer after
+/// a step and refuse a share of the proposals.
 class ClosedLoop {
  public:
   static constexpr double kStep_s = 0.1;
@@ -37,7 +37,8 @@ class ClosedLoop {
         goal(goal),
         robot_(robot),
         planner_(robot, default_options()),
-        replanner_(robot, default_replanner_options(robot), default_local_options(), watch) {
+        replanning_(robot, ParameterTable::from_schema("config/local_replanner.yaml"), {}, watch),
+        keeping_(robot, kLease_s, answers_) {
     pose_.position = start;
   }
 
@@ -49,23 +50,23 @@ class ClosedLoop {
     plan(scene);
     deliver_plan();
     const auto begin = std::chrono::steady_clock::now();
-    output = replanner_.step(now_s, state_, scene);
+    replan(scene);
     replanner_took_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     ++reasons[output.reason];
     requested_ = requested_ || output.request_plan;
-    if (output.renew_lease) leased_until_s_ = now_s + kLease_s;
+    if (output.lease) keeping_.renew(*output.lease);
     if (!output.proposal) return;
     ++proposals;
     emergencies += output.proposal->emergency && !committed().empty();
-    waiting_.push_back(*output.proposal);
+    propose(*output.proposal);
   }
 
   /// Under way on a promise that is in force, before the first step.
   void begin_with(const Motion& promised) {
-    bind(promised);
+    answers_.bind({0, footprint_radius_m(), std::make_shared<const Motion>(promised)}, now_s);
     pose_ = promised.at(now_s).pose;
-    replanner_.set_committed(0, *chain_.composed(now_s));
+    replanning_.set_committed({}, *answers_.binding().composed(now_s));
   }
 
   /// Until the robot stands at its goal; false if that takes too long.
@@ -82,9 +83,10 @@ class ClosedLoop {
     for (const double end_s = now_s + time_s; now_s < end_s;) step();
   }
 
-  const LocalReplanner& replanner() const { return replanner_; }
+  LateAnswers& peers() { return answers_; }
+  const LocalReplanner& replanner() const { return replanning_.replanner(); }
   const RobotState& state() const { return state_; }
-  const Motion& committed() const { return replanner_.committed(); }
+  const Motion& committed() const { return replanner().committed(); }
   bool standing() const {
     return std::abs(state_.twist.speed) < 0.01 && std::abs(state_.twist.yaw_rate) < 0.01;
   }
@@ -94,16 +96,14 @@ class ClosedLoop {
 
   OccupancyGrid world;
   Vector2 goal;
-  double refused_share = 0.0;
   double planning_takes_s = 0.0;
-  bool answers = true;
   Vector2 kidnapped = Vector2::Zero();  ///< [m] added to where the motion says that the robot is
   std::vector<std::shared_ptr<const MovingObstacle>> others;
   std::vector<std::shared_ptr<const MovingObstacle>> moving;    ///< with their uncertainty
   std::vector<std::shared_ptr<const MovingObstacle>> expected;  ///< the same without
 
   double now_s = 1.7e9;
-  LocalReplanner::Output output;
+  LocalReplanning::Output output;
   double replanner_took_s = 0.0;  ///< wall time of its last step
   int proposals = 0;
   int emergencies = 0;  ///< but for the first promise, to stand
@@ -142,28 +142,35 @@ class ClosedLoop {
     return least;
   }
 
-  void answer() {
-    if (!answers) return;
-    std::vector<ProposedMotion> waiting;
-    waiting.swap(waiting_);
-    for (const ProposedMotion& proposal : waiting) {
-      if (!proposal.emergency &&
-          std::uniform_real_distribution<double>(0.0, 1.0)(random_) < refused_share) {
-        replanner_.on_refusal(proposal.sequence);
-        continue;
-      }
-      bind(proposal.motion);
-      replanner_.set_committed(proposal.sequence, *chain_.composed(now_s));
-      leased_until_s_ = std::max(leased_until_s_, now_s + kLease_s);
-    }
+  double footprint_radius_m() const { return robot_.footprint.circumscribed_radius_m(); }
+
+  void replan(const LocalScene& scene) {
+    LocalKnowledge known;
+    known.measured = state_;
+    known.map_age_s = known.fleet_age_s = known.prediction_age_s = 0.0;
+    known.scene = [&scene](const Vector2&) { return scene; };
+    output = replanning_.step(now_s, known);
   }
 
-  void bind(const Motion& motion) {
-    CommittedTrajectory promise;
-    promise.agent = "ugv1";
-    promise.motion = std::make_shared<const Motion>(motion);
-    chain_.bind(promise);
-    chain_.prune(now_s);
+  void propose(const ProposedMotion& proposal) {
+    CommittedTrajectory wish;
+    wish.agent = LateAnswers::kAgent;
+    wish.id.sequence = proposal.sequence;
+    wish.state = proposal.emergency ? TrajectoryState::kEmergency : TrajectoryState::kProposed;
+    wish.footprint_radius_m = footprint_radius_m();
+    wish.motion = std::make_shared<const Motion>(proposal.motion);
+    keeping_.propose(proposal.sequence, wish, now_s);
+  }
+
+  void answer() {
+    for (const Settled& settled : keeping_.tick(now_s).settled) {
+      if (settled.in_force) {
+        const auto& [trajectory, lease] = *settled.in_force;
+        replanning_.set_committed(lease.id, *trajectory.motion);
+      } else {
+        replanning_.hear({Answer::Kind::kRefused, settled.sequence, ""});
+      }
+    }
   }
 
   void move() {
@@ -178,7 +185,7 @@ class ClosedLoop {
     state_.pose.position += kidnapped;
     state_.stamp_s = now_s;
     if (plans > 0) largest_jump_m = std::max(largest_jump_m, (pose_.position - expected).norm());
-    steps_without_lease += moving && now_s > leased_until_s_;
+    steps_without_lease += moving && now_s > keeping_.lease_end_s();
     least_clearance_m = std::min(least_clearance_m, clearance_m());
   }
 
@@ -204,28 +211,26 @@ class ClosedLoop {
 
   void deliver_plan() {
     if (plan_.empty() || now_s < plan_ready_s_) return;
-    replanner_.set_plan(plan_);
+    replanning_.set_plan(plan_);
     plan_ = Motion();
   }
 
   const RobotModel robot_;
   GlobalPlanner planner_;
-  LocalReplanner replanner_;
-  ReservationChain chain_;
+  LateAnswers answers_;
+  LocalReplanning replanning_;
+  CommitmentKeeping keeping_;
   OccupancyGrid seen_;
   LocalScene scene_;
   std::vector<int8_t> true_cells_;
   std::shared_ptr<const DistanceField> true_field_;
   RobotState state_;
   Pose pose_;
-  std::vector<ProposedMotion> waiting_;
-  double leased_until_s_ = 0.0;
   double planned_s_ = 0.0;
   Motion plan_;  // made, but not ready yet
   double plan_ready_s_ = 0.0;
   double plan_end_s_ = 0.0;
   bool requested_ = false;
-  std::mt19937 random_{11};
 };
 
 }  // namespace mocha

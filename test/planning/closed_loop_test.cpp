@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "safety/margin_budget.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {
@@ -39,7 +39,7 @@ TEST_F(ReplannerLoop, ReachesItsGoal) {
 
 TEST_F(ReplannerLoop, ReachesItsGoalThoughProposalsAreTurnedDown) {
   ClosedLoop loop(robot_, with_pillars(), {0.0, 0.0}, {9.0, 0.0});
-  loop.refused_share = 0.5;
+  loop.peers().refused_share = 0.5;
   EXPECT_TRUE(loop.run_to_goal(60.0)) << loop.output.message;
   expect_sound(loop);
 }
@@ -55,11 +55,11 @@ TEST_F(ReplannerLoop, StandsWhenNobodyAnswers) {
   ClosedLoop loop(robot_, open_, {0.0, 0.0}, {9.0, 0.0});
   loop.run(4.0);
   ASSERT_FALSE(loop.standing());
-  loop.answers = false;
+  loop.peers().answers = false;
   loop.run(8.0);  // the horizon and braking
   EXPECT_TRUE(loop.standing());
   expect_sound(loop);
-  loop.answers = true;
+  loop.peers().answers = true;
   EXPECT_TRUE(loop.run_to_goal(25.0)) << loop.output.message;
 }
 
@@ -179,7 +179,7 @@ TEST_F(ReplannerLoop, RandomWorldsAreDrivenToTheEnd) {
     std::replace(wide.cells.begin(), wide.cells.end(), OccupancyGrid::kUnknown,
                  OccupancyGrid::kFree);
     ClosedLoop loop(robot_, wide, start, goal);
-    loop.refused_share = 0.1;
+    loop.peers().refused_share = 0.1;
     const bool reached = loop.run_to_goal(90.0);
     EXPECT_TRUE(reached) << seed << ": " << loop.output.message;
     EXPECT_GE(loop.least_clearance_m, margin_m_ - robot_.margins.map_m - 1e-3) << seed;

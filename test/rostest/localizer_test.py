@@ -26,6 +26,7 @@ from waiting import wait_until
 BEAMS = 360
 SCAN_STEPS = 5  # of the clock, from scan to scan
 NODE = "/ugv1/scan_localizer"
+MEMORY = NODE + "/last_known_pose"
 
 
 class World:
@@ -162,6 +163,10 @@ class LocalizerTest(unittest.TestCase):
     def localize(self, place, seconds=8.0):
         self.assertTrue(self.see(self.corridor, place, lambda: self.is_at(place), seconds), f"{self.state} {self.pose}")
 
+    def remembers(self, place):
+        words = rospy.get_param(MEMORY, "").split()
+        return len(words) == 3 and math.dist([float(word) for word in words[:2]], place[:2]) < 0.1
+
     def newest_transform_s(self):
         try:
             return self.transforms.lookup_transform("map", "ugv1/odom", rospy.Time(0)).header.stamp.to_sec()
@@ -240,6 +245,8 @@ class LocalizerTest(unittest.TestCase):
     def test_killed_it_is_back(self):
         place = (6.2, -0.9, 2.0)
         self.localize(place)
+        self.see(self.corridor, place, lambda: self.remembers(place), 5.0)
+        self.assertTrue(self.remembers(place), rospy.get_param(MEMORY, "nothing"))
         before = self.newest_transform_s()
         end(NODE, signal.SIGKILL)
         self.start()

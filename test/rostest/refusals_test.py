@@ -56,6 +56,22 @@ class RefusalsTest(unittest.TestCase):
             with self.subTest(node):
                 self.check_node(node, ["robots/hovercraft.yaml"], "_robot_model:=hovercraft")
 
+    def test_times_that_cannot_work_together(self):
+        both = ["trajectory_tracker/max_lease = 0.2 s", "must be at least", "local_replanner/lease = 0.5 s"]
+        self.check_node("trajectory_tracker", both, "_max_lease:=0.2")
+        rospy.set_param("/ugv1/trajectory_tracker/max_lease", 0.2)
+        try:
+            self.check_node("local_replanner", both)
+        finally:
+            rospy.delete_param("/ugv1/trajectory_tracker/max_lease")
+
+    def test_parameters_that_are_no_more(self):
+        for node, name, words in (("global_planner", "priority", "that of trajectory_broadcaster"),
+                                  ("trajectory_broadcaster", "initial_lease", "`lease` of local_replanner"),
+                                  ("local_replanner", "answer_timeout", "follows from `settle_time`")):
+            with self.subTest(node):
+                self.check_node(node, ["parameter `%s` is gone" % name, words], "_%s:=1" % name)
+
     def check_demo(self, words, world):
         """The demo with a master of its own. Its own script builds first; here, what it then runs."""
         out = tempfile.mkdtemp()

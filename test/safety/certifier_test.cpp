@@ -7,9 +7,9 @@
 #include <random>
 
 #include "safety/circle_field.h"
-#include "safety/margin_budget.h"
 #include "trajectory/random_motion.h"
 #include "trajectory/simple_motions.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

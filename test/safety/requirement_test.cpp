@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
-#include "safety/margin_budget.h"
 #include "trajectory/simple_motions.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

@@ -1,24 +1,11 @@
 #include "fleet/protocol/commitment_protocol.h"
 
-#include <algorithm>
-#include <stdexcept>
 #include <utility>
-
-#include "fleet/protocol/stop_conflict.h"
-#include "trajectory/separation.h"
 
 namespace mocha {
 namespace {
 
 constexpr double kContinuity_m = 0.05;
-/// Robots that are too close already may come no closer than now, up to this for rounding.
-constexpr double kRounding_m = 1e-3;
-
-void require(bool condition, const char* name, double value, const char* range) {
-  if (condition) return;
-  throw std::invalid_argument(std::string(name) + " = " + std::to_string(value) + ", allowed is " +
-                              range);
-}
 
 CommitmentEvent event_of(CommitmentEvent::Kind kind, const CommittedTrajectory& trajectory,
                          const Proposal& proposal) {
@@ -31,50 +18,10 @@ CommitmentEvent event_of(CommitmentEvent::Kind kind, const CommittedTrajectory& 
 
 }  // namespace
 
-const char* name_of(Refusal refusal) {
-  switch (refusal) {
-    case Refusal::kNone:
-      return "none";
-    case Refusal::kListening:
-      return "listening";
-    case Refusal::kTooLate:
-      return "too_late";
-    case Refusal::kDiscontinuous:
-      return "discontinuous";
-    case Refusal::kPeerPromise:
-      return "peer_promise";
-    case Refusal::kPeerProposal:
-      return "peer_proposal";
-    case Refusal::kUnanswered:
-      return "unanswered";
-    case Refusal::kClock:
-      return "clock";
-    case Refusal::kReplaced:
-      return "replaced";
-    case Refusal::kEmergency:
-      return "emergency";
-  }
-  return "unknown";
-}
-
 CommitmentProtocol::CommitmentProtocol(CommitmentOptions options)
     : options_(std::move(options)),
       peers_(options_.agent, options_.epoch, options_.reach_timeout_s, options_.clocks) {
-  if (options_.agent.empty()) throw std::invalid_argument("the robot has no name");
-  require(options_.delta_dc_s >= 0.0, "delta_dc", options_.delta_dc_s, "0 s or more");
-  require(options_.peer_clearance_m >= 0.0, "peer_clearance", options_.peer_clearance_m,
-          "0 m or more");
-  require(options_.stop_clearance_m >= 0.0, "stop clearance", options_.stop_clearance_m,
-          "0 m or more");
-  require(options_.heartbeat_period_s > 0.0, "heartbeat period", options_.heartbeat_period_s,
-          "above 0 s");
-  require(options_.clocks.tolerance_s >= 0.0, "clock tolerance", options_.clocks.tolerance_s,
-          "0 s or more");
-  require(options_.clocks.max_error_s >= 0.0, "max_clock_error", options_.clocks.max_error_s,
-          "0 s or more");
-  require(options_.answer_period_s >= 0.0, "answer period", options_.answer_period_s,
-          "0 s or more");
-  require(options_.resend_period_s > 0.0, "resend period", options_.resend_period_s, "above 0 s");
+  options_.validate();
 }
 
 CommitmentProtocol::State CommitmentProtocol::state() const {
@@ -91,7 +38,7 @@ CommitmentActions CommitmentProtocol::propose(const Proposal& proposal, double n
   CommitmentEvent event = event_of(CommitmentEvent::Kind::kRejected, trajectory, proposal);
   event.refusal = refusal_by_itself(*proposal.motion, now);
   if (event.refusal == Refusal::kNone) {
-    const Obstacle found = obstacle(trajectory, now);
+    const Objection found = meetings(now).objection(trajectory, peers_);
     event.refusal = found.refusal;
     event.conflict = found.conflict;
   }
@@ -187,7 +134,7 @@ void CommitmentProtocol::listen(double now) {
 void CommitmentProtocol::heed(const std::string& name, double now, CommitmentActions& actions) {
   const Peer& peer = peers_.peers().at(name);
   if (pending_) {
-    const Obstacle found = obstacle_by(name, peer, reservation_of(pending_->trajectory), now);
+    const Objection found = meetings(now).objection(pending_->trajectory, name, peer);
     if (found.refusal != Refusal::kNone) {
       drop_pending(CommitmentEvent::Kind::kRejected, found.refusal, found.conflict, actions);
     }
@@ -215,7 +162,7 @@ void CommitmentProtocol::settle(double now, CommitmentActions& actions) {
   missing.peer = unaware_peer(pending_->trajectory.id, now);
   const std::string unclocked = unclocked_peer(now);
   if (!late && !(missing.peer.empty() && unclocked.empty())) return;
-  const Obstacle found = obstacle(pending_->trajectory, now);
+  const Objection found = meetings(now).objection(pending_->trajectory, peers_);
   if (found.refusal != Refusal::kNone) {
     drop_pending(CommitmentEvent::Kind::kRejected, found.refusal, found.conflict, actions);
     return;
@@ -262,8 +209,9 @@ void CommitmentProtocol::answer(double now) {
 
 void CommitmentProtocol::answer(const std::string& name, const Peer& peer, double now) {
   const CommittedTrajectory* proposal = peer.unanswered();
-  if (proposal == nullptr || !peers_.clock_known(peer, now) || objects_to(peer, *proposal, now))
-    return;
+  if (proposal == nullptr || !peers_.clock_known(peer, now)) return;
+  const CommittedTrajectory* pending = pending_ ? &pending_->trajectory : nullptr;
+  if (meetings(now).objects_to(peer, *proposal, pending)) return;
   peers_.endorse(name, *proposal);
   answers_.push_back({name, proposal->id, proposal->state});
 }
@@ -272,7 +220,7 @@ void CommitmentProtocol::keep_in_touch(double now, CommitmentActions& actions) {
   const bool periodic = now >= next_heartbeat_s_;
   const bool answers = !answers_.empty() && now >= next_answer_s_;
   if (!periodic && !answers) return;
-  if (!answers_.empty()) next_answer_s_ = now + options_.answer_period_s;
+  if (!answers_.empty()) next_answer_s_ = now + kAnswerPeriod_s;
   actions.heartbeat = periodic ? Heartbeat{options_.agent, options_.epoch, now,
                                            peers_.acknowledgements(now), peers_.echoes(now)}
                                : Heartbeat{options_.agent, options_.epoch, now, answers_, {}};
@@ -302,14 +250,12 @@ void CommitmentProtocol::report_breach(const std::string& name, double now,
                                        CommitmentActions& actions) const {
   const Peer& peer = peers_.peers().at(name);
   for (const Reservation& mine : binding_.reservations()) {
-    for (const Reservation& theirs : peer.binding.reservations()) {
-      const auto conflict = meeting(mine, peer, theirs, now);
-      if (!conflict) continue;
-      CommitmentEvent event = event_of(CommitmentEvent::Kind::kBreached, mine.trajectory, {});
-      event.conflict = *conflict;
-      actions.events.push_back(std::move(event));
-      return;
-    }
+    const auto conflict = meetings(now).with_promises(mine, peer);
+    if (!conflict) continue;
+    CommitmentEvent event = event_of(CommitmentEvent::Kind::kBreached, mine.trajectory, {});
+    event.conflict = *conflict;
+    actions.events.push_back(std::move(event));
+    return;
   }
 }
 
@@ -320,81 +266,6 @@ Refusal CommitmentProtocol::refusal_by_itself(const Motion& motion, double now) 
   const Vector2 expected = binding_.position(motion.start_time());
   const Vector2 begins = motion.position(motion.start_time());
   return (begins - expected).norm() <= kContinuity_m ? Refusal::kNone : Refusal::kDiscontinuous;
-}
-
-CommitmentProtocol::Obstacle CommitmentProtocol::obstacle(const CommittedTrajectory& proposal,
-                                                          double now) const {
-  const Reservation mine = reservation_of(proposal);
-  Obstacle found;
-  for (const auto& [name, peer] : peers_.peers()) {
-    Obstacle by_peer = obstacle_by(name, peer, mine, now);
-    if (by_peer.refusal != Refusal::kNone) return by_peer;
-    if (!by_peer.waits_for.empty()) found.waits_for = name;
-  }
-  return found;
-}
-
-CommitmentProtocol::Obstacle CommitmentProtocol::obstacle_by(const std::string& name,
-                                                             const Peer& peer,
-                                                             const Reservation& mine,
-                                                             double now) const {
-  for (const Reservation& theirs : peer.binding.reservations()) {
-    const auto conflict = meeting(mine, peer, theirs, now);
-    if (conflict) return {Refusal::kPeerPromise, *conflict, {}};
-  }
-  if (const auto conflict = stop_meeting(&mine.trajectory, peer, nullptr, now))
-    return {Refusal::kPeerPromise, *conflict, {}};
-  Obstacle found;
-  for (const CommittedTrajectory& open : peer.open) {
-    auto conflict = meeting(mine, peer, peer.reservation_of_open(open), now);
-    if (!conflict) conflict = stop_meeting(&mine.trajectory, peer, &open, now);
-    if (!conflict) continue;
-    if (takes_precedence(open, mine.trajectory)) return {Refusal::kPeerProposal, *conflict, {}};
-    found.waits_for = name;
-  }
-  return found;
-}
-
-bool CommitmentProtocol::objects_to(const Peer& peer, const CommittedTrajectory& proposal,
-                                    double now) const {
-  const Reservation theirs = peer.reservation_of_open(proposal);
-  for (const Reservation& mine : binding_.reservations()) {
-    if (meeting(mine, peer, theirs, now)) return true;
-  }
-  if (stop_meeting(nullptr, peer, &proposal, now)) return true;
-  return pending_ && takes_precedence(pending_->trajectory, proposal) &&
-         (meeting(reservation_of(pending_->trajectory), peer, theirs, now) ||
-          stop_meeting(&pending_->trajectory, peer, &proposal, now));
-}
-
-std::optional<Conflict> CommitmentProtocol::meeting(const Reservation& mine, const Peer& peer,
-                                                    const Reservation& theirs, double now) const {
-  const double demanded = mine.trajectory.footprint_radius_m +
-                          theirs.trajectory.footprint_radius_m + options_.peer_clearance_m;
-  if (far_apart(*mine.trajectory.motion, *theirs.trajectory.motion, demanded)) return std::nullopt;
-  const double required =
-      std::min(demanded, closest_m(*mine.trajectory.motion, peer, *theirs.trajectory.motion, now));
-  return first_conflict(mine, theirs, required, now);
-}
-
-double CommitmentProtocol::closest_m(const Motion& mine, const Peer& peer, const Motion& theirs,
-                                     double now) const {
-  const Vector2 here = binding_.empty() ? mine.position(now) : binding_.position(now);
-  const Vector2 there = peer.binding.empty() ? theirs.position(now) : peer.binding.position(now);
-  return (here - there).norm() - kRounding_m;
-}
-
-std::optional<Conflict> CommitmentProtocol::stop_meeting(const CommittedTrajectory* my_proposal,
-                                                         const Peer& peer,
-                                                         const CommittedTrajectory* their_proposal,
-                                                         double now) const {
-  const CommittedTrajectory* mine = binding_.empty() ? my_proposal : &binding_.newest();
-  const CommittedTrajectory* theirs =
-      peer.binding.empty() ? their_proposal : &peer.binding.newest();
-  if (!options_.stops || mine == nullptr || theirs == nullptr) return std::nullopt;
-  const StopDemand demand{*options_.stops, options_.stop_clearance_m,
-                          closest_m(*mine->motion, peer, *theirs->motion, now)};
-  return first_stop_conflict({binding_, my_proposal}, {peer.binding, their_proposal}, demand, now);
 }
 
 std::string CommitmentProtocol::unaware_peer(TrajectoryId id, double now) const {

@@ -5,76 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "fleet/protocol/committed_trajectory.h"
-#include "fleet/protocol/peer_table.h"
-#include "fleet/protocol/reservation_chain.h"
-#include "trajectory/stop_separation.h"
+#include "fleet/protocol/commitment_options.h"
+#include "fleet/protocol/meetings.h"
+#include "fleet/protocol/settling_protocol.h"
 
 namespace mocha {
-
-struct CommitmentOptions {
-  std::string agent;
-  std::uint32_t epoch = 1;  ///< one more than at the last start
-  int priority = 0;
-  double delta_dc_s = 0.06;
-  double reach_timeout_s = 1.0;
-  double peer_clearance_m = 0.2;
-  /// How robots are to be able to stop for each other, and what their discs keep then [m].
-  std::optional<StopOptions> stops;
-  double stop_clearance_m = 0.0;
-  double heartbeat_period_s = 0.1;
-  double resend_period_s = 1.0;
-  /// Endorsements that come up within this time of the last ones wait, and go together. Well below
-  /// delta_dc, so that nobody settles later than it would anyway.
-  double answer_period_s = 0.025;
-  ClockOptions clocks;
-};
-
-/// A motion that the robot would like to make its promise.
-struct Proposal {
-  std::uint32_t tag = 0;  ///< the proposer's own number; comes back in the events
-  double footprint_radius_m = 0.0;
-  std::shared_ptr<const Motion> motion;
-};
-
-/// Why a proposal did not become binding. The numbers are those of mocha_ugv/Settlement.
-enum class Refusal : std::uint8_t {
-  kNone,
-  kListening,      ///< just started: who is there has not been heard of yet
-  kTooLate,        ///< its start came before it was settled, or has passed already
-  kDiscontinuous,  ///< does not begin where the binding motion will be
-  kPeerPromise,    ///< comes too close to what a peer has promised
-  kPeerProposal,   ///< meets a peer's proposal that came first, or one of the same time that ranks
-                   ///< higher
-  kUnanswered,     ///< like kTooLate, because of a peer in reach that did not agree in time
-  kClock,          ///< like kTooLate, because nobody can tell what a peer's clock shows
-  kReplaced,       ///< by a newer proposal of its own robot
-  kEmergency,      ///< its own robot brakes
-};
-
-/// In a word, for reports: "peer_promise".
-const char* name_of(Refusal refusal);
-
-struct CommitmentEvent {
-  enum class Kind {
-    kSettled,    ///< the motion is binding
-    kRejected,   ///< it is not, by the rules; `refusal` says why
-    kWithdrawn,  ///< its own robot has something newer (kReplaced, kEmergency)
-    kBreached,   ///< a peer's binding motion meets our binding one: it brakes, or was out of reach
-  };
-  Kind kind = Kind::kSettled;
-  Refusal refusal = Refusal::kNone;
-  CommittedTrajectory trajectory;  ///< ours; as sent, if it was sent
-  Proposal proposal;               ///< as it came from the proposer
-  Conflict conflict;  ///< its peer is set where one was involved; the rest where two motions meet
-};
-
-/// What follows from a call: messages to every peer, in this order, and news for the own robot.
-struct CommitmentActions {
-  std::vector<CommittedTrajectory> trajectories;
-  std::optional<Heartbeat> heartbeat;
-  std::vector<CommitmentEvent> events;
-};
 
 /// The propose / settle protocol of one robot, as a state machine: time is an argument, messages go
 /// in and come out.
@@ -89,9 +24,9 @@ struct CommitmentActions {
 /// meet, the lower in rank (priority, then name) is withdrawn; the other waits for the news of
 /// that, or loses to it if it became binding first. A robot endorses a proposal that it has seen
 /// unless that meets its own binding promise or its own pending proposal of higher rank; it says so
-/// at once, or within answer_period of the last time, together with whatever else it endorses until
-/// then: a fleet of N robots that all plan anew sends N heartbeats more in that time, not N^2.
-/// Emergency motions bind at once.
+/// at once, or within kAnswerPeriod_s of the last time, together with whatever else it endorses
+/// until then: a fleet of N robots that all plan anew sends N heartbeats more in that time, not
+/// N^2. Emergency motions bind at once.
 ///
 /// Why two motions a and b that meet never both settle while their robots A and B are in reach of
 /// each other, whatever is lost, late or out of order: suppose they did. When A endorsed b, A had
@@ -118,7 +53,7 @@ struct CommitmentActions {
 /// meets it is told (kBreached) and has to brake in turn; until it stands, those two have only
 /// their planners' margins. Robots that already are closer than demanded (after braking, or set
 /// down so) may move as long as they come no closer.
-class CommitmentProtocol {
+class CommitmentProtocol : public SettlingProtocol {
  public:
   enum class State {
     kListening,  ///< since the start, for one reach_timeout: nothing may be proposed
@@ -128,6 +63,10 @@ class CommitmentProtocol {
     kRevising,   ///< a binding motion, and a proposal to follow it
   };
 
+  /// Endorsements that come up within this time of the last ones wait, and go together. Well below
+  /// any useful delta_dc, so that no proposal settles later than it would anyway.
+  static constexpr double kAnswerPeriod_s = 0.025;
+
   /// Throws std::invalid_argument for options out of range.
   explicit CommitmentProtocol(CommitmentOptions options);
 
@@ -135,18 +74,19 @@ class CommitmentProtocol {
 
   /// Offers a motion; one that is pending is withdrawn. Throws std::invalid_argument for what
   /// cannot be promised at all (validate()), without any effect.
-  CommitmentActions propose(const Proposal& proposal, double now);
+  CommitmentActions propose(const Proposal& proposal, double now) override;
   /// Makes a braking motion binding at once. Throws like propose().
-  CommitmentActions brake(const Proposal& proposal, double now);
+  CommitmentActions brake(const Proposal& proposal, double now) override;
   /// A validated message of another robot. One that carries our own name is ignored and counted.
-  CommitmentActions receive(const CommittedTrajectory& trajectory, double now);
-  CommitmentActions receive(const Heartbeat& heartbeat, double now);
-  CommitmentActions tick(double now);
+  CommitmentActions receive(const CommittedTrajectory& trajectory, double now) override;
+  CommitmentActions receive(const Heartbeat& heartbeat, double now) override;
+  CommitmentActions tick(double now) override;
 
   State state() const;
+  std::uint32_t epoch() const override { return options_.epoch; }
   const CommitmentOptions& options() const { return options_; }
-  const PeerTable& peers() const { return peers_; }
-  const ReservationChain& binding() const { return binding_; }
+  const PeerTable& peers() const override { return peers_; }
+  const ReservationChain& binding() const override { return binding_; }
   int impostors() const { return impostors_; }
 
  private:
@@ -154,12 +94,6 @@ class CommitmentProtocol {
     CommittedTrajectory trajectory;
     Proposal proposal;
     double since_s;
-  };
-  /// What stands between a proposal and its settlement.
-  struct Obstacle {
-    Refusal refusal = Refusal::kNone;
-    Conflict conflict;
-    std::string waits_for;  ///< a peer whose outranked proposal is not withdrawn yet
   };
 
   CommittedTrajectory trajectory_of(const Proposal& proposal, TrajectoryState state) const;
@@ -178,18 +112,8 @@ class CommitmentProtocol {
   void send_again(double now, CommitmentActions& actions);
   void report_breach(const std::string& name, double now, CommitmentActions& actions) const;
 
-  Obstacle obstacle(const CommittedTrajectory& proposal, double now) const;
-  Obstacle obstacle_by(const std::string& name, const Peer& peer, const Reservation& mine,
-                       double now) const;
+  Meetings meetings(double now) const { return {options_, binding_, now}; }
   Refusal refusal_by_itself(const Motion& motion, double now) const;
-  bool objects_to(const Peer& peer, const CommittedTrajectory& proposal, double now) const;
-  std::optional<Conflict> meeting(const Reservation& mine, const Peer& peer,
-                                  const Reservation& theirs, double now) const;
-  /// The same for where one of them brakes: of what is binding, and the proposals where there are.
-  std::optional<Conflict> stop_meeting(const CommittedTrajectory* my_proposal, const Peer& peer,
-                                       const CommittedTrajectory* their_proposal, double now) const;
-  /// Robots that are too close already may come as close as this, and no closer.
-  double closest_m(const Motion& mine, const Peer& peer, const Motion& theirs, double now) const;
   /// A peer in reach that has not told us that it has seen the promise; none: empty.
   std::string unaware_peer(TrajectoryId id, double now) const;
   std::string unclocked_peer(double now) const;

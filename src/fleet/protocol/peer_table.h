@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fleet/protocol/clock_estimate.h"
+#include "fleet/protocol/commitment_options.h"
 #include "fleet/protocol/committed_trajectory.h"
 #include "fleet/protocol/reservation_chain.h"
 
@@ -42,12 +43,6 @@ struct Peer {
   Reservation reservation_of_open(const CommittedTrajectory& proposal) const;
 };
 
-/// How far the clocks of a fleet may be apart.
-struct ClockOptions {
-  double tolerance_s = 0.0;   ///< of two robots against each other; margins allow for it already
-  double max_error_s = 0.25;  ///< beyond it, what a peer promises has no time that means anything
-};
-
 /// The newest promises of each peer, told by our clock. Messages may come late, twice, in any
 /// order, or not at all; a message older than what is known changes nothing.
 ///
@@ -76,7 +71,7 @@ class PeerTable {
   /// `own_name`: whose entries in heartbeats are about us, in epoch `own_epoch`. Throws
   /// std::invalid_argument for a timeout that is not above 0.
   PeerTable(std::string own_name, std::uint32_t own_epoch, double reach_timeout_s,
-            ClockOptions clocks = {});
+            ClockOptions clocks);
 
   Verdict receive(const CommittedTrajectory& trajectory, double now);
   Verdict receive(const Heartbeat& heartbeat, double now);

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "planning/candidates/peer_discs.h"
-#include "safety/margin_budget.h"
 #include "trajectory/stopping.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

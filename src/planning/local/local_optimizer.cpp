@@ -6,9 +6,9 @@
 
 #include "planning/candidates/exposure.h"
 #include "safety/certifier.h"
-#include "safety/margin_budget.h"
 #include "trajectory/splice.h"
 #include "trajectory/stopping.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

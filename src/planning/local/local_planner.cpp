@@ -7,7 +7,7 @@
 #include "planning/candidates/exposure.h"
 #include "planning/candidates/parallel.h"
 #include "planning/candidates/winner.h"
-#include "safety/margin_budget.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

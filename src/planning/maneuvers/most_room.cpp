@@ -7,9 +7,9 @@
 #include "planning/candidates/exposure.h"
 #include "planning/maneuvers/emergency_swerve.h"
 #include "planning/maneuvers/sidestep.h"
-#include "safety/margin_budget.h"
 #include "trajectory/splice.h"
 #include "trajectory/stopping.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "planning/candidates/exposure.h"
-#include "safety/margin_budget.h"
 #include "trajectory/stopping.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

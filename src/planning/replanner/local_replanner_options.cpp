@@ -1,6 +1,11 @@
 #include "planning/replanner/local_replanner_options.h"
 
 namespace mocha {
+namespace {
+
+constexpr double kAnswerSlack_s = 0.3;  // beyond the time by which a proposal is binding or refused
+
+}  // namespace
 
 LocalReplannerOptions LocalReplannerOptions::from(const ParameterTable& values,
                                                   const RobotModel& robot) {
@@ -9,7 +14,7 @@ LocalReplannerOptions LocalReplannerOptions::from(const ParameterTable& values,
   options.emergency_s = values.number("emergency_time");
   options.horizon_s = values.number("horizon");
   options.extend_every_s = values.number("extend_every");
-  options.answer_timeout_s = values.number("answer_timeout");
+  options.answer_timeout_s = options.settle_s + kAnswerSlack_s;
   // The tracker brakes at e_track; a little later the promise itself is given up.
   options.max_error_m = 1.5 * robot.margins.tracking_m;
   options.max_error_rad = values.number("max_heading_error");

@@ -162,15 +162,16 @@ std::string describe(const CommitmentEvent& event) {
   }
 }
 
-mocha_ugv::Settlement settlement_of(const CommitmentEvent& event, const std::string& frame,
+mocha_ugv::Settlement settlement_of(const Settled& settled, const std::string& frame,
                                     ros::Time stamp) {
+  const CommitmentEvent& event = settled.event;
   mocha_ugv::Settlement settlement;
   settlement.header.stamp = stamp;
   settlement.header.frame_id = frame;
   settlement.result = result_of(event.kind);
   settlement.refusal = static_cast<std::uint8_t>(event.refusal);
   settlement.epoch = event.trajectory.id.epoch;
-  settlement.sequence = event.proposal.tag;
+  settlement.sequence = settled.sequence;
   settlement.peer = event.conflict.peer;
   settlement.at = ros::Time(event.conflict.time_s);
   settlement.place.x = event.conflict.place.x();
@@ -179,6 +180,14 @@ mocha_ugv::Settlement settlement_of(const CommitmentEvent& event, const std::str
   settlement.required = event.conflict.required_m;
   settlement.message = describe(event);
   return settlement;
+}
+
+Answer answer_from_message(const mocha_ugv::Settlement& settlement) {
+  using mocha_ugv::Settlement;
+  const auto kind = settlement.result == Settlement::SETTLED    ? Answer::Kind::kSettled
+                    : settlement.result == Settlement::BREACHED ? Answer::Kind::kBreached
+                                                                : Answer::Kind::kRefused;
+  return {kind, settlement.sequence, settlement.message};
 }
 
 }  // namespace mocha

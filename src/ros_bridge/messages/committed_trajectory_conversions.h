@@ -6,7 +6,9 @@
 
 #include <string>
 
-#include "fleet/protocol/commitment_protocol.h"
+#include "fleet/protocol/settling_protocol.h"
+#include "stack/commitment_keeping.h"
+#include "stack/local_replanning.h"
 
 namespace mocha {
 
@@ -21,9 +23,12 @@ CommittedTrajectory trajectory_from_message(const mocha_ugv::Trajectory& message
                                             const std::string& frame);
 Heartbeat heartbeat_from_message(const mocha_ugv::Heartbeat& message);
 
-/// What became of a proposal, by the proposer's own number; of a breach the number is 0.
-mocha_ugv::Settlement settlement_of(const CommitmentEvent& event, const std::string& frame,
+/// What became of a proposal, or of the motion in force.
+mocha_ugv::Settlement settlement_of(const Settled& settled, const std::string& frame,
                                     ros::Time stamp);
+
+/// The same for the proposer.
+Answer answer_from_message(const mocha_ugv::Settlement& settlement);
 
 /// The event in words: what, with whom, where, when and by how much.
 std::string describe(const CommitmentEvent& event);

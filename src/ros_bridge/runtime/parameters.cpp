@@ -2,6 +2,8 @@
 
 #include <ros/package.h>
 
+#include "stack/timing.h"
+
 namespace mocha {
 namespace {
 
@@ -39,6 +41,22 @@ ParameterTable read_parameters(const ros::NodeHandle& private_node, const std::s
   for (auto& item : values) map[item.first] = to_yaml(item.second, source + "/" + item.first);
   table.assign(map, source);
   return table;
+}
+
+ParameterTable neighbour_parameters(const std::string& node) {
+  return read_parameters(ros::NodeHandle(node), node);
+}
+
+ParameterTable checked_parameters(const std::string& node) {
+  const ParameterTable values = read_parameters(ros::NodeHandle("~"), node);
+  check_timing(node, [&](const std::string& name) {
+    if (name == node) return values;
+    if (name != "robot") return neighbour_parameters(name);
+    ParameterTable robot = ParameterTable::from_schema(config_path("robot.yaml"));
+    robot.assign_file(config_path("robots/" + values.text("robot_model") + ".yaml"));
+    return robot;
+  });
+  return values;
 }
 
 }  // namespace mocha

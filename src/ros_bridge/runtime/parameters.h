@@ -13,6 +13,13 @@ namespace mocha {
 /// declare, has the wrong type or is out of range.
 ParameterTable read_parameters(const ros::NodeHandle& private_node, const std::string& schema);
 
+/// The same of another node of this node's robot: what is set for it so far, and defaults.
+ParameterTable neighbour_parameters(const std::string& node);
+
+/// The parameters of this node, of that schema. Throws ParameterError also where they cannot work
+/// together with its neighbours', as check_timing() says.
+ParameterTable checked_parameters(const std::string& node);
+
 /// Absolute path of a file below this package's `config/`, in devel and install space.
 std::string config_path(const std::string& relative);
 

@@ -9,7 +9,8 @@
 
 namespace mocha {
 
-/// main() of a node: reads its parameters (config/<name>.yaml), builds it and spins. What is wrong
+/// main() of a node: reads its parameters (config/<name>.yaml), checks them
+/// against those of its neighbours, builds it and spins. What is wrong
 /// at the start is said in one line, and the exit status is 1. `Node` is constructed from a node
 /// handle and its ParameterTable.
 template <typename Node>
@@ -17,7 +18,7 @@ int run_node(int argc, char** argv, const std::string& name) {
   ros::init(argc, argv, name);
   ros::NodeHandle node;  // outside: the console closes with the last handle
   try {
-    Node instance(node, read_parameters(ros::NodeHandle("~"), name));
+    Node instance(node, checked_parameters(name));
     ros::spin();
   } catch (const std::exception& error) {
     ROS_FATAL("%s: %s", name.c_str(), error.what());

@@ -303,7 +303,7 @@ TEST(CommitmentProtocol, AnswersEveryProposalOfALargeFleetInFewHeartbeats) {
     });
     for (auto each = done; each != waiting.end(); ++each) {
       ++answered;
-      EXPECT_LE(now - each->first, robot.options().answer_period_s + kStep_s);
+      EXPECT_LE(now - each->first, CommitmentProtocol::kAnswerPeriod_s + kStep_s);
     }
     waiting.erase(done, waiting.end());
   };
@@ -421,7 +421,7 @@ TEST(CommitmentProtocol, IgnoresItsOwnNameAndRefusesNonsense) {
   options.delta_dc_s = -0.1;
   EXPECT_THROW(CommitmentProtocol{options}, std::invalid_argument);
   options = test::options("m");
-  options.answer_period_s = -0.1;
+  options.clocks.tolerance_s = -0.1;
   EXPECT_THROW(CommitmentProtocol{options}, std::invalid_argument);
   EXPECT_THROW(CommitmentProtocol{test::options("")}, std::invalid_argument);
 }

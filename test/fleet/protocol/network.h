@@ -8,6 +8,7 @@
 
 #include "fleet/protocol/commitment_protocol.h"
 #include "fleet/protocol/motions.h"
+#include "fleet/protocol/shipped_options.h"
 #include "simulation/lossy_network.h"
 
 namespace mocha::test {
@@ -109,10 +110,12 @@ class Network {
   int heartbeats_ = 0;
 };
 
+/// What ships, with a round clearance and without looking at stops: tests of these ask for them.
 inline CommitmentOptions options(const std::string& agent, std::uint32_t epoch = 1) {
-  CommitmentOptions options;
-  options.agent = agent;
-  options.epoch = epoch;
+  CommitmentOptions options = shipped_options(agent, epoch);
+  options.peer_clearance_m = 0.2;
+  options.stops.reset();
+  options.stop_clearance_m = 0.0;
   return options;
 }
 

@@ -10,6 +10,8 @@ namespace {
 
 using Verdict = PeerTable::Verdict;
 
+constexpr ClockOptions kClocks{0.0, 0.25};
+
 CommittedTrajectory trajectory(TrajectoryId id, TrajectoryState state, double start_s = 10.0) {
   CommittedTrajectory trajectory;
   trajectory.agent = "a";
@@ -29,7 +31,7 @@ Heartbeat heartbeat(std::uint32_t epoch, std::vector<Acknowledgement> acknowledg
 class PeerTableTest : public ::testing::Test {
  protected:
   const Peer& peer() const { return table_.peers().at("a"); }
-  PeerTable table_{"me", 3, 1.0};
+  PeerTable table_{"me", 3, 1.0, kClocks};
 };
 
 TEST_F(PeerTableTest, KeepsTheNewestAndCountsTheRest) {
@@ -172,7 +174,7 @@ TEST_F(PeerTableTest, DoesNotBelieveInMoreStartsThanThereCanHaveBeen) {
   tell(table_, 3 + PeerTable::kMostStarts);
   EXPECT_EQ(table_.known_epoch(), 3 + PeerTable::kMostStarts);
   // Not step by step to the end of the numbers, either.
-  PeerTable late("me", kMost - PeerTable::kMostStarts - 5, 1.0);
+  PeerTable late("me", kMost - PeerTable::kMostStarts - 5, 1.0, kClocks);
   tell(late, kMost - PeerTable::kMostStarts + 1);
   EXPECT_EQ(late.known_epoch(), 0u);
   tell(late, kMost - PeerTable::kMostStarts);
@@ -213,7 +215,7 @@ TEST(PeerTable, ClocksThatAgreeWithinTheToleranceAreTakenAsTheyAre) {
 }
 
 TEST(PeerTable, AClockThatCannotBeToldIsNotKnown) {
-  PeerTable table("me", 3, 1.0, {0.0, 0.25});
+  PeerTable table("me", 3, 1.0, kClocks);
   table.receive(Heartbeat{"a", 1, 12.0, {}, {{"me", 8.0, 0.0}}},
                 8.6);  // 3.7 s ahead, or 0.3 s less
   EXPECT_FALSE(table.clock_known(table.peers().at("a"), 8.6));
@@ -222,7 +224,7 @@ TEST(PeerTable, AClockThatCannotBeToldIsNotKnown) {
 }
 
 TEST(PeerTable, EchoesTheNewestHeartbeatOfEachPeer) {
-  PeerTable table("me", 3, 1.0);
+  PeerTable table("me", 3, 1.0, kClocks);
   table.receive(Heartbeat{"a", 1, 20.0, {}, {}}, 8.0);
   table.receive(Heartbeat{"b", 1, 30.0, {}, {}}, 8.1);
   table.receive(Heartbeat{"a", 1, 20.1, {}, {}}, 8.1);
@@ -236,7 +238,7 @@ TEST(PeerTable, EchoesTheNewestHeartbeatOfEachPeer) {
 }
 
 TEST(PeerTable, InventedNamesTakeNoMoreMemoryThanAFleet) {
-  PeerTable table("me", 3, 1.0);
+  PeerTable table("me", 3, 1.0, kClocks);
   for (int i = 0; i < 1000; ++i)
     table.receive(Heartbeat{"invented" + std::to_string(i), 1, 20.0, {}, {}}, 8.0);
   EXPECT_EQ(table.peers().size(), PeerTable::kMostPeers);
@@ -245,7 +247,7 @@ TEST(PeerTable, InventedNamesTakeNoMoreMemoryThanAFleet) {
 }
 
 TEST(PeerTable, RefusesABadTimeout) {
-  EXPECT_THROW(PeerTable("me", 1, 0.0), std::invalid_argument);
+  EXPECT_THROW(PeerTable("me", 1, 0.0, kClocks), std::invalid_argument);
 }
 
 }  // namespace

@@ -58,8 +58,8 @@ TEST(DatagramLink, WhoLostTheCountOfItsStartsIsToldByItsPeers) {
   DatagramLink before("a", kKey);
   DatagramLink after("a", kKey);
   DatagramLink link("b", kKey);
-  PeerTable b("b", 1, 1.0);
-  PeerTable a("a", 1, 1.0);
+  PeerTable b("b", 1, 1.0, {0.0, 0.25});
+  PeerTable a("a", 1, 1.0, {0.0, 0.25});
   const auto hear = [&](const std::optional<FleetMessage>& heard) {
     ASSERT_TRUE(heard);
     b.receive(std::get<Heartbeat>(*heard), kNow_s);

@@ -7,7 +7,7 @@
 #include "planning/candidates/peer_discs.h"
 #include "planning/worlds.h"
 #include "safety/circle_field.h"
-#include "safety/margin_budget.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "planning/candidates/drive_optimizer.h"
 #include "planning/worlds.h"
-#include "safety/margin_budget.h"
+#include "world/margin_budget.h"
 #include "world/primitive_field.h"
 
 // Thousands of queries that nobody would ask: whatever comes in, no exception, no NaN out, and a

@@ -8,8 +8,8 @@
 
 #include "planning/worlds.h"
 #include "safety/certificate.h"
-#include "safety/margin_budget.h"
 #include "trajectory/stopping.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

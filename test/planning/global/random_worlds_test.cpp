@@ -4,7 +4,7 @@
 
 #include "planning/global/global_planner.h"
 #include "planning/worlds.h"
-#include "safety/margin_budget.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

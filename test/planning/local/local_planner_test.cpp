@@ -6,7 +6,7 @@
 
 #include "planning/worlds.h"
 #include "safety/certificate.h"
-#include "safety/margin_budget.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

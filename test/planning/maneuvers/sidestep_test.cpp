@@ -4,8 +4,8 @@
 
 #include "planning/candidates/exposure.h"
 #include "planning/maneuver_test.h"
-#include "safety/margin_budget.h"
 #include "trajectory/random_motion.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

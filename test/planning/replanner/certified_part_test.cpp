@@ -4,9 +4,9 @@
 
 #include "fleet/wire/wire_format.h"
 #include "planning/maneuver_test.h"
-#include "safety/margin_budget.h"
 #include "trajectory/splice.h"
 #include "trajectory/stopping.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {

@@ -90,7 +90,8 @@ TEST(PromiseConversions, SettlementsSayWhichProposalWhatWhereWhenAndByHowMuch) {
   event.trajectory.id = {4, 99};
   event.proposal.tag = 23;
   event.conflict = {"ugv2", 14.25, 0.31, 0.8, {1.5, -2.0}};
-  const auto rejected = settlement_of(event, "map", ros::Time(12.0));
+  const auto rejected =
+      settlement_of({event, event.proposal.tag, std::nullopt}, "map", ros::Time(12.0));
   EXPECT_EQ(rejected.header.stamp, ros::Time(12.0));
   EXPECT_EQ(rejected.header.frame_id, "map");
   EXPECT_EQ(rejected.result, Settlement::REJECTED);
@@ -108,16 +109,36 @@ TEST(PromiseConversions, SettlementsSayWhichProposalWhatWhereWhenAndByHowMuch) {
   }
   event.kind = CommitmentEvent::Kind::kBreached;
   event.refusal = Refusal::kNone;
-  const auto breached = settlement_of(event, "map", ros::Time(12.0));
+  const auto breached = settlement_of({event, 22, std::nullopt}, "map", ros::Time(12.0));
   EXPECT_EQ(breached.result, Settlement::BREACHED);
   EXPECT_EQ(breached.refusal, Settlement::NONE);
   EXPECT_EQ(breached.peer, "ugv2");
+  EXPECT_EQ(breached.sequence, 22u);
   event = CommitmentEvent();
   event.proposal.tag = 24;
-  const auto settled = settlement_of(event, "map", ros::Time(12.0));
+  const auto settled =
+      settlement_of({event, event.proposal.tag, std::nullopt}, "map", ros::Time(12.0));
   EXPECT_EQ(settled.result, Settlement::SETTLED);
   EXPECT_EQ(settled.sequence, 24u);
   EXPECT_EQ(settled.message, "is binding");
+}
+
+TEST(PromiseConversions, TheProposerHearsWhetherItIsSettledRefusedOrBreached) {
+  mocha_ugv::Settlement settlement;
+  settlement.sequence = 23;
+  settlement.message = "too late";
+  const std::vector<std::pair<std::uint8_t, Answer::Kind>> kinds = {
+      {mocha_ugv::Settlement::SETTLED, Answer::Kind::kSettled},
+      {mocha_ugv::Settlement::REJECTED, Answer::Kind::kRefused},
+      {mocha_ugv::Settlement::INVALID, Answer::Kind::kRefused},
+      {mocha_ugv::Settlement::BREACHED, Answer::Kind::kBreached}};
+  for (const auto& [result, kind] : kinds) {
+    settlement.result = result;
+    const Answer answer = answer_from_message(settlement);
+    EXPECT_EQ(answer.kind, kind);
+    EXPECT_EQ(answer.sequence, 23u);
+    EXPECT_EQ(answer.words, "too late");
+  }
 }
 
 TEST(PromiseConversions, SettlementsNumberRefusalsAsTheProtocolDoes) {
@@ -137,8 +158,13 @@ TEST(PromiseConversions, SettlementsNumberRefusalsAsTheProtocolDoes) {
     CommitmentEvent event;
     event.kind = CommitmentEvent::Kind::kWithdrawn;
     event.refusal = refusal;
-    EXPECT_EQ(settlement_of(event, "map", ros::Time(12.0)).refusal, number) << name_of(refusal);
-    EXPECT_EQ(settlement_of(event, "map", ros::Time(12.0)).result, Settlement::REJECTED);
+    EXPECT_EQ(
+        settlement_of({event, event.proposal.tag, std::nullopt}, "map", ros::Time(12.0)).refusal,
+        number)
+        << name_of(refusal);
+    EXPECT_EQ(
+        settlement_of({event, event.proposal.tag, std::nullopt}, "map", ros::Time(12.0)).result,
+        Settlement::REJECTED);
   }
 }
 

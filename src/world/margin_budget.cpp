@@ -1,4 +1,4 @@
-#include "safety/margin_budget.h"
+#include "world/margin_budget.h"
 
 #include <algorithm>
 #include <cmath>

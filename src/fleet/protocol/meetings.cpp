@@ -1,0 +1,90 @@
+#include "fleet/protocol/meetings.h"
+
+#include <algorithm>
+
+#include "fleet/protocol/stop_conflict.h"
+#include "trajectory/separation.h"
+
+namespace mocha {
+namespace {
+
+/// Robots that are too close already may come no closer than now, up to this
+/// for rounding.
+constexpr double kRounding_m = 1e-3;
+
+}  // namespace
+
+std::optional<Conflict> Meetings::with_promises(const Reservation& mine, const Peer& peer) const {
+  for (const Reservation& theirs : peer.binding.reservations()) {
+    if (auto conflict = between(mine, peer, theirs)) return conflict;
+  }
+  return std::nullopt;
+}
+
+Objection Meetings::objection(const CommittedTrajectory& proposal, const std::string& name,
+                              const Peer& peer) const {
+  const Reservation mine = reservation_of(proposal);
+  auto promised = with_promises(mine, peer);
+  if (!promised) promised = by_stopping(&proposal, peer, nullptr);
+  if (promised) return {Refusal::kPeerPromise, *promised, {}};
+  Objection found;
+  for (const CommittedTrajectory& open : peer.open) {
+    auto conflict = between(mine, peer, peer.reservation_of_open(open));
+    if (!conflict) conflict = by_stopping(&proposal, peer, &open);
+    if (!conflict) continue;
+    if (takes_precedence(open, proposal)) return {Refusal::kPeerProposal, *conflict, {}};
+    found.waits_for = name;
+  }
+  return found;
+}
+
+Objection Meetings::objection(const CommittedTrajectory& proposal, const PeerTable& peers) const {
+  Objection found;
+  for (const auto& [name, peer] : peers.peers()) {
+    Objection by_peer = objection(proposal, name, peer);
+    if (by_peer.refusal != Refusal::kNone) return by_peer;
+    if (!by_peer.waits_for.empty()) found.waits_for = name;
+  }
+  return found;
+}
+
+bool Meetings::objects_to(const Peer& peer, const CommittedTrajectory& proposal,
+                          const CommittedTrajectory* pending) const {
+  const Reservation theirs = peer.reservation_of_open(proposal);
+  for (const Reservation& mine : binding_.reservations()) {
+    if (between(mine, peer, theirs)) return true;
+  }
+  if (by_stopping(nullptr, peer, &proposal)) return true;
+  return pending != nullptr && takes_precedence(*pending, proposal) &&
+         (between(reservation_of(*pending), peer, theirs) || by_stopping(pending, peer, &proposal));
+}
+
+std::optional<Conflict> Meetings::between(const Reservation& mine, const Peer& peer,
+                                          const Reservation& theirs) const {
+  const double demanded = mine.trajectory.footprint_radius_m +
+                          theirs.trajectory.footprint_radius_m + options_.peer_clearance_m;
+  if (far_apart(*mine.trajectory.motion, *theirs.trajectory.motion, demanded)) return std::nullopt;
+  const double required =
+      std::min(demanded, closest_m(*mine.trajectory.motion, peer, *theirs.trajectory.motion));
+  return first_conflict(mine, theirs, required, now_);
+}
+
+std::optional<Conflict> Meetings::by_stopping(const CommittedTrajectory* my_proposal,
+                                              const Peer& peer,
+                                              const CommittedTrajectory* their_proposal) const {
+  const CommittedTrajectory* mine = binding_.empty() ? my_proposal : &binding_.newest();
+  const CommittedTrajectory* theirs =
+      peer.binding.empty() ? their_proposal : &peer.binding.newest();
+  if (!options_.stops || mine == nullptr || theirs == nullptr) return std::nullopt;
+  const StopDemand demand{*options_.stops, options_.stop_clearance_m,
+                          closest_m(*mine->motion, peer, *theirs->motion)};
+  return first_stop_conflict({binding_, my_proposal}, {peer.binding, their_proposal}, demand, now_);
+}
+
+double Meetings::closest_m(const Motion& mine, const Peer& peer, const Motion& theirs) const {
+  const Vector2 here = binding_.empty() ? mine.position(now_) : binding_.position(now_);
+  const Vector2 there = peer.binding.empty() ? theirs.position(now_) : peer.binding.position(now_);
+  return (here - there).norm() - kRounding_m;
+}
+
+}  // namespace mocha

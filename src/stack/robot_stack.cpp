@@ -1,0 +1,117 @@
+#include "stack/robot_stack.h"
+
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+namespace mocha {
+namespace {
+
+CommittedTrajectory wish_of(const ProposedMotion& proposal, const std::string& agent,
+                            double radius_m) {
+  CommittedTrajectory wish;
+  wish.agent = agent;
+  wish.id.sequence = proposal.sequence;
+  wish.state = proposal.emergency ? TrajectoryState::kEmergency : TrajectoryState::kProposed;
+  wish.footprint_radius_m = radius_m;
+  wish.motion = std::make_shared<const Motion>(proposal.motion);
+  return wish;
+}
+
+Answer answer_of(const Settled& settled) {
+  using Kind = CommitmentEvent::Kind;
+  const Kind kind = settled.event.kind;
+  const auto said = kind == Kind::kSettled    ? Answer::Kind::kSettled
+                    : kind == Kind::kBreached ? Answer::Kind::kBreached
+                                              : Answer::Kind::kRefused;
+  return {said, settled.sequence, name_of(settled.event.refusal)};
+}
+
+}  // namespace
+
+RobotStack::RobotStack(std::string name, const RobotModel& robot, const Parameters& parameters,
+                       SettlingProtocol& protocol)
+    : name_(std::move(name)),
+      radius_m_(robot.footprint.circumscribed_radius_m()),
+      protocol_(protocol),
+      planning_(robot, parameters.global_planner, {false, 0, name_}),
+      replanning_(robot, parameters.local_replanner),
+      keeping_(robot, parameters.local_replanner.number("lease"), protocol) {}
+
+void RobotStack::take(std::deque<Goal> goals, double now_s) {
+  planning_.executive().take(std::move(goals), now_s);
+}
+
+RobotStack::Messages RobotStack::hear(const FleetMessage& message, double now_s) {
+  if (const auto* request = std::get_if<YieldRequest>(&message)) {
+    planning_.executive().hear(*request, now_s);
+  } else if (const auto* promise = std::get_if<CommittedTrajectory>(&message)) {
+    return apply(keeping_.receive(*promise, now_s));
+  } else if (const auto* heartbeat = std::get_if<Heartbeat>(&message)) {
+    return apply(keeping_.receive(*heartbeat, now_s));
+  }
+  return {};
+}
+
+RobotStack::Messages RobotStack::tick(double now_s) { return apply(keeping_.tick(now_s)); }
+
+RobotStack::Messages RobotStack::replan(double now_s, const RobotState& measured,
+                                        LocalScene scene) {
+  refresh_peers(now_s);
+  scene.peers = peers_;
+  LocalKnowledge known;
+  known.measured = measured;
+  known.map_age_s = known.fleet_age_s = known.prediction_age_s = 0.0;
+  known.scene = [&scene](const Vector2&) { return scene; };
+  replanned_ = replanning_.step(now_s, known);
+  if (replanned_.swerves || replanned_.keeps_plan)
+    planning_.executive().follow(replanning_.replanner().plan());
+  if (replanned_.request_plan) planning_.executive().request();
+  if (replanned_.lease) keeping_.renew(*replanned_.lease);
+  if (!replanned_.proposal) return {};
+  return propose(*replanned_.proposal, now_s);
+}
+
+RobotStack::Messages RobotStack::propose(const ProposedMotion& proposal, double now_s) {
+  try {
+    return apply(keeping_.propose(proposal.sequence, wish_of(proposal, name_, radius_m_), now_s));
+  } catch (const std::invalid_argument& error) {
+    replanning_.hear({Answer::Kind::kRefused, proposal.sequence, error.what()});
+    return {};
+  }
+}
+
+RobotStack::Messages RobotStack::pursue(double now_s, const RobotState& measured,
+                                        const std::shared_ptr<const StaticMap>& static_map) {
+  refresh_peers(now_s);
+  pursued_ = planning_.step(now_s, measured, committed(), [&](const std::vector<Vector2>&) {
+    return PlanningScene{static_map, peers_};
+  });
+  if (!pursued_.plan.empty()) replanning_.set_plan(pursued_.plan);
+  if (!pursued_.request) return {};
+  YieldRequest request = *pursued_.request;
+  request.epoch = protocol_.epoch();
+  return {request};
+}
+
+RobotStack::Messages RobotStack::apply(CommitmentNews news) {
+  for (const Settled& settled : news.settled) {
+    if (settled.in_force) {
+      replanning_.set_committed(settled.in_force->lease.id, *settled.in_force->trajectory.motion);
+    }
+    replanning_.hear(answer_of(settled));
+  }
+  return std::move(news.messages);
+}
+
+void RobotStack::refresh_peers(double now_s) {
+  const auto news = keeping_.fleet_news(now_s);
+  if (!news) return;
+  peers_.clear();
+  for (const CommittedTrajectory& promise : *news) {
+    peers_.push_back(
+        std::make_shared<PeerObstacle>(promise.agent, promise.motion, promise.footprint_radius_m));
+  }
+}
+
+}  // namespace mocha
