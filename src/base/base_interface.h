@@ -42,7 +42,7 @@ class BaseInterface {
   /// call, in order.
   virtual std::vector<BaseFeedback> poll(double now_s) = 0;
 
-  /// Whether the base answers: feedback came a short while ago. Who does not is not driven.
+  /// Whether the base answers: feedback came a short while ago. A base that does not is not driven.
   virtual bool connected(double now_s) const = 0;
 
   /// Drives so until the next call, or until the base itself finds that commands stay away. What is

@@ -6,7 +6,7 @@
 
 namespace mocha {
 
-/// Forgets velocity commands that grow old: who commanded them may be dead.
+/// Forgets velocity commands that grow old: the node that sent them may be dead.
 class CommandWatchdog {
  public:
   explicit CommandWatchdog(double max_age_s) : max_age_s_(max_age_s) {}

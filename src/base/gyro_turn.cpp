@@ -9,7 +9,7 @@ namespace {
 constexpr double kSettling_s = 0.5;  // a body sways on after its wheels stand
 constexpr double kEnough_s = 1.0;    // of standing, for a first bias
 constexpr double kMemory_s = 10.0;   // the bias follows the sensor's temperature
-constexpr double kMostBias = 0.1;    // [rad/s] more is somebody who turns the robot by hand
+constexpr double kMostBias = 0.1;    // [rad/s] more is a robot turned by hand
 
 }  // namespace
 

@@ -57,7 +57,7 @@ void SerialPort::open(double now_s) {
     fault_ = device_ + ": " + error.code().message();
     return;
   }
-  ::tcflush(port_.native_handle(), TCIOFLUSH);  // what was said to somebody else
+  ::tcflush(port_.native_handle(), TCIOFLUSH);  // what was sent to another program
   fault_.clear();
   rest_.clear();
 }

@@ -43,7 +43,7 @@ std::vector<BaseFeedback> WaveshareBase::poll(double now_s) {
   if (port_.poll(now_s)) {
     opened_s_ = now_s;
     decoder_.restart();
-    send("\n");  // ends half a line that somebody else may have left
+    send("\n");  // ends half a line that another program may have left
     send_setup(now_s);
   }
   const bool set_back = now_s < setup_s_;

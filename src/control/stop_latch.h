@@ -5,10 +5,10 @@
 
 namespace mocha {
 
-/// Whether a node keeps its robot stopped, from what it hears: "stop", at once and from anybody,
+/// Whether a node keeps its robot stopped, from what it hears: "stop", at once and from any sender,
 /// and the state of the robot's emergency stop, which knows of resets. Once told to stop it stays
-/// stopped until a reset after that: also where whoever knows the state is dead, or has not heard
-/// the same.
+/// stopped until a later reset, even where the node that knows the state is dead or has not heard
+/// of the stop.
 class StopLatch {
  public:
   void stop() {
@@ -26,9 +26,9 @@ class StopLatch {
   }
 
   bool stopped() const { return pressed_ || held_; }
-  /// Whoever knows has said that no stop holds.
+  /// The state of the emergency stop has been heard, and no stop holds.
   bool released() const { return resets_ && !stopped(); }
-  /// It was told to, and whoever knows the state says nothing of a stop.
+  /// It was told to stop, and the state of the emergency stop says nothing of it.
   bool by_itself() const { return pressed_ && !held_; }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace mocha {
 
-/// Who has to acknowledge each step of the clock before the next one, and who has.
+/// The nodes that have to acknowledge each step of the clock before the next one.
 class AckRoster {
  public:
   void expect(const std::string& robot, const std::string& node);
@@ -16,14 +16,14 @@ class AckRoster {
   /// again; unexpected ones never do.
   void acknowledge(const std::string& robot, const std::string& node, std::int64_t stamp_ns);
 
-  /// Whether everybody who counts has handled the step at `stamp_ns` or a later one.
+  /// Whether every node that counts has handled the step at `stamp_ns` or a later one.
   bool complete(std::int64_t stamp_ns) const;
 
-  /// Gives up those who have not: they do not count until they acknowledge again. Returns their
-  /// names ("ugv1/perception").
+  /// Gives up the nodes that have not: they do not count until they acknowledge again. Returns
+  /// their names ("ugv1/perception").
   std::vector<std::string> give_up(std::int64_t stamp_ns);
 
-  /// Names of those who are given up.
+  /// Names of the nodes that are given up.
   std::vector<std::string> missing() const;
 
  private:

@@ -41,7 +41,7 @@ PseudoTerminal::PseudoTerminal(const std::string& link) {
   if (computer_ < 0) fail(path_);
   termios options{};
   ::tcgetattr(computer_, &options);
-  ::cfmakeraw(&options);  // bytes as they are, before anybody has opened it
+  ::cfmakeraw(&options);  // bytes as they are, before the other end is opened
   ::tcsetattr(computer_, TCSANOW, &options);
   if (link.empty()) return;
   make_link(path_, link);

@@ -23,7 +23,7 @@ class PseudoTerminal {
   /// What has come from the computer.
   std::string read();
 
-  /// What does not fit into the line, as nobody reads, is lost, as it is on a wire.
+  /// Text that does not fit into the line, as it is not read, is lost, as it is on a wire.
   void write(const std::string& text);
 
  private:

@@ -67,8 +67,8 @@ class PeerObstacle : public MovingObstacle {
 };
 
 /// A thing seen at time t0 at constant velocity, its radius growing with the uncertainty of the
-/// prediction. It grows for `growth_s` >= 0 only: who looks again long before then need not fear
-/// now all that may be unknown later.
+/// prediction. It grows for `growth_s` >= 0 only: a planner that looks again long before then
+/// need not keep from all that may be unknown later.
 class PredictedDisc : public MovingObstacle {
  public:
   /// Throws std::invalid_argument for values that are not finite and for a negative radius or

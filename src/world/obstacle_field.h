@@ -54,13 +54,13 @@ class ObstacleField {
   /// certificates.
   virtual double distance_bound(const Vector& p) const = 0;
 
-  /// How far p may move at least before visit_near() with this radius would call anybody [m]; 0
-  /// where it does so already.
+  /// How far p may move at least before visit_near() with this radius visits anything [m]; 0 where
+  /// it does so already.
   virtual double room(const Vector& p, double radius_m) const {
     return std::max(0.0, distance_bound(p) - radius_m);
   }
 
-  /// True only if visit_near() with this radius would call nobody anywhere in the box.
+  /// True only if visit_near() with this radius visits nothing from anywhere in the box.
   virtual bool clear(const Box& box, double radius_m) const = 0;
 };
 

@@ -168,8 +168,8 @@ bool PrimitiveField<D>::clear(const Box& box, double radius_m) const {
     const double distance = distance_m(primitive, box);
     return distance > 0.0 && distance >= radius_m;
   };
-  // Who is farther from the centre than the radius and half the diagonal is out of reach. Compared
-  // by squares, as this is asked of every piece of a trajectory at every evaluation.
+  // A primitive farther from the centre than the radius and half the diagonal is out of reach. It
+  // is compared by squares, as this is asked of every piece of a trajectory at every evaluation.
   const double half_diagonal2 = 0.25 * box.diagonal().squaredNorm();
   const auto out_of_reach = [&](double from_centre_m) {
     const double gap_m = from_centre_m - radius_m;

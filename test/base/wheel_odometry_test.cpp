@@ -84,7 +84,7 @@ TEST(WheelTravel, ARestartedBaseDoesNotThrowTheRobotBack) {
   EXPECT_EQ(travel.restarts(), 1);
 }
 
-TEST(WheelTravel, WhatWasRolledWhileNobodyListenedIsCaughtUp) {
+TEST(WheelTravel, WhatWasRolledUnheardIsCaughtUp) {
   WheelTravel travel(2.0);
   travel.add(0.0, 0.5, 100);
   EXPECT_NEAR(travel.add(2.0, 0.5, 150), 0.5, 0.011);
@@ -216,7 +216,7 @@ TEST(WheelOdometry, BeforeTheBiasIsKnownTheWheelsTellTheHeading) {
   EXPECT_NEAR(odometry.pose().yaw_rad, wrap_angle(1.5 * base.yaw_rad), 0.15);
 }
 
-TEST(WheelOdometry, WhoTurnsAStandingRobotByHandTeachesNoBias) {
+TEST(WheelOdometry, AStandingRobotTurnedByHandTeachesNoBias) {
   WheelOdometry odometry = odometry_with_gyro();
   SkiddingBase base(odometry);
   base.turn(0.0, 3.0);

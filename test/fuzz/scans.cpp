@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fleet/protocol/motions.h"
+#include "fuzz/lives.h"
 #include "fuzz/oddities.h"
 #include "perception/room.h"
 #include "perception/sensor/point_cloud.h"
@@ -145,21 +146,5 @@ class Fuzzer {
 }  // namespace mocha
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: fuzz_scans COUNT SEED\n");
-    return 2;
-  }
-  const int lives = std::atoi(argv[1]) / mocha::kLifetime;
-  int taken = 0;
-  int refused = 0;
-  for (int life = 0; life < lives; ++life) {
-    mocha::Fuzzer fuzzer(static_cast<unsigned>(std::atoi(argv[2]) + life));
-    fuzzer.run(mocha::kLifetime);
-    taken += fuzzer.taken();
-    refused += fuzzer.refused();
-  }
-  std::printf("%d scans and clouds were taken, %d refused\n", taken, refused);
-  mocha::require(taken > refused / 2, "hardly anything was taken: the damage is too wild");
-  mocha::require(refused > taken / 20, "hardly anything was refused: the damage is too tame");
-  return 0;
+  return mocha::fuzz_lives<mocha::Fuzzer>(argc, argv, "fuzz_scans", mocha::kLifetime);
 }

@@ -1,8 +1,12 @@
-"""For the tests here: skipped, with the reason, where this machine cannot play several hosts."""
+"""For the tests here: skipped, with the reason, where this machine cannot play several hosts; and how they wait."""
+import os
 import sys
 import unittest
 
 import netns
+
+sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "rostest"))
+from waiting import wait_until  # noqa: E402 (the path comes first)
 
 
 def run_tests():

@@ -6,10 +6,9 @@ import socket
 import struct
 import subprocess
 import sys
-import time
 import unittest
 
-from hosts_needed import netns, run_tests
+from hosts_needed import netns, run_tests, wait_until
 from relay import RelayProcess
 
 GROUP, PORT = "239.255.76.67", 7667
@@ -163,8 +162,8 @@ class HostsTest(unittest.TestCase):
         folder = os.path.dirname(os.path.abspath(netns.__file__))
         killed = subprocess.Popen([sys.executable, "-c", program, folder], stdout=subprocess.PIPE, text=True)
         sleeper = int(killed.stdout.readline())
-        while not self.is_in_namespace(sleeper, f"mocha{killed.pid}-1-ugv1"):
-            time.sleep(0.02)
+        namespace = f"mocha{killed.pid}-1-ugv1"
+        wait_until(lambda: self.is_in_namespace(sleeper, namespace), "the program in its namespace")
         killed.kill()
         killed.communicate()
         with netns.Hosts(["ugv1"]):

@@ -7,7 +7,6 @@ import shutil
 import subprocess
 import sys
 import threading
-import time
 
 import rosgraph
 import rospy
@@ -16,7 +15,7 @@ from geometry_msgs.msg import PoseStamped
 from mocha_ugv.msg import FleetTrajectories, GroundTruth, PlannerStatus, StepAck
 from rosgraph_msgs.msg import Clock
 
-from hosts_needed import netns
+from hosts_needed import netns, wait_until
 from relay import RelayProcess
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -148,7 +147,7 @@ class SeparateFleet:
             self.boot(name)
         self._hosts.enter(netns.SIMULATOR)
         os.environ.update(self._environment(netns.SIMULATOR))
-        self._wait(rosgraph.is_master_online, "no roscore of the simulator")
+        wait_until(rosgraph.is_master_online, "the roscore of the simulator", STUCK_WALL_S)
         for name in self._names:
             self._adapter("simulator", name, netns.SIMULATOR)
         rospy.init_node("judge", disable_signals=True, disable_rostime=True)
@@ -158,7 +157,7 @@ class SeparateFleet:
         rospy.Subscriber("/fleet_simulator/acks", StepAck, self._on_ack, tcp_nodelay=True)
         rospy.Subscriber("/diagnostics", DiagnosticArray, self._on_diagnostics)
         rospy.Subscriber("/clock", Clock, self._on_clock, tcp_nodelay=True)
-        self._wait(lambda: self._stamp is not None and self._acks.get_num_connections() > 0, "no simulator")
+        wait_until(lambda: self._stamp is not None and self._acks.get_num_connections() > 0, "the simulator", STUCK_WALL_S)
         self.run(3.0)
         for robot in self.robots:
             if robot.acked_s == 0.0:
@@ -260,19 +259,12 @@ class SeparateFleet:
                 for robot in self.robots:
                     robot.send_again()
 
-    @staticmethod
-    def _wait(condition, what):
-        deadline = time.monotonic() + STUCK_WALL_S
-        while not condition():
-            if time.monotonic() > deadline:
-                raise AssertionError(what)
-            time.sleep(0.05)
-
     def wait_for(self, name):
         """Lets a little time go on until the robot's whole stack takes part again."""
-        since, deadline = self.now, time.monotonic() + STUCK_WALL_S
-        while self.robot(name).acked_s <= since:
-            if time.monotonic() > deadline:
-                raise AssertionError(f"{name} has not come back")
+        since = self.now
+
+        def has_come_back():
             self.run(0.02)
-            time.sleep(0.05)
+            return self.robot(name).acked_s > since
+
+        wait_until(has_come_back, f"{name} has come back", STUCK_WALL_S)

@@ -9,7 +9,7 @@ using Names = std::vector<std::string>;
 
 TEST(AckRoster, WaitsForEverybody) {
   AckRoster roster;
-  EXPECT_TRUE(roster.complete(10));  // nobody expected
+  EXPECT_TRUE(roster.complete(10));  // no node is expected
   roster.expect("ugv1", "perception");
   roster.expect("ugv2", "perception");
   EXPECT_FALSE(roster.complete(10));
@@ -21,7 +21,7 @@ TEST(AckRoster, WaitsForEverybody) {
   EXPECT_FALSE(roster.complete(20));
 }
 
-TEST(AckRoster, WhoIsGivenUpCountsAgainOnceItIsBack) {
+TEST(AckRoster, ANodeThatWasGivenUpCountsAgainOnceItIsBack) {
   AckRoster roster;
   roster.expect("ugv1", "perception");
   roster.expect("ugv1", "planner");

@@ -72,7 +72,7 @@ TEST(LossyNetwork, BroadcastsToAllOthers) {
   EXPECT_EQ(receivers, (std::vector<int>{0, 2, 3}));
 }
 
-TEST(LossyNetwork, WhoIsCutOffNeitherSendsNorReceives) {
+TEST(LossyNetwork, AMemberThatIsCutOffNeitherSendsNorReceives) {
   Network network(7, {});
   network.send(0, 1, 1, 0.0);
   network.cut_off(1, true);

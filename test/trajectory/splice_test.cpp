@@ -89,7 +89,7 @@ TEST(Splice, TurnsInPlaceAreNotCut) {
   EXPECT_EQ(splice(before, kNow_s + 0.7, kNow_s + 1.0, turn).fault, MotionFault::kCutTurn);
   EXPECT_TRUE(splice(before, kNow_s - 0.3, kNow_s, turn));
   EXPECT_TRUE(splice(before, kNow_s - 3.0, kNow_s - 2.0, turn)) << "stands until it turns";
-  // Nor is the one that is under way.
+  // The one that is under way is not cut, either.
   const Motion after = standing(kNow_s, here.position, 1.5);
   EXPECT_EQ(splice(turn, kNow_s, kNow_s + 1.0, after).fault, MotionFault::kCutTurn);
   const auto turned = splice(turn, kNow_s + 1.0, kNow_s + 3.0, after);

@@ -190,7 +190,7 @@ TEST(DistanceField, ShowsItsNearestDistanceAloneWhereItIsClose) {
   EXPECT_GT(held_back, 50);
 }
 
-TEST(DistanceField, NobodyIsNearWithinTheRoomNorInAClearBox) {
+TEST(DistanceField, NothingIsNearWithinTheRoomOrInAClearBox) {
   const DistanceField field(random_grid(2, OccupancyGrid::kFree), DistanceField::Solid::kOccupied);
   std::mt19937 random(9);
   std::uniform_real_distribution<double> x(-2.0, 2.3);

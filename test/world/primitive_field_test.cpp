@@ -199,7 +199,7 @@ TYPED_TEST(PrimitiveFields, ABoxIsClearWhereAllItsPointsAre) {
   EXPECT_GT(clear, 200);
 }
 
-TYPED_TEST(PrimitiveFields, NobodyIsNearWithinTheRoom) {
+TYPED_TEST(PrimitiveFields, NothingIsNearWithinTheRoom) {
   constexpr int D = TypeParam::value;
   const PrimitiveField<D> field(random_primitives<D>(9, 60), 1.5);
   Random random(10);

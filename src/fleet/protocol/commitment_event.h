@@ -20,14 +20,14 @@ struct Proposal {
 /// Why a proposal did not become binding. The numbers are those of mocha_ugv/Settlement.
 enum class Refusal : std::uint8_t {
   kNone,
-  kListening,      ///< just started: who is there has not been heard of yet
+  kListening,      ///< just started: its peers are not known yet
   kTooLate,        ///< its start came before it was settled, or has passed already
   kDiscontinuous,  ///< does not begin where the binding motion will be
   kPeerPromise,    ///< comes too close to what a peer has promised
   kPeerProposal,   ///< meets a peer's proposal that came first, or one of the same time that ranks
                    ///< higher
   kUnanswered,     ///< like kTooLate, because of a peer in reach that did not agree in time
-  kClock,          ///< like kTooLate, because nobody can tell what a peer's clock shows
+  kClock,          ///< like kTooLate, because what a peer's clock shows is not known
   kReplaced,       ///< by a newer proposal of its own robot
   kEmergency,      ///< its own robot brakes
 };

@@ -33,7 +33,7 @@ namespace mocha {
 /// not promised a, nor was a pending (A would have withdrawn a, or not endorsed b). So A proposed a
 /// after it endorsed b, hence after b was proposed. By the same argument b was proposed after a.
 /// Both robots decide alike because only the lower in rank gives way, and the rank is in the
-/// messages. An endorsement that waits to be sent is one that the network delays. Someone always
+/// messages. An endorsement that waits to be sent is one that the network delays. One always
 /// wins, because waiting follows the rank, which has no cycles, and ends at the start of the
 /// motion. Why it also holds without endorsements (peers not yet known to be in reach) where
 /// messages take less than delta_dc: of two checks that overlap, one robot at least hears of the
@@ -42,14 +42,14 @@ namespace mocha {
 /// so before it ends.
 ///
 /// What a robot may assume: while two robots keep their binding promises, their centres stay radii
-/// plus clearance apart, less the tracking errors of both. So nobody who keeps its promise is hit
-/// by a robot that kept its promise; with stops, nor by one that brakes along its promised path at
-/// the deceleration agreed on or less hard, if the robot in its way hears of it and brakes within
-/// the reaction time. Assumed are: one map frame (its errors belong into the
-/// margins), clocks that agree as ClockOptions say or were measured (PeerTable; nothing is endorsed
-/// or settled with a peer in reach whose clock is not known), unique names, true radii, and robots
-/// that are in reach of each other while they settle, or messages faster than delta_dc. An
-/// emergency motion breaks a promise. It is sent to all at once, and a robot whose own promise
+/// plus clearance apart, less the tracking errors of both. So a robot that keeps its promise is not
+/// hit by another that does. With stops, it is not hit either by a robot that brakes along its
+/// promised path as `stops` says, if it hears of that and brakes likewise within the reaction time:
+/// every robot is taken to brake like this one. Assumed are: one map frame (its errors belong into
+/// the margins), clocks that agree as ClockOptions say or were measured (PeerTable; nothing is
+/// endorsed or settled with a peer in reach whose clock is not known), unique names, true radii,
+/// and robots that are in reach of each other while they settle, or messages faster than delta_dc.
+/// An emergency motion breaks a promise. It is sent to all at once, and a robot whose own promise
 /// meets it is told (kBreached) and has to brake in turn; until it stands, those two have only
 /// their planners' margins. Robots that already are closer than demanded (after braking, or set
 /// down so) may move as long as they come no closer.

@@ -46,8 +46,8 @@ struct CommittedTrajectory {
   std::shared_ptr<const Motion> motion;  ///< none where withdrawn
 };
 
-/// Who wins where two proposals meet: the higher priority, then the smaller name. A total order
-/// over the fleet.
+/// Whether a wins where two proposals meet: the higher priority, then the smaller name. A total
+/// order over the fleet.
 inline bool takes_precedence(const CommittedTrajectory& a, const CommittedTrajectory& b) {
   return a.priority != b.priority ? a.priority > b.priority : a.agent < b.agent;
 }
@@ -57,8 +57,8 @@ inline bool takes_precedence(const CommittedTrajectory& a, const CommittedTrajec
 /// than an hour, or one that may exceed 50 m/s or 500 m/s^2.
 void validate(const CommittedTrajectory& trajectory);
 
-/// The promise as somebody tells it whose clock shows `later_s` more and is less sure of it by
-/// `less_sure_s`: a robot on its way is anywhere that it gets to in that time.
+/// The promise by a clock that shows `later_s` more and is less sure of it by `less_sure_s`: the
+/// radius grows by what the robot drives in that time.
 CommittedTrajectory reclocked(CommittedTrajectory trajectory, double later_s, double less_sure_s);
 
 /// One line of a heartbeat: the newest promise of `agent` that the sender has seen and does not

@@ -9,8 +9,8 @@
 namespace mocha {
 namespace {
 
-constexpr double kPeriod_s = 1.0;  // in which all that is known is said again
-constexpr double kSoon_s = 0.1;    // the same where it has changed, or somebody knows less
+constexpr double kPeriod_s = 1.0;  // in which all that is known is sent again
+constexpr double kSoon_s = 0.1;    // the same after a change, or where a robot knows less
 constexpr int kRepeats = 4;        // soon after a change; a fifth of the datagrams may get lost
 constexpr double kSameTime_s = 1e-5;
 
@@ -108,8 +108,8 @@ EmergencyStop::News EmergencyStop::merge(const FleetStop& heard) {
   return News::kNewer;
 }
 
-/// For one more robot, where need be by forgetting one whose orders are released: heard of again,
-/// it would stop the fleet at worst.
+/// Makes room for one more robot, if need be by forgetting one whose orders are released: heard of
+/// again, it would stop the fleet at worst.
 bool EmergencyStop::make_room() {
   if (record_.fleet.size() < kMostAgents) return true;
   for (auto it = record_.fleet.begin(); it != record_.fleet.end(); ++it) {

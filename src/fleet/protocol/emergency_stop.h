@@ -52,21 +52,21 @@ struct StopRecord {
 ///
 /// Of each robot's orders for the fleet two numbers are known, ordered and released, and of what is
 /// heard the larger one counts. So messages may come late, twice, in any order, or not at all, also
-/// from recordings, and who hears the newest of any robot knows what they know together. A reset
+/// from recordings, and a robot that hears the newest of each knows what all know together. A reset
 /// releases the stops that are known where it is made, and no others: one ordered meanwhile, or out
-/// of reach, goes on to hold. It is said to all once a second, several times when it changes, and
-/// soon where somebody knows less.
+/// of reach, still holds. All is sent once a second, several times when it changes, and soon after
+/// a robot shows that it knows less.
 class EmergencyStop {
  public:
-  /// Nobody stops a fleet so often: who says that it was stopped more often than is known by more
-  /// than this is wrong, or wants us to come to the end of all numbers.
+  /// More stops than a fleet has: a robot that claims a number farther above the known one is
+  /// wrong, or wants us to run out of numbers.
   static constexpr std::uint64_t kMostNews = 1'000'000;
   /// Robots whose orders are remembered: no more than PeerTable knows.
   static constexpr std::size_t kMostAgents = 250;
 
   EmergencyStop(std::string agent, std::uint32_t epoch, StopRecord record);
 
-  // Who orders what holds already changes nothing.
+  // An order for what holds already changes nothing.
   void stop_robot(double now, const std::string& reason);
   void stop_fleet(double now, const std::string& reason);
   /// Releases the stop of this robot; the fleet's go on to hold.

@@ -46,7 +46,7 @@ struct Peer {
 /// The newest promises of each peer, told by our clock. Messages may come late, twice, in any
 /// order, or not at all; a message older than what is known changes nothing.
 ///
-/// A peer that has been silent for the reach timeout is out of reach: nobody waits for it any more.
+/// A peer that has been silent for the reach timeout is out of reach: no robot waits for it.
 /// What it promised still holds to its end, and after that it is an obstacle at its last place. A
 /// proposal of it that we endorsed may have become binding, and counts as promised; others are
 /// dropped. A higher epoch (the peer was started anew) makes all former messages old. The former
@@ -68,7 +68,7 @@ class PeerTable {
     kCrowded,    ///< there are too many peers
   };
 
-  /// `own_name`: whose entries in heartbeats are about us, in epoch `own_epoch`. Throws
+  /// Entries of heartbeats under `own_name`, in epoch `own_epoch`, are about us. Throws
   /// std::invalid_argument for a timeout that is not above 0.
   PeerTable(std::string own_name, std::uint32_t own_epoch, double reach_timeout_s,
             ClockOptions clocks);
@@ -93,14 +93,14 @@ class PeerTable {
   std::vector<Acknowledgement> acknowledgements(double now) const;
   std::vector<Echo> echoes(double now) const;
 
-  /// The highest epoch of ourselves that anybody knows of; above our own, nobody listens to us.
+  /// The highest epoch of ourselves that any peer knows of; above our own, no peer listens to us.
   /// Never one that leaves us fewer than kMostStarts more.
   std::uint32_t known_epoch() const { return known_epoch_; }
   /// How often a peer said that it knows an epoch of ourselves that we cannot have come to.
   int unlikely_epochs() const { return unlikely_epochs_; }
 
-  /// Nobody starts a robot so often, were it every minute for a year: who says that it knows an
-  /// epoch farther above ours is wrong, or wants us to come to the end of all numbers.
+  /// More starts than a robot has, were it every minute for a year: a peer that claims an epoch
+  /// farther above ours is wrong, or wants us to run out of numbers.
   static constexpr std::uint32_t kMostStarts = 1'000'000;
 
   int duplicates() const { return duplicates_; }

@@ -9,8 +9,8 @@
 
 namespace mocha {
 
-/// Who goes first where robots stand in each other's way: who cannot get out of the way, then the
-/// higher priority, then the smaller name. A total order over the fleet.
+/// Which robot goes first where robots stand in each other's way: one that cannot get out of the
+/// way, then the higher priority, then the smaller name. A total order over the fleet.
 struct Rank {
   bool stuck = false;  ///< there is no place to go to that would leave the way free
   int priority = 0;
@@ -19,14 +19,14 @@ struct Rank {
 
 bool outranks(const Rank& a, const Rank& b);
 
-/// "Keep out of this way of mine": of a robot whose team-mates stand in it. It is said again and
-/// again until the robot is where it wants to be, and lapses when it is not heard any more. It
-/// binds nobody: what may be driven is settled by promises alone.
+/// "Keep out of this way of mine": sent by a robot whose team-mates stand in it, again and again
+/// until it is where it wants to be. The request lapses when it is not heard any more. It binds no
+/// robot: what may be driven is settled by promises alone.
 struct YieldRequest {
   std::string agent;
   std::uint32_t epoch = 0;
-  /// Its own, or of the robot that it makes room for: who stands in the way of that stands in the
-  /// way of the higher one.
+  /// Its own, or that of the robot that it makes room for: what is in its way is in the way of that
+  /// robot, too.
   Rank rank;
   double radius_m = 0.0;   ///< circumscribed
   double speed_mps = 0.0;  ///< it comes no faster

@@ -75,8 +75,7 @@ StopRecord load_stops(const std::string& path) {
     StopRecord stopped;
     stopped.robot = true;
     stopped.reason = plain_reason(
-        "nobody knows whether it was stopped, as " + path + " cannot be read: " + trouble.what(),
-        kMostTrouble);
+        "it may have been stopped: " + path + " cannot be read: " + trouble.what(), kMostTrouble);
     return stopped;
   }
 }

@@ -72,7 +72,7 @@ std::optional<FleetMessage> DatagramLink::take(Datagram datagram, const std::uin
   }
   if (!senders_[sender].take(epoch, datagram.number)) {
     ++counts_.repeated;
-    // Who lost the count of its starts has to be told, and is by whoever hears its heartbeat.
+    // A robot that lost the count of its starts is told so by the peers that hear its heartbeat.
     const bool lost_count = senders_[sender].is_past(epoch);
     if (!lost_count || !std::holds_alternative<Heartbeat>(datagram.message)) return std::nullopt;
     return std::move(datagram.message);

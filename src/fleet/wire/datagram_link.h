@@ -41,7 +41,7 @@ class DatagramLink {
     int refused() const { return unsealed + foreign + malformed + impostors + crowded_out; }
   };
 
-  /// Without a key, everybody on the network is trusted.
+  /// Without a key, every sender on the network is trusted.
   DatagramLink(std::string agent, const std::optional<FleetKey>& key);
 
   /// Throws as encode() does. A long heartbeat becomes several datagrams.

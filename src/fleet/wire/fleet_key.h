@@ -23,7 +23,7 @@ class FleetKey {
 
   /// The keyed hash (BLAKE2b) of these bytes.
   Seal seal(const std::uint8_t* data, std::size_t size) const;
-  /// Whether somebody with this key sealed these bytes so; takes equally long, whatever is wrong.
+  /// Whether this is the seal of these bytes by this key; takes equally long, whatever is wrong.
   bool sealed(const Seal& seal, const std::uint8_t* data, std::size_t size) const;
 
  private:

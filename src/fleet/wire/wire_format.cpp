@@ -50,7 +50,7 @@ void put_trajectory(ByteWriter& out, const CommittedTrajectory& trajectory, std:
   out.put(trajectory.id.sequence);
   out.put(static_cast<std::uint8_t>(trajectory.state));
   out.put(static_cast<std::int32_t>(trajectory.priority));
-  // Rounded up: nobody may take a robot for smaller than it is.
+  // Rounded up: a robot must not be taken for smaller than it is.
   const double radius_mm = std::ceil(trajectory.footprint_radius_m * kRadii - 1e-6);
   put_number<std::uint16_t>(out, radius_mm, 1.0, "footprint_radius");
   if (trajectory.state != TrajectoryState::kWithdrawn) put_motion(out, *trajectory.motion);

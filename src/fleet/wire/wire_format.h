@@ -61,7 +61,7 @@ Datagram decode(const std::uint8_t* data, std::size_t size, const FleetKey* key 
 /// sender is in all of them.
 std::vector<Heartbeat> in_datagrams(const Heartbeat& heartbeat);
 
-/// What everybody else makes of a promise. Throws as encode() does, and where the quantised motion
+/// The promise as its receivers decode it. Throws as encode() does, and where the quantised motion
 /// is none any more. Quantised again it stays as it is.
 CommittedTrajectory quantised(const CommittedTrajectory& trajectory);
 

@@ -149,8 +149,8 @@ void ScanLocalizer::fit(const ScanHits& scan, double dt_s) {
   }
 }
 
-/// Who explains too little, or clearly less than another one. A believed place yields only to one
-/// that has been tried as well.
+/// Whether the place explains too little, or clearly less than another one. A believed place yields
+/// only to one that has been tried as well.
 bool ScanLocalizer::is_hopeless(const Place& place, double time_s) const {
   if (place.quality < options_.poor_quality) return true;
   return std::any_of(places_.begin(), places_.end(), [&](const Place& other) {
@@ -222,7 +222,7 @@ void ScanLocalizer::decide(double time_s, const Pose& odometry) {
   localization_.places = static_cast<int>(places_.size());
   localization_.searched_in_vain = places_.empty() && searched_in_vain_;
   if (places_.empty()) return;
-  // Who was believed is, while nobody is clearly better.
+  // The believed place stays believed while no other is clearly better.
   const auto believed = std::find_if(places_.begin(), places_.end(),
                                      [](const Place& place) { return place.believed; });
   Place& best = believed == places_.end() ? places_[0] : *believed;

@@ -25,7 +25,7 @@ struct ScanLocalizerOptions {
   double trial_s;                  ///< for so long a place is tried before it is believed
   double search_interval_s;        ///< between wide searches
   int search_budget;               ///< see BranchAndBoundMatcher
-  double max_sigma_m;              ///< whose place is less sure is lost
+  double max_sigma_m;              ///< a robot whose place is less sure is lost
   double max_speed;                ///< [m/s] no robot is faster
   double odometry_noise_distance;  ///< [m/sqrt(m)]
   double odometry_noise_yaw;       ///< [rad/sqrt(rad)]
@@ -68,7 +68,7 @@ class ScanLocalizer {
   /// The robot is here at the next scan, believed without proof: to begin a new map.
   void begin(const Pose& base);
 
-  /// Somebody says where the robot is at the next scan, more or less: what was believed is
+  /// Takes a hint where the robot is at the next scan, more or less: what was believed is
   /// forgotten, and places within three standard deviations of it come first. Only where none of
   /// them explains the scan, others count as well. Throws std::invalid_argument for an estimate
   /// with a fault.

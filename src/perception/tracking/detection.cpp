@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kBehind_m = 0.1;    // a return that much farther away is behind an edge
 constexpr double kWidest_rad = 1.2;  // half a sector; wider ones are too near to be measured so
-constexpr double kNextBeams = 2.5;   // spacings; who is farther away is no neighbour in the scan
+constexpr double kNextBeams = 2.5;   // spacings; a hit farther away is no neighbour in the scan
 
 Vector2 ray(const Beam& beam) { return (beam.end - beam.origin).head<2>(); }
 

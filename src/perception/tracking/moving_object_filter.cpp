@@ -89,7 +89,7 @@ BeamIndices MovingObjectFilter::candidates(const std::vector<Beam>& beams, const
 }
 
 /// Clusters of hits that are small enough to move. Those within reach of a known thing are one, as
-/// the legs of somebody who walks; one that several known things can reach is parted among them.
+/// the legs of a walking person; one that several known things can reach is parted among them.
 std::vector<BeamIndices> MovingObjectFilter::things(
     const std::vector<Beam>& beams, const BeamIndices& hits,
     const std::vector<TrackedObstacle>& known) const {

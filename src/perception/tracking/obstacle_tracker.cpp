@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kGate = 9.21;           // chi-squared, two degrees of freedom, 99 %
 constexpr double kFirstSpeed_mps = 1.0;  // standard deviation of an unknown velocity, one axis
-constexpr double kFastest_mps = 2.0;     // of who turns
-constexpr double kTurn_s = 0.25;         // he was seen so short a time ago
+constexpr double kFastest_mps = 2.0;     // of a thing that turns
+constexpr double kTurn_s = 0.25;         // since it was last seen, at most
 constexpr double kHiddenNoise = 3.0;     // times the noise, if only a part is seen
 constexpr double kPartNoise = 0.7;       // times the difference of the radii, for a part
 constexpr double kGrowth = 0.5;          // of the radius, share of the difference per detection

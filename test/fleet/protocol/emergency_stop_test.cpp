@@ -115,7 +115,7 @@ TEST(EmergencyStop, GetsThroughANetworkThatLosesHalfOfIt) {
   }
 }
 
-TEST(EmergencyStop, WhoJoinsLateOrWasCutOffLearnsIt) {
+TEST(EmergencyStop, ARobotThatJoinsLateOrWasCutOffLearnsIt) {
   Fleet fleet(3, {});
   fleet.cut_off(2, true);
   fleet.robot(0).stop_fleet(fleet.now(), "");
@@ -146,9 +146,9 @@ TEST(EmergencyStop, AnOldVersionIsAnswered) {
   EXPECT_EQ(answer[0].stops.at(0).released, 1U);
   EXPECT_FALSE(robot.stopped());
   robot.receive(said("ugv2", {{"ugv1", 1, 1, 0.0, ""}}), t + 0.5);
-  EXPECT_TRUE(robot.tick(t + 0.5).empty()) << "who knows as much needs no answer";
+  EXPECT_TRUE(robot.tick(t + 0.5).empty()) << "a robot that knows as much needs no answer";
   robot.receive(said("ugv3", {}), t + 0.5);
-  EXPECT_FALSE(robot.tick(t + 0.5).empty()) << "who knows nothing does";
+  EXPECT_FALSE(robot.tick(t + 0.5).empty()) << "a robot that knows nothing does";
 }
 
 TEST(EmergencyStop, AResetReleasesOnlyWhatItKnewOf) {
@@ -168,7 +168,7 @@ TEST(EmergencyStop, AResetReleasesOnlyWhatItKnewOf) {
   EXPECT_EQ(fleet.stopped(), 1);
   fleet.cut_off(2, false);
   fleet.run(2.0);
-  EXPECT_EQ(fleet.stopped(), 3) << "nobody has reset the stop of the one out of reach";
+  EXPECT_EQ(fleet.stopped(), 3) << "the stop of the one out of reach was not reset";
   fleet.robot(1).reset_fleet(fleet.now());
   fleet.run(2.0);
   EXPECT_EQ(fleet.stopped(), 0);
@@ -256,7 +256,7 @@ TEST(EmergencyStop, SurvivesARestartWithItsRecord) {
   EXPECT_TRUE(fleet.robot(0).stopped());
 }
 
-TEST(EmergencyStop, WhoLostItsRecordLearnsItsOrdersFromTheOthers) {
+TEST(EmergencyStop, ARobotThatLostItsRecordLearnsItsOrdersFromTheOthers) {
   Fleet fleet(3, {});
   fleet.robot(0).stop_fleet(fleet.now(), "");
   fleet.run(1.0);
@@ -276,7 +276,7 @@ TEST(EmergencyStop, WhoLostItsRecordLearnsItsOrdersFromTheOthers) {
   EXPECT_EQ(fleet.stopped(), 0);
 }
 
-TEST(EmergencyStop, NobodyBringsTheNumbersToTheirEnd) {
+TEST(EmergencyStop, TheNumbersCannotBeBroughtToTheirEnd) {
   constexpr auto kHighest = std::numeric_limits<std::uint64_t>::max();
   EmergencyStop robot("ugv1", 1, {});
   for (const char* of : {"ugv1", "ugv2"}) {
@@ -371,7 +371,7 @@ TEST(EmergencyStop, SealedAndRecordedResetsReleaseNothing) {
   for (const auto& bytes : sender.pack(first.tick(2.0).at(0))) EXPECT_TRUE(hear(bytes));
   EXPECT_FALSE(hear(reset)) << "it has come before";
   EXPECT_TRUE(second.stopped());
-  // Somebody else without the key, or a receiver that was started again and knows no numbers.
+  // A sender without the key, or a receiver that was started again and knows no numbers.
   DatagramLink stranger("ugv3", std::nullopt);
   EXPECT_FALSE(hear(stranger.pack(said("ugv3", {{"ugv1", 2, 2, 0.0, ""}})).at(0)));
   receiver = DatagramLink("ugv2", key);

@@ -109,7 +109,7 @@ TEST(Races, EndorsementsHoldWhateverTheNetworkDoes) {
   EXPECT_GT(refused, 1000);
 }
 
-TEST(Races, SomeoneAlwaysWins) {
+TEST(Races, OneRobotAlwaysWins) {
   for (int seed = 0; seed < 1000; ++seed) {
     Network::Link link;
     link.max_delay_s = 0.08;
@@ -119,7 +119,7 @@ TEST(Races, SomeoneAlwaysWins) {
     for (int i = 0; i < robots; ++i) winners += network.settled(i) - 1;
     EXPECT_GE(winners, 1) << seed;
     EXPECT_EQ(network.broken(), 0) << seed;
-    for (int i = 0; i < robots; ++i) {  // nobody is left hanging
+    for (int i = 0; i < robots; ++i) {  // no robot is left hanging
       EXPECT_EQ(network.robot(i).state(), CommitmentProtocol::State::kBound) << seed;
     }
   }
@@ -213,7 +213,7 @@ TEST(Races, SilentPeerIsNotWaitedForButItsPromiseHolds) {
   ASSERT_EQ(rejected.size(), 1u);
   EXPECT_EQ(rejected[0].refusal, Refusal::kUnanswered);
   EXPECT_EQ(rejected[0].conflict.peer, "ugv2");
-  network.run(5.0);  // its motion is over; it stands at (0, 0) as far as anybody knows
+  network.run(5.0);  // its motion is over; it stands at (0, 0) as far as the fleet knows
   network.propose(0, test::drive(network.now() + 0.4, {{-5.0, 0.0}, {5.0, 0.0}}, 1.0));
   rejected = network.events(0, Kind::kRejected);
   ASSERT_EQ(rejected.size(), 2u);

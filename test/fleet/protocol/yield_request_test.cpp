@@ -29,7 +29,7 @@ void expect_refused(const YieldRequest& bad, const char* why) {
   }
 }
 
-TEST(YieldRequest, WhoIsStuckGoesBeforeThePriorityAndThatBeforeTheName) {
+TEST(YieldRequest, BeingStuckGoesBeforeThePriorityAndThatBeforeTheName) {
   const std::vector<Rank> ranks = {{true, 0, "ugv1"},  {true, -5, "ugv3"}, {false, 9, "ugv9"},
                                    {false, 0, "ugv1"}, {false, 0, "ugv2"}, {false, -1, "ugv0"}};
   for (std::size_t i = 0; i < ranks.size(); ++i) {

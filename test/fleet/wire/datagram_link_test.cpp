@@ -54,7 +54,7 @@ TEST(DatagramLink, ARecordingOfAFormerStartIsOver) {
 }
 
 /// Over the network, too, as where its epoch file is gone.
-TEST(DatagramLink, WhoLostTheCountOfItsStartsIsToldByItsPeers) {
+TEST(DatagramLink, ARobotThatLostTheCountOfItsStartsIsToldByItsPeers) {
   DatagramLink before("a", kKey);
   DatagramLink after("a", kKey);
   DatagramLink link("b", kKey);

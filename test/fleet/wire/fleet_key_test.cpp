@@ -43,7 +43,7 @@ TEST_F(FleetKeyFile, IsReadWithAndWithoutEndOfLine) {
   }
 }
 
-TEST_F(FleetKeyFile, NobodyElseMayRead) {
+TEST_F(FleetKeyFile, OthersMayNotRead) {
   for (const mode_t mode : {0640, 0604, 0620, 0666}) {
     write(kDigits, mode);
     EXPECT_NE(trouble().find("chmod 600"), std::string::npos) << mode;

@@ -81,7 +81,7 @@ TEST(BranchAndBoundMatcherTest, FindsThePlaceThatIsBestWhenAllAreLookedAt) {
   for (int y = 30; y < 40; ++y) grid.at(25, y) = OccupancyGrid::kOccupied;
   const LikelihoodField walls(grid, 1.0);
   ScanHits scan = thinned(seen_in(grid, {{0.9, 1.1}, 1.0}), BranchAndBoundMatcher::kHits);
-  for (std::size_t i = 0; i < 20; ++i) scan.hits[i] *= 0.6;  // somebody stands there
+  for (std::size_t i = 0; i < 20; ++i) scan.hits[i] *= 0.6;  // a person stands there
   const auto places = BranchAndBoundMatcher(walls, kBudget).find(scan).places;
   ASSERT_FALSE(places.empty());
   double best = 0.0;

@@ -38,7 +38,7 @@ inline double turn_rad(const Pose& a, const Pose& b) {
   return std::abs(wrap_angle(a.yaw_rad - b.yaw_rad));
 }
 
-/// A drive from which a piece is missing: as if somebody had carried the robot.
+/// A drive from which a piece is missing: as if the robot had been carried.
 struct Kidnapping {
   std::vector<DriveScan> drive;
   std::size_t when;  // the first sweep after it

@@ -23,9 +23,9 @@ TEST(ScanFitTest, TellsWhatTheMapExplains) {
   ScanHits scan;
   scan.hits = {{0.5, 1.02},   // the wall
                {0.8, 0.98},   // the wall
-               {0.4, 0.3},    // somebody
+               {0.4, 0.3},    // a person
                {0.1, 1.6},    // behind the wall
-               {2.8, -0.1}};  // where nobody has been
+               {2.8, -0.1}};  // not seen before
   const ScanFit fit = fit_of(scan, {{0.5, 0.02}, 0.0}, walls, 0.1);
   EXPECT_EQ(fit.on_wall, 2);
   EXPECT_EQ(fit.in_free, 1);

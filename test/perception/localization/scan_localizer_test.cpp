@@ -77,7 +77,8 @@ TEST_P(ScanLocalizerTest, RecoversFromBeingCarriedAway) {
     const Kidnapping carried = kidnap(drive_, from, 5.0);
     follow(localizer, carried.drive, model_.lidar, 0, carried.when);
     ASSERT_EQ(localizer.localization().state, State::kLocalized);
-    // Within half a second nobody believes the old place; within three the new one is known.
+    // Within half a second the old place is not believed any more; within three the new one is
+    // known.
     follow(localizer, carried.drive, model_.lidar, carried.when, carried.when + 5);
     EXPECT_NE(localizer.localization().state, State::kLocalized) << from;
     const Account after =
@@ -170,7 +171,7 @@ TEST(ScanLocalizerRefusalTest, ACrowdThatHidesTheWallsForAWhileDoesNotConfuseIt)
   for (std::size_t i = 40; i < 75; ++i) {
     ScanHits scan = hits_of(drive[i], model.lidar);
     for (std::size_t hit = 0; i < 53 && hit < scan.hits.size(); ++hit) {
-      if (hit % 20 < 9) scan.hits[hit] *= 0.5;  // somebody on the way to the wall
+      if (hit % 20 < 9) scan.hits[hit] *= 0.5;  // a person before the wall
     }
     const Localization& now = localizer.add(scan, drive[i].odometry);
     EXPECT_EQ(now.state, State::kLocalized) << i << ' ' << now.quality;
@@ -206,7 +207,7 @@ TEST(ScanLocalizerRefusalTest, WithoutMapOrHitsItKnowsNothing) {
   EXPECT_EQ(localizer.localization().state, State::kLost);
 }
 
-TEST(ScanLocalizerRefusalTest, WhoSeesNothingForLongIsLost) {
+TEST(ScanLocalizerRefusalTest, ARobotThatSeesNothingForLongIsLost) {
   World world = one_robot_world("config/worlds/corridor.yaml", {{0.0, 0.0}, 0.0});
   const RobotModel& model = world.robots[0].model;
   ScanLocalizer localizer(shipped_localizer_options(model));

@@ -18,7 +18,7 @@ double nees(const TrackedObstacle& track, const Vector2& position, const Vector2
   return error.dot(track.covariance.ldlt().solve(error));
 }
 
-TEST(MovingObjectFilter, FollowsWhoWalksPastAndMapsNothingOfHim) {
+TEST(MovingObjectFilter, FollowsAPersonWalkingPastAndMapsNothingOfIt) {
   double sum = 0.0;
   int tracked = 0;
   for (int seed = 1; seed <= 20; ++seed) {
@@ -45,7 +45,7 @@ TEST(MovingObjectFilter, FollowsWhoWalksPastAndMapsNothingOfHim) {
     }
   }
   EXPECT_LT(sum / tracked, 4.0) << "the covariance is not to promise too much";
-  EXPECT_GT(sum / tracked, 0.05) << "nor to be of no use";
+  EXPECT_GT(sum / tracked, 0.05) << "and not to be of no use";
 }
 
 TEST(MovingObjectFilter, VelocityIsSteadyPastTheRobot) {
@@ -67,7 +67,7 @@ TEST(MovingObjectFilter, VelocityIsSteadyPastTheRobot) {
   }
 }
 
-TEST(MovingObjectFilter, WhoIsThereFromTheStartIsTrackedOnceHeWalksAndLeavesNoTrace) {
+TEST(MovingObjectFilter, APersonThereFromTheStartIsTrackedOnceItWalksAndLeavesNoTrace) {
   for (double speed : {0.3, 0.6, 1.2}) {
     Watch watch{Room()};
     watch.walkers = {walker(0.25, {2.0, -2.0}, {0.0, speed}, watch.time_s)};
@@ -83,7 +83,7 @@ TEST(MovingObjectFilter, WhoIsThereFromTheStartIsTrackedOnceHeWalksAndLeavesNoTr
   }
 }
 
-TEST(MovingObjectFilter, WhoStandsBecomesMapAndLeavesNoGhost) {
+TEST(MovingObjectFilter, AStandingPersonBecomesMapAndLeavesNoGhost) {
   Watch watch{Room()};
   watch.look_for(1.0);
   const double stop_s = watch.time_s + 2.0;
@@ -114,7 +114,7 @@ TEST(MovingObjectFilter, WhoStandsBecomesMapAndLeavesNoGhost) {
   }
 }
 
-TEST(MovingObjectFilter, PeopleWhoPassEachOtherKeepTheirNumbersAndVelocities) {
+TEST(MovingObjectFilter, PeoplePassingEachOtherKeepTheirNumbersAndVelocities) {
   struct Meeting {
     Vector2 from[2];
     Vector2 velocity[2];
@@ -147,7 +147,7 @@ TEST(MovingObjectFilter, PeopleWhoPassEachOtherKeepTheirNumbersAndVelocities) {
   }
 }
 
-TEST(MovingObjectFilter, TwoWhoWalkAbreastAreCovered) {
+TEST(MovingObjectFilter, TwoPeopleWalkingAbreastAreCovered) {
   Watch watch{Room()};
   watch.look_for(1.0);
   for (double x : {2.0, 2.6})
@@ -207,7 +207,7 @@ TEST(MovingObjectFilter, LegsAreOnePerson) {
   }
 }
 
-TEST(MovingObjectFilter, WhoGoesBehindSomethingIsExpectedOnTheOtherSide) {
+TEST(MovingObjectFilter, APersonGoingBehindSomethingIsExpectedOnTheOtherSide) {
   Room room;
   room.circles = {{{1.5, 0.0}, 0.3}};
   Watch watch{room};
@@ -228,7 +228,7 @@ TEST(MovingObjectFilter, WhoGoesBehindSomethingIsExpectedOnTheOtherSide) {
   EXPECT_GE(hidden, 2) << "else this tests nothing";
 }
 
-TEST(MovingObjectFilter, WhoIsGoneIsGone) {
+TEST(MovingObjectFilter, APersonThatIsGoneIsForgotten) {
   Watch watch{Room()};
   watch.look_for(1.0);
   watch.walkers = {walker(0.25, {2.0, -2.0}, {0.0, 1.0}, watch.time_s)};
@@ -236,7 +236,7 @@ TEST(MovingObjectFilter, WhoIsGoneIsGone) {
   ASSERT_EQ(watch.tracks().size(), 1u);
   watch.walkers.clear();
   watch.look_for(0.3);
-  EXPECT_EQ(watch.tracks().size(), 0u) << "his place is seen free";
+  EXPECT_EQ(watch.tracks().size(), 0u) << "the place is seen free";
 
   watch.walkers = {walker(0.25, {2.0, -2.0}, {0.0, 1.0}, watch.time_s)};
   watch.look_for(2.0);

@@ -34,7 +34,7 @@ TEST(ObstacleTracker, IsSureAfterTheThirdDetection) {
   EXPECT_GT(tracks[0].covariance(0, 0), tracker.at(0.2)[0].covariance(0, 0));
 }
 
-TEST(ObstacleTracker, WhoTurnsRoundIsTheSameAndKnownToComeBackSoon) {
+TEST(ObstacleTracker, AThingThatTurnsRoundIsTheSameAndKnownToComeBackSoon) {
   constexpr double kTurns_s = 2.0;
   std::mt19937_64 random(3);
   std::normal_distribution<double> noise(0.0, 0.02);

@@ -1,10 +1,13 @@
 #include "base/waveshare_base.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <memory>
+#include <stdexcept>
 #include <thread>
 
 #include "simulation/base_emulator.h"
@@ -14,6 +17,53 @@ namespace mocha {
 namespace {
 
 constexpr double kStep_s = 0.01;
+
+/// Waits for what the kernel carries; the time-out only bounds a failure.
+template <typename Condition>
+void wait_until(Condition condition) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("no bytes come");
+    std::this_thread::yield();
+  }
+}
+
+/// A serial line of software that hands over only whole exchanges.
+class Line {
+ public:
+  explicit Line(const std::string& link)
+      : terminal_(link), computer_(::open(terminal_.path().c_str(), O_RDWR | O_NOCTTY)) {}
+  ~Line() { ::close(computer_); }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+
+  /// All that the driver has sent: what comes before a mark that is sent after it.
+  std::string read() {
+    constexpr char kMark = '\x01';
+    if (::write(computer_, &kMark, 1) != 1) throw std::runtime_error("the line takes no mark");
+    std::string text;
+    wait_until([&] {
+      text += terminal_.read();
+      return !text.empty() && text.back() == kMark;
+    });
+    text.pop_back();
+    return text;
+  }
+
+  /// Returns once the driver can read it.
+  void write(const std::string& text) {
+    terminal_.write(text);
+    wait_until([&] {
+      int arrived = 0;
+      return ::ioctl(computer_, FIONREAD, &arrived) == 0 &&
+             arrived >= static_cast<int>(text.size());
+    });
+  }
+
+ private:
+  PseudoTerminal terminal_;
+  int computer_;
+};
 
 /// A driver and an emulated base on a pseudo-terminal, in a time of their own.
 class WaveshareBaseTest : public testing::Test {
@@ -25,7 +75,7 @@ class WaveshareBaseTest : public testing::Test {
     plug();
   }
 
-  void plug() { terminal_ = std::make_unique<PseudoTerminal>(link_); }
+  void plug() { line_ = std::make_unique<Line>(link_); }
 
   /// Drives so for a while; whatever the wheels are told, they do at once.
   void run(double duration_s, const UnicycleState& command) {
@@ -33,12 +83,11 @@ class WaveshareBaseTest : public testing::Test {
       const auto feedback = driver_->poll(now_s_);
       if (!feedback.empty()) newest_ = feedback.back();
       driver_->drive(command);
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // the kernel carries the bytes
-      if (terminal_) base_.receive(now_s_, terminal_->read());
+      if (line_) base_.receive(now_s_, line_->read());
       wheels_ = base_.wheels(now_s_);
       base_.roll(wheels_.left * kStep_s, wheels_.right * kStep_s, wheels_);
       const std::string text = base_.send(now_s_);
-      if (terminal_) terminal_->write(text);
+      if (line_) line_->write(text);
     }
   }
 
@@ -47,7 +96,7 @@ class WaveshareBaseTest : public testing::Test {
       WaveshareBase::Options::from(ParameterTable::from_schema("config/base_driver.yaml"),
                                    load_robot_model("config", "waveshare_rover"));
   std::unique_ptr<WaveshareBase> driver_;
-  std::unique_ptr<PseudoTerminal> terminal_;
+  std::unique_ptr<Line> line_;
   BaseEmulator base_{0.0, false};
   double now_s_ = 100.0;
   WheelSpeeds wheels_ = {0.0, 0.0};
@@ -97,7 +146,7 @@ TEST_F(WaveshareBaseTest, HoldsAnEmergencyStopThatTheFirmwareDoesNotHold) {
 
 TEST_F(WaveshareBaseTest, AnEmergencyStopOutlivesAPulledLine) {
   run(0.5, {0.5, 0.0});
-  terminal_.reset();
+  line_.reset();
   run(0.5, {0.5, 0.0});
   EXPECT_FALSE(driver_->connected(now_s_));
   EXPECT_NE(driver_->fault(now_s_), "");
