@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "optimization/duration_cost.h"
 #include "optimization/moving_penalty.h"
 #include "optimization/trajectory_optimizer.h"
 #include "planning/candidates/drive_options.h"
@@ -14,12 +15,6 @@
 
 namespace mocha {
 
-/// Where a drive meets a motion that is under way, paper (38), instead of coming to rest.
-struct RejoinTarget {
-  PlanarMinco::State state;  ///< position, velocity, acceleration
-  double mu_s;               ///< the drive should take about this long, paper (40)
-};
-
 /// A drive to be found: from a state of the base along a front-end path to rest at its end, or to
 /// the rejoin point there.
 struct DriveQuery {
@@ -29,7 +24,10 @@ struct DriveQuery {
   std::vector<MovingThing> moving;  ///< and what is proved to be kept from it
   /// When the path is at its points, from 0 [s], increasing; empty: as early as the limits allow.
   std::vector<double> times_s;
-  std::optional<RejoinTarget> rejoin;
+  /// Where it meets a motion that is under way, paper (38), instead of coming to rest: position,
+  /// velocity, acceleration.
+  std::optional<PlanarMinco::State> rejoin;
+  DurationCost duration_cost;
   std::optional<MotionLimits> limits;  ///< in place of the robot's own
 };
 
@@ -37,11 +35,11 @@ struct DriveQuery {
 /// not certified.
 struct Effort {
   bool camouflage = true;        ///< one variable a knot, else waypoints
-  double spacing = 1.0;          ///< of the knots, relative
-  double obstacle_weight = 1.0;  ///< relative
-  double moving_weight = 1.0;    ///< relative
-  double limit_weight = 1.0;     ///< of speed, acceleration and yaw rate, relative
-  double speed = 1.0;            ///< relative to the robot's limit
+  double spacing = 1.0;          ///< of the knots, relative to the options
+  double obstacle_weight = 1.0;  ///< the same, as all that follows
+  double moving_weight = 1.0;
+  double limit_weight = 1.0;  ///< of speed, acceleration and yaw rate
+  double speed = 1.0;         ///< relative to the robot's limit
 };
 
 /// More effort, by the factor, where it is missing: against obstacles, against what moves, or

@@ -110,6 +110,7 @@ void CandidatePlanner::drive(const PlanQuery& query, const StartManeuver& start_
         {peer, distance_to_peers_m(robot_),
          standing ? std::numeric_limits<double>::infinity() : peer->rest_time()});
   }
+  drive.duration_cost = DurationCost::total(options_.weight_duration);
   Effort effort;
   for (int attempt = 0; attempt < kAttempts && !should_stop(); ++attempt) {
     const auto found = optimizer_.optimize_drive(drive, obstacles, effort, should_stop);

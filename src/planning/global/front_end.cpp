@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "planning/candidates/path_clearance.h"
 #include "planning/candidates/peer_discs.h"
-#include "safety/margin_budget.h"
 #include "trajectory/stopping.h"
 
 namespace mocha {
 namespace {
 
-constexpr double kSlack_m = 0.01;  // over the proved margin, for the optimiser to work in
 constexpr double kSameGoal_m = 0.5;
 
 bool is_under_way(const PlanQuery& query, const Vector2& goal) {
@@ -21,19 +20,10 @@ bool is_under_way(const PlanQuery& query, const Vector2& goal) {
 }  // namespace
 
 HomotopyPathOptions homotopy_path_options(const RobotModel& robot, const PlannerOptions& options) {
-  double radius_m = 0.0;
-  for (const auto& disc : robot.footprint.cover()) radius_m = std::max(radius_m, disc.radius_m);
-  HomotopyPathOptions paths;
-  paths.travel.required_clearance_m =
-      radius_m + MarginBudget::of(robot).static_margin_m() + kSlack_m;
-  paths.travel.preferred_clearance_m =
-      paths.travel.required_clearance_m + options.preferred_clearance_m;
-  paths.travel.clearance_weight = options.clearance_weight;
-  paths.roadmap = options.roadmap;
-  paths.classes = options.classes;
-  paths.longest_ratio = options.longest_ratio;
-  paths.prm_samples = options.prm_samples;
-  return paths;
+  const double required_m = path_clearance_m(robot);
+  const TravelOptions travel{required_m, required_m + options.preferred_clearance_m,
+                             options.clearance_weight, kEscapeRadius_m};
+  return {travel, options.roadmap, options.classes, options.longest_ratio, options.prm_samples};
 }
 
 std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_speed) {
@@ -65,7 +55,7 @@ HomotopyPaths FrontEnd::paths(std::vector<Vector2> lead_in, const PlanQuery& que
   paths.goal = goal;
   for (const auto& peer : scene.peers) {
     if (!stands(*peer, query.start_time_s)) continue;
-    const BlockedDisc disc = peer_keep_out(*peer, query.start_time_s, robot_, kSlack_m);
+    const BlockedDisc disc = peer_keep_out(*peer, query.start_time_s, robot_, kPathSlack_m);
     // A team-mate on the goal will hardly stay.
     if ((disc.centre - goal).norm() > disc.radius_m) paths.blocked.push_back(disc);
   }
@@ -118,7 +108,7 @@ CandidateSeeds FrontEnd::after_braking(const PlanQuery& query, const PlanningSce
 bool FrontEnd::reaches(const Vector2& start, const Vector2& goal,
                        const StaticMap& static_map) const {
   const TravelCost cost(static_map, start, {}, options_.travel);
-  return find_grid_path(static_map, start, goal, cost, options_.lattice_step_m).outcome ==
+  return find_grid_path(static_map, start, goal, cost, kLatticeStep_m).outcome ==
          GridPath::Outcome::kFound;
 }
 

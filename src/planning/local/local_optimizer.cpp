@@ -52,6 +52,7 @@ LocalOptimizer::LocalOptimizer(const RobotModel& robot, const LocalOptions& opti
     : requirements_(robot),
       footprint_(robot.footprint),
       mu_s_(options.mu_s),
+      weight_delay_(options.weight_delay),
       smooth_start_rad_(options.smooth_start_rad),
       optimizer_(robot, options, MarginBudget::of(robot).static_margin_m()) {}
 
@@ -99,8 +100,9 @@ void LocalOptimizer::drive(const LocalQuery& query, const LocalScene& scene, con
   for (const TimedPoint& point : candidate.path)
     drive.times_s.push_back(point.time_s - query.start_time_s);
   const double mu_s = back.earliest_s - start_maneuver.duration_s;
-  drive.rejoin =
-      RejoinTarget{back.rejoin_point.state, std::max(kLeastShare * back.earliest_s, mu_s)};
+  drive.rejoin = back.rejoin_point.state;
+  drive.duration_cost =
+      DurationCost::with_horizon(weight_delay_, std::max(kLeastShare * back.earliest_s, mu_s));
   Effort effort;
   for (int i = 0; i < kEfforts; ++i) {
     const auto found =

@@ -49,6 +49,7 @@ class LocalOptimizer {
   const Requirements requirements_;
   const Footprint footprint_;
   const double mu_s_;
+  const double weight_delay_;
   const double smooth_start_rad_;
   const DriveOptimizer optimizer_;
 };

@@ -6,15 +6,14 @@
 
 #include "planning/candidates/exposure.h"
 #include "planning/candidates/parallel.h"
+#include "planning/candidates/path_clearance.h"
 #include "planning/candidates/winner.h"
-#include "safety/margin_budget.h"
 
 namespace mocha {
 namespace {
 
 constexpr double kSooner_s = 0.2;  // by less, a farther or later arrival is not better
 constexpr double kLittle_s = 0.5;  // a detour that loses no more is good enough
-constexpr double kSlack_m = 0.01;  // over what is proved, for the optimiser to work in
 
 /// Arrivals later than the plan's, and rejoin points farther along it, in shares of mu. A detour
 /// takes a little longer than the straight line; a robot that waits comes much later; and what
@@ -25,21 +24,10 @@ struct Attempt {
 };
 constexpr Attempt kAttempts[] = {{0.2, 0.0}, {0.6, 0.0}, {0.3, 0.6}, {1.2, 0.0}};
 
-double clearance_radius_m(const RobotModel& robot) {
-  double radius_m = 0.0;
-  for (const auto& disc : robot.footprint.cover()) radius_m = std::max(radius_m, disc.radius_m);
-  return radius_m;
-}
-
 SpaceTimeOptions space_time_options(const RobotModel& robot, const LocalOptions& options) {
-  SpaceTimeOptions space_time;
-  space_time.max_speed = robot.limits.max_speed;
-  space_time.required_clearance_m =
-      clearance_radius_m(robot) + MarginBudget::of(robot).static_margin_m() + kSlack_m;
-  space_time.samples = options.samples;
-  space_time.classes = options.classes;
-  space_time.longest_ratio = options.longest_ratio;
-  return space_time;
+  constexpr std::uint64_t kSeed = 1;
+  return {robot.limits.max_speed, path_clearance_m(robot), kEscapeRadius_m, options.samples, kSeed,
+          options.classes,        options.longest_ratio};
 }
 
 /// What is driven, up to where it is nearest to the rejoin point; empty where that is not near.
@@ -60,7 +48,7 @@ TimedPath driven_to(const RejoinPoint& rejoin_point, const LocalQuery& query) {
 /// so their costs may not be compared, but the time that they lose.
 bool is_worth_a_switch(const LocalPlan& other, const LocalPlan& kept, const LocalOptions& options) {
   const auto loss = [&options](const LocalPlan& plan) {
-    return options.weight_duration * std::pow(std::max(0.0, plan.delay_s), 3);
+    return options.weight_delay * std::pow(std::max(0.0, plan.delay_s), 3);
   };
   const double kept_loss = loss(kept);
   return loss(other) <
@@ -118,7 +106,7 @@ std::vector<LocalPlanner::Task> LocalPlanner::tasks(const LocalQuery& query,
     paths.goal = {rejoin_point->place(),
                   query.start_time_s + back.earliest_s + tried.later * options_.mu_s};
     paths.moving = foreseen(moving(query, scene));
-    for (MovingThing& thing : paths.moving) thing.keep_m += kSlack_m;
+    for (MovingThing& thing : paths.moving) thing.keep_m += kPathSlack_m;
     paths.driven = driven_to(*rejoin_point, query);
     tasks.push_back({std::move(back), std::move(paths)});
   }

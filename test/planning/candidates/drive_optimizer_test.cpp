@@ -12,12 +12,13 @@
 namespace mocha {
 namespace {
 
+const DurationCost kDurationCost = DurationCost::total(1.0);
 const std::function<bool()> kGoOn = [] { return false; };
 
 class DriveOptimizerTest : public ::testing::Test {
  protected:
   DriveQuery from_rest(const std::vector<Vector2>& path) const {
-    DriveQuery query{path, PlanarMinco::State::Zero(), 0.0, {}, {}, {}, {}};
+    DriveQuery query{path, PlanarMinco::State::Zero(), 0.0, {}, {}, {}, kDurationCost, {}};
     query.start.col(0) = path.front();
     query.start.col(2) = optimizer_.rest_acceleration() * (path[1] - path[0]).normalized();
     return query;
@@ -83,8 +84,14 @@ TEST(DriveOptimizerWheels, SlowDownInBendsWhereTheWheelsAskForIt) {
   robot.limits.track_m = 0.5;
   const DriveOptimizer optimizer(robot, default_options(),
                                  MarginBudget::of(robot).static_margin_m());
-  DriveQuery query{
-      {{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}}, PlanarMinco::State::Zero(), 0.0, {}, {}, {}, {}};
+  DriveQuery query{{{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}},
+                   PlanarMinco::State::Zero(),
+                   0.0,
+                   {},
+                   {},
+                   {},
+                   kDurationCost,
+                   {}};
   query.start.col(2) = Vector2(optimizer.rest_acceleration(), 0.0);
   const CircleField open({});
   const auto found = optimizer.optimize_drive(query, open, {}, kGoOn);
