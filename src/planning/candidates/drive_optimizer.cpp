@@ -10,6 +10,7 @@
 #include "optimization/obstacle_penalty.h"
 #include "optimization/turning_penalty.h"
 #include "optimization/wheel_penalty.h"
+#include "planning/candidates/start_maneuver.h"
 
 namespace mocha {
 namespace {
@@ -117,8 +118,6 @@ DriveOptimizer::DriveOptimizer(const RobotModel& robot, const DriveOptions& opti
                                double static_margin_m)
     : robot_(robot), options_(options), static_margin_m_(static_margin_m) {}
 
-double rest_acceleration(const MotionLimits& limits) { return 0.5 * limits.max_acceleration; }
-
 Effort raised(const Effort& effort, const Violation& violation, double factor) {
   Effort more = effort;
   switch (violation.term) {
@@ -136,8 +135,6 @@ Effort raised(const Effort& effort, const Violation& violation, double factor) {
   if (!more.camouflage) more.speed *= 0.8;
   return more;
 }
-
-double DriveOptimizer::rest_acceleration() const { return mocha::rest_acceleration(robot_.limits); }
 
 const MotionLimits& DriveOptimizer::limits_of(const DriveQuery& query) const {
   return query.limits ? *query.limits : robot_.limits;
@@ -230,7 +227,7 @@ PlanarMinco::State DriveOptimizer::end_state(const DriveQuery& query) const {
   PlanarMinco::State end;
   end.col(0) = query.path.back();
   end.col(1).setZero();
-  end.col(2) = -mocha::rest_acceleration(limits_of(query)) * final_direction(query.path, 0.3);
+  end.col(2) = -rest_acceleration(limits_of(query)) * final_direction(query.path, 0.3);
   return end;
 }
 

@@ -44,11 +44,7 @@ struct Effort {
 
 /// More effort, by the factor, where it is missing: against obstacles, against what moves, or
 /// against the limits of the robot.
-Effort raised(const Effort& effort, const Violation& violation, double factor = 20.0);
-
-/// Acceleration [m/s^2] at which drives from rest begin and end, so that their heading there is
-/// well defined.
-double rest_acceleration(const MotionLimits& limits);
+Effort raised(const Effort& effort, const Violation& violation, double factor);
 
 /// Turns front-end paths into smooth drives: MINCO through knots that camouflage moves, paper (14).
 class DriveOptimizer {
@@ -62,9 +58,6 @@ class DriveOptimizer {
   OptimizedTrajectory<2, 3> optimize_drive(const DriveQuery& query, const ObstacleField<2>& field,
                                            const Effort& effort,
                                            const std::function<bool()>& should_stop) const;
-
-  /// That of the robot's own limits.
-  double rest_acceleration() const;
 
   /// Distance of knots on a path [m]: it follows the room between the obstacles, within the bounds
   /// that the options give.

@@ -1,6 +1,8 @@
 #include "planning/global/front_end.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "planning/candidates/path_clearance.h"
@@ -11,6 +13,15 @@ namespace mocha {
 namespace {
 
 constexpr double kSameGoal_m = 0.5;
+
+/// The shortest time in which a length can be driven from `speed` to rest, straight.
+double least_duration_s(double length_m, double speed, const MotionLimits& limits) {
+  const double a = limits.max_acceleration;
+  const double v = std::min(limits.max_speed, std::sqrt(a * length_m + 0.5 * speed * speed));
+  if (v <= speed) return length_m / std::max(speed, limits.max_speed);
+  const double ramps_m = (2.0 * v * v - speed * speed) / (2.0 * a);
+  return (2.0 * v - speed) / a + std::max(0.0, length_m - ramps_m) / v;
+}
 
 bool is_under_way(const PlanQuery& query, const Vector2& goal) {
   return !query.driven.empty() && query.driven.end_time() > query.start_time_s &&
@@ -42,11 +53,11 @@ std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_spe
   return points;
 }
 
-FrontEnd::FrontEnd(const RobotModel& robot, const PlannerOptions& options, double rest_acceleration)
+FrontEnd::FrontEnd(const RobotModel& robot, const PlannerOptions& options)
     : robot_(robot),
       options_(homotopy_path_options(robot, options)),
-      start_maneuvers_(robot.limits, options.smooth_start_rad, rest_acceleration),
-      rest_acceleration_(rest_acceleration) {}
+      start_maneuvers_(robot.limits, options.smooth_start_rad),
+      weight_duration_(options.weight_duration) {}
 
 HomotopyPaths FrontEnd::paths(std::vector<Vector2> lead_in, const PlanQuery& query,
                               const PlanningScene& scene, const Vector2& goal) const {
@@ -67,40 +78,55 @@ HomotopyPaths FrontEnd::paths(std::vector<Vector2> lead_in, const PlanQuery& que
   return find_homotopy_paths(*scene.static_map, paths, options_);
 }
 
-CandidateSeeds FrontEnd::seeds(const PlanQuery& query, const PlanningScene& scene,
-                               const Vector2& goal) const {
+Seed FrontEnd::seed_of(const HomotopyPath& path, std::vector<StartManeuver> start_maneuvers,
+                       const std::optional<Signature>& driven) const {
+  double least_s = std::numeric_limits<double>::infinity();
+  for (const StartManeuver& start : start_maneuvers) {
+    const double speed = start.state.col(1).norm();
+    least_s = std::min(
+        least_s, start.duration_s + least_duration_s(path.least_length_m, speed, robot_.limits));
+  }
+  return {std::move(start_maneuvers),
+          {},
+          path.signature,
+          weight_duration_ * least_s,
+          path.signature == driven};
+}
+
+GlobalSeeds FrontEnd::seeds(const PlanQuery& query, const PlanningScene& scene,
+                            const Vector2& goal) const {
   const MotionState start = query.committed.at(query.start_time_s);
   HomotopyPaths found = paths({start.pose.position}, query, scene, goal);
-  CandidateSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
+  GlobalSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
   for (const HomotopyPath& path : found.paths) {
     std::vector<StartManeuver> start_maneuvers =
         start.at_rest ? start_maneuvers_.from_rest({}, start.pose, path.points)
                       : start_maneuvers_.rolling(start, path.points);
     if (start_maneuvers.empty()) continue;
-    result.list.push_back({std::move(start_maneuvers), path.least_length_m, path.signature});
+    result.list.push_back(seed_of(path, std::move(start_maneuvers), result.driven));
   }
   if (result.list.size() == found.paths.size()) return result;
-  for (CandidateSeed& seed : after_braking(query, scene, goal).list) {
-    const bool known =
-        std::any_of(result.list.begin(), result.list.end(),
-                    [&](const CandidateSeed& other) { return other.signature == seed.signature; });
+  for (Seed& seed : after_braking(query, scene, goal).list) {
+    const bool known = std::any_of(result.list.begin(), result.list.end(), [&](const Seed& other) {
+      return other.signature == seed.signature;
+    });
     if (!known) result.list.push_back(std::move(seed));
   }
   return result;
 }
 
-CandidateSeeds FrontEnd::after_braking(const PlanQuery& query, const PlanningScene& scene,
-                                       const Vector2& goal) const {
+GlobalSeeds FrontEnd::after_braking(const PlanQuery& query, const PlanningScene& scene,
+                                    const Vector2& goal) const {
   if (query.committed.at(query.start_time_s).at_rest) return {};
   const std::vector<Phase> brake =
-      brake_along(query.committed, query.start_time_s, rest_acceleration_);
+      brake_along(query.committed, query.start_time_s, rest_acceleration(robot_.limits));
   const Motion stop(query.start_time_s, brake);
   HomotopyPaths found =
       paths(path_of(stop, query.start_time_s, robot_.limits.max_speed), query, scene, goal);
-  CandidateSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
+  GlobalSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
   for (const HomotopyPath& path : found.paths) {
-    result.list.push_back({start_maneuvers_.from_rest(brake, stop.end_pose(), path.points),
-                           path.least_length_m, path.signature});
+    result.list.push_back(seed_of(
+        path, start_maneuvers_.from_rest(brake, stop.end_pose(), path.points), result.driven));
   }
   return result;
 }

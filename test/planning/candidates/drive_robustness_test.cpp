@@ -5,6 +5,7 @@
 #include <random>
 
 #include "planning/candidates/drive_optimizer.h"
+#include "planning/candidates/start_maneuver.h"
 #include "planning/worlds.h"
 #include "safety/margin_budget.h"
 #include "world/primitive_field.h"
@@ -123,7 +124,7 @@ TEST(DriveRobustness, APathThroughAnObstacleIsNotCertified) {
   const PrimitiveField<2> field({wall}, 1.0);
   DriveQuery query{{{0.0, 0.0}, {8.0, 0.0}}, PlanarMinco::State::Zero(), 0.0, {}, {}, {}, {}, {}};
   query.duration_cost = DurationCost::total(1.0);
-  query.start.col(2) = Vector2(optimizer.rest_acceleration(), 0.0);
+  query.start.col(2) = Vector2(rest_acceleration(robot.limits), 0.0);
   const auto result = optimizer.optimize_drive(query, field, {}, [] { return false; });
   ASSERT_GT(result.curve.pieces(), 0);
   const Motion motion(0.0, {DrivePhase{1, result.curve}});
