@@ -17,12 +17,8 @@ class ReferenceChooser {
   using Point = Eigen::Matrix<double, D, 1>;
   using Points = Eigen::Matrix<double, D, Eigen::Dynamic>;
 
-  ReferenceChooser(const Points& path, const ObstacleField<D>& field,
-                   const ReferenceOptions& options)
-      : path_(path),
-        field_(field),
-        options_(options),
-        max_cosine_(std::cos(options.min_angle_rad)) {}
+  ReferenceChooser(const Points& path, const ObstacleField<D>& field, double side_depth_m)
+      : path_(path), field_(field), side_depth_m_(side_depth_m) {}
 
   /// The apex over the stretch between two points of the path, on the sparser side if that keeps
   /// the angle, else on the other.
@@ -32,8 +28,7 @@ class ReferenceChooser {
     const double preferred =
         room_beside(from, to, side) >= room_beside(from, to, -side) ? 1.0 : -1.0;
     for (const double sign : {preferred, -preferred}) {
-      const Point apex =
-          path_.col(from) + 0.5 * (chord + sign * options_.apex_height * chord.norm() * side);
+      const Point apex = path_.col(from) + 0.5 * (chord + sign * chord.norm() * side);
       if (keeps_angle(from, to, apex)) return apex;
     }
     return std::nullopt;
@@ -69,8 +64,8 @@ class ReferenceChooser {
       const Point middle = 0.5 * (path_.col(k) + path_.col(k + 1));
       const Point across = (side - side.dot(along) * along).normalized();
       for (const double share : {0.5, 1.0}) {
-        const Point beside = middle + share * options_.side_depth_m * across;
-        room += std::clamp(field_.sample(beside).distance_m, 0.0, options_.side_depth_m);
+        const Point beside = middle + share * side_depth_m_ * across;
+        room += std::clamp(field_.sample(beside).distance_m, 0.0, side_depth_m_);
       }
     }
     return room;
@@ -94,8 +89,8 @@ class ReferenceChooser {
 
   const Points& path_;
   const ObstacleField<D>& field_;
-  const ReferenceOptions& options_;
-  const double max_cosine_;
+  const double side_depth_m_;
+  const double max_cosine_ = std::cos(kLeastRayAngle_rad);
 };
 
 }  // namespace
@@ -103,8 +98,8 @@ class ReferenceChooser {
 template <int D>
 std::optional<Eigen::Matrix<double, D, Eigen::Dynamic>> choose_references(
     const Eigen::Matrix<double, D, Eigen::Dynamic>& path, const ObstacleField<D>& field,
-    const ReferenceOptions& options) {
-  const ReferenceChooser<D> chooser(path, field, options);
+    double side_depth_m) {
+  const ReferenceChooser<D> chooser(path, field, side_depth_m);
   const int last = static_cast<int>(path.cols()) - 1;
   Eigen::Matrix<double, D, Eigen::Dynamic> references(D, std::max(0, last - 1));
   for (int from = 0; from + 1 < last;) {
@@ -121,10 +116,8 @@ std::optional<Eigen::Matrix<double, D, Eigen::Dynamic>> choose_references(
 }
 
 template std::optional<Eigen::Matrix2Xd> choose_references<2>(const Eigen::Matrix2Xd&,
-                                                              const ObstacleField<2>&,
-                                                              const ReferenceOptions&);
+                                                              const ObstacleField<2>&, double);
 template std::optional<Eigen::Matrix3Xd> choose_references<3>(const Eigen::Matrix3Xd&,
-                                                              const ObstacleField<3>&,
-                                                              const ReferenceOptions&);
+                                                              const ObstacleField<3>&, double);
 
 }  // namespace mocha

@@ -8,6 +8,8 @@ namespace mocha {
 /// should last as long as a given horizon mu, paper (40).
 class DurationCost {
  public:
+  /// Nothing.
+  DurationCost() = default;
   /// `weight` w_t in 1/s.
   static DurationCost total(double weight) { return {weight, Kind::kTotal, 0.0}; }
   /// `weight` w_t in 1/s^3, `mu_s` in s.
@@ -32,9 +34,9 @@ class DurationCost {
   enum class Kind { kTotal, kWithHorizon };
   DurationCost(double weight, Kind kind, double mu_s) : weight_(weight), kind_(kind), mu_s_(mu_s) {}
 
-  double weight_;
-  Kind kind_;
-  double mu_s_;
+  double weight_ = 0.0;
+  Kind kind_ = Kind::kTotal;
+  double mu_s_ = 0.0;
 };
 
 }  // namespace mocha

@@ -28,13 +28,13 @@ class TrajectoryObjective {
     State end;
     std::shared_ptr<const KnotMap<D>> knot_map;
     double effort_weight;  ///< w_e
-    DurationCost duration_cost = DurationCost::total(1.0);
+    DurationCost duration_cost;
     std::vector<std::unique_ptr<Penalty<D>>> penalties;
     int kappa;
     /// How far the trajectory moves along itself, about, when one eta grows by one [m]. A variable
     /// is eta times this, so that one unit of it moves as much as one unit of a knot's does: the
     /// solver converges faster where all variables are alike.
-    double metres_per_eta = 1.0;
+    double metres_per_eta;
   };
 
   explicit TrajectoryObjective(Options options);

@@ -9,6 +9,9 @@
 namespace mocha {
 namespace {
 
+constexpr int kCostWindow = 5;  // iterations over which the fall of the cost is looked at
+constexpr double kRelativeGradient = 1e-5;  // smaller, the search has converged
+
 /// Thrown through the solver, which offers no other way to leave it between two evaluations.
 struct EndSearch {
   StopReason reason;
@@ -54,9 +57,9 @@ class WatchedObjective {
 LBFGSpp::LBFGSParam<double> solver_parameters(const OptimizerOptions& options) {
   LBFGSpp::LBFGSParam<double> parameters;
   parameters.m = 12;
-  parameters.epsilon = options.relative_gradient;
-  parameters.epsilon_rel = options.relative_gradient;
-  parameters.past = options.cost_window;
+  parameters.epsilon = kRelativeGradient;
+  parameters.epsilon_rel = kRelativeGradient;
+  parameters.past = kCostWindow;
   parameters.delta = options.relative_cost;
   parameters.max_iterations = 0;  // the number of evaluations is what counts
   parameters.max_linesearch = 30;

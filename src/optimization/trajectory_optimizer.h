@@ -17,12 +17,9 @@ enum class StopReason {
 };
 
 struct OptimizerOptions {
-  int max_evaluations = 400;
-  double relative_cost =
-      1e-4;  ///< stop when the cost falls by less than this share over `cost_window` iterations
-  int cost_window = 5;
-  double relative_gradient = 1e-5;
-  std::function<bool()> should_stop = [] { return false; };
+  int max_evaluations;
+  double relative_cost;  ///< stop when the cost falls by less than this share over 5 iterations
+  std::function<bool()> should_stop;
 };
 
 template <int D, int S>

@@ -54,9 +54,7 @@ template <int D>
 Eigen::Matrix<double, D, Eigen::Dynamic> table_references(const BenchmarkWorld<D>& world,
                                                           const InitialKnots<D>& knots,
                                                           const TableOptions& options) {
-  ReferenceOptions reference_options;
-  reference_options.side_depth_m = options.travel_m;
-  const auto references = choose_references<D>(knots.path, world.field, reference_options);
+  const auto references = choose_references<D>(knots.path, world.field, options.travel_m);
   if (!references) throw std::runtime_error("table1: no reference points");
   return *references;
 }

@@ -5,6 +5,7 @@
 
 #include "topology/paths/grid_path.h"
 #include "topology/paths/path_shortcutting.h"
+#include "topology/shipped_options.h"
 #include "topology/static_map/grid_static_map.h"
 
 namespace mocha {
@@ -24,7 +25,7 @@ std::vector<Vector2> front_end(const std::vector<Circle>& circles, double side_m
   for (const Circle& circle : circles) {
     fill_disc(map, circle.centre, circle.radius_m, OccupancyGrid::kOccupied);
   }
-  TravelOptions options;
+  TravelOptions options = shipped_travel_options();
   options.required_clearance_m = clearance_m;
   options.preferred_clearance_m = clearance_m;
   const GridStaticMap static_map(

@@ -10,8 +10,10 @@
 
 #include "perception/mapping/map_image.h"
 #include "planning/global/global_planner.h"
+#include "planning/global/global_rules.h"
 #include "topology/static_map/grid_static_map.h"
 #include "topology/static_map/primitive_static_map.h"
+#include "world/margin_budget.h"
 #include "world/world_file.h"
 
 namespace mocha {
@@ -63,11 +65,16 @@ std::vector<PlanCandidate> plan_all(const Task& task, const PlannerOptions& opti
 
 /// What is found from the straight line, as planners do that know one class only.
 PlanCandidate plan_straight(const Task& task, const PlannerOptions& options) {
-  const CandidatePlanner planner(task.robot, options);
   const std::vector<Vector2> line = {task.start.position, task.goal};
-  const CandidateSeed straight{
-      planner.front_end().start_maneuvers().from_rest({}, task.start, line), 0.0, {}};
-  return planner.plan(query_of(task), straight, {task.static_map, {}}, [] { return false; });
+  const StartManeuvers start_maneuvers(task.robot.limits, options.smooth_start_rad);
+  const Seed straight{start_maneuvers.from_rest({}, task.start, line), {}, {}, 0.0, false};
+  const PlanQuery query = query_of(task);
+  const PlanningScene scene{task.static_map, {}};
+  const DriveOptimizer optimizer(task.robot, options,
+                                 MarginBudget::of(task.robot).static_margin_m());
+  const GlobalRules rules(task.robot, options, query, scene);
+  return CandidatePipeline(optimizer, task.static_map->field(), rules)
+      .optimise_and_certify(straight, [] { return false; });
 }
 
 void print(const std::vector<Vector2>& path) {

@@ -63,9 +63,9 @@ class SplineAlone {
 
 /// Where an optimisation is after a while: what evaluations are usually made of.
 Eigen::VectorXd halfway(TrajectoryObjective<2, 3>& objective, const InitialKnots<2>& knots) {
-  OptimizerOptions options;
-  options.max_evaluations = 60;
-  return optimize<2, 3>(objective, objective.initial(knots.durations_s), options).variables;
+  return optimize<2, 3>(objective, objective.initial(knots.durations_s),
+                        {60, 1e-4, [] { return false; }})
+      .variables;
 }
 
 void run() {

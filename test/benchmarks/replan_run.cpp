@@ -80,10 +80,7 @@ Replan replan_of(const ClosedLoop& loop, double t) {
   replan.taken = loop.output.swerves;
   replan.other_class = replan.taken && local->switches_class;
   if (replan.taken) replan.motion = local->motion;
-  for (const LocalCandidate& candidate : local->candidates) {
-    replan.paths.emplace_back();
-    for (const TimedPoint& point : candidate.path) replan.paths.back().push_back(point.position);
-  }
+  for (const PlanCandidate& candidate : local->candidates) replan.paths.push_back(candidate.path);
   return replan;
 }
 

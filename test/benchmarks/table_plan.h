@@ -23,9 +23,7 @@ template <int D>
 TablePlan<D> plan(const BenchmarkWorld<D>& world, double spacing_m, bool camouflage,
                   const TableOptions& options) {
   constexpr double kLongestStretch = 1.5;
-  OptimizerOptions stopping;
-  stopping.max_evaluations = 20000;
-  stopping.relative_cost = 1e-5;
+  const OptimizerOptions stopping{20000, 1e-5, [] { return false; }};
   TablePlan<D> plan;
   const auto begin = std::chrono::steady_clock::now();
   const InitialKnots<D> knots = knots_on<D>(world.path, spacing_m, options);

@@ -16,6 +16,7 @@ namespace {
 using PlanarPoints = Eigen::Matrix2Xd;
 
 const CircleField kOpen({});
+constexpr double kSideDepth_m = 1.0;
 
 /// Points at equal steps along a course that changes by `bend(i)` at each.
 template <typename Bend>
@@ -48,7 +49,8 @@ double smallest_angle(const PlanarPoints& path, const PlanarPoints& references) 
 }
 
 TEST(ReferencePoint, IsTheApexOfTheRightTriangleOverAStraightPath) {
-  const auto references = choose_references(straight(11), CircleField({{{5.0, 0.8}, 0.3}}), {});
+  const auto references =
+      choose_references(straight(11), CircleField({{{5.0, 0.8}, 0.3}}), kSideDepth_m);
   ASSERT_TRUE(references);
   ASSERT_EQ(references->cols(), 9);
   for (int k = 0; k < 9; ++k) {
@@ -64,26 +66,19 @@ TEST(ReferencePoint, IsTheApexOfTheRightTriangleOverAStraightPath) {
 TEST(ReferencePoint, StandsOnTheSideWithFewerObstacles) {
   const CircleField left({{{3.0, 0.8}, 0.3}, {{6.0, 0.9}, 0.3}, {{8.0, -0.9}, 0.2}});
   const CircleField right({{{3.0, -0.8}, 0.3}, {{6.0, -0.9}, 0.3}, {{8.0, 0.9}, 0.2}});
-  EXPECT_LT(choose_references(straight(11), left, {})->col(4).y(), 0.0);
-  EXPECT_GT(choose_references(straight(11), right, {})->col(4).y(), 0.0);
-}
-
-TEST(ReferencePoint, DistanceIsAParameter) {
-  ReferenceOptions options;
-  options.apex_height = 2.0;
-  EXPECT_NEAR(std::abs(choose_references(straight(11), kOpen, options)->col(0).y()), 10.0, 1e-12);
+  EXPECT_LT(choose_references(straight(11), left, kSideDepth_m)->col(4).y(), 0.0);
+  EXPECT_GT(choose_references(straight(11), right, kSideDepth_m)->col(4).y(), 0.0);
 }
 
 TEST(ReferencePoint, WindingPathsAreSplitSoThatEveryRayKeepsItsAngle) {
-  const ReferenceOptions options;
   int split = 0;
   for (int seed = 1; seed <= 200; ++seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> noise(0.0, 0.3);
     const auto path = path_of(25, 0.5, [&](int) { return noise(random); });
-    const auto references = choose_references(path, kOpen, options);
+    const auto references = choose_references(path, kOpen, kSideDepth_m);
     ASSERT_TRUE(references) << "seed " << seed;
-    EXPECT_GE(smallest_angle(path, *references), options.min_angle_rad - 1e-9) << "seed " << seed;
+    EXPECT_GE(smallest_angle(path, *references), kLeastRayAngle_rad - 1e-9) << "seed " << seed;
     split += (references->colwise() - references->col(0)).norm() > 1e-9;
     EXPECT_NO_THROW(CamouflageMap<2>(path.middleCols(1, 23), *references, 1.0));
   }
@@ -92,24 +87,24 @@ TEST(ReferencePoint, WindingPathsAreSplitSoThatEveryRayKeepsItsAngle) {
 
 TEST(ReferencePoint, UTurnIsSplit) {
   const auto path = path_of(31, 0.3, [](int i) { return i > 10 && i <= 20 ? 0.1 * M_PI : 0.0; });
-  const auto references = choose_references(path, kOpen, {});
+  const auto references = choose_references(path, kOpen, kSideDepth_m);
   ASSERT_TRUE(references);
-  EXPECT_GE(smallest_angle(path, *references), ReferenceOptions().min_angle_rad - 1e-9);
+  EXPECT_GE(smallest_angle(path, *references), kLeastRayAngle_rad - 1e-9);
   EXPECT_GT((references->col(0) - references->col(28)).norm(), 0.5);
 }
 
 TEST(ReferencePoint, ClosedPathsAreSplitToo) {
   const auto circle = path_of(41, 0.4, [](int) { return 2.0 * M_PI / 40.0; });
   ASSERT_LT((circle.col(0) - circle.col(40)).norm(), 1e-9);
-  const auto references = choose_references(circle, kOpen, {});
+  const auto references = choose_references(circle, kOpen, kSideDepth_m);
   ASSERT_TRUE(references);
   EXPECT_TRUE(references->allFinite());
-  EXPECT_GE(smallest_angle(circle, *references), ReferenceOptions().min_angle_rad - 1e-9);
+  EXPECT_GE(smallest_angle(circle, *references), kLeastRayAngle_rad - 1e-9);
 }
 
 TEST(ReferencePoint, NothingWhereNoRayHasLeverage) {
   const auto none = [](const PlanarPoints& path) {
-    EXPECT_FALSE(choose_references(path, kOpen, {}));
+    EXPECT_FALSE(choose_references(path, kOpen, kSideDepth_m));
   };
   none(PlanarPoints::Zero(2, 6));  // all points coincide: start = goal
   PlanarPoints doubled = straight(8);
@@ -141,7 +136,7 @@ TEST(ReferencePoint, InSpaceStandsInThePlaneInWhichThePathSwings) {
   const Eigen::Vector3d upward = level.cross(chord).normalized();
   for (const Eigen::Vector3d& aside :
        {level, upward, Eigen::Vector3d(0.6 * level + 0.8 * upward)}) {
-    const auto references = choose_references(swinging_path(chord, aside), open, {});
+    const auto references = choose_references(swinging_path(chord, aside), open, kSideDepth_m);
     ASSERT_TRUE(references);
     const Eigen::Vector3d apex = references->col(9) - 0.5 * chord;
     EXPECT_NEAR(apex.norm(), 0.5 * chord.norm(), 1e-9);
@@ -153,19 +148,19 @@ TEST(ReferencePoint, InSpaceStandsInThePlaneInWhichThePathSwings) {
 TEST(ReferencePoint, InSpaceAStraightPathHasItsReferenceBesideIt) {
   const PrimitiveField<3> tree_on_the_left({{{10.0, 0.8}, 0.3}}, 1.0);
   const auto references = choose_references(
-      swinging_path({20.0, 0.0, 0.0}, Eigen::Vector3d::Zero()), tree_on_the_left, {});
+      swinging_path({20.0, 0.0, 0.0}, Eigen::Vector3d::Zero()), tree_on_the_left, kSideDepth_m);
   ASSERT_TRUE(references);
   EXPECT_LT((references->col(5) - Eigen::Vector3d(10.0, -10.0, 0.0)).norm(), 1e-9);
   const PrimitiveField<3> open({}, 1.0);
-  const auto climbing =
-      choose_references(swinging_path({0.0, 0.0, 20.0}, Eigen::Vector3d::Zero()), open, {});
+  const auto climbing = choose_references(swinging_path({0.0, 0.0, 20.0}, Eigen::Vector3d::Zero()),
+                                          open, kSideDepth_m);
   ASSERT_TRUE(climbing);  // there is no level direction of its own
   EXPECT_NEAR(climbing->col(5).z(), 10.0, 1e-9);
 }
 
 TEST(ReferencePoint, PathsWithoutInteriorKnotsNeedNone) {
   for (const int points : {1, 2}) {
-    const auto references = choose_references(straight(points), kOpen, {});
+    const auto references = choose_references(straight(points), kOpen, kSideDepth_m);
     ASSERT_TRUE(references);
     EXPECT_EQ(references->cols(), 0);
   }

@@ -47,6 +47,7 @@ TrajectoryObjective<2, 3> full_objective(const DistanceField& field, bool camouf
     options.knot_map = std::make_shared<WaypointMap<2>>(prey);
   }
   options.effort_weight = 0.01;
+  options.metres_per_eta = 1.0;
   options.duration_cost = DurationCost::total(1.0);
   options.kappa = 12;
   const auto peer =

@@ -71,6 +71,7 @@ typename TrajectoryObjective<D, S>::Options basic_options(std::shared_ptr<const 
   options.effort_weight = 0.1;
   options.duration_cost = DurationCost::total(2.0);
   options.kappa = 12;
+  options.metres_per_eta = 1.0;
   options.penalties.push_back(std::make_unique<DynamicsPenalty<D>>(7.0, 0.9, 0.6));
   options.penalties.push_back(std::make_unique<ObstaclePenalty<D>>(
       11.0, field, std::vector<typename ObstaclePenalty<D>::Cover>{{0.15, 0.6}, {-0.15, 0.7}},
@@ -266,7 +267,8 @@ TEST(TrajectoryOptimizer, AvoidsAnObstacleOnThePreyPath) {
       1e3, balls, std::vector<ObstaclePenalty<2>::Cover>{{0.0, 0.5}}, 0.05));
   TrajectoryObjective<2, 3> objective(std::move(options));
   const auto result =
-      optimize<2, 3>(objective, objective.initial(Eigen::VectorXd::Constant(6, 1.3)), {});
+      optimize<2, 3>(objective, objective.initial(Eigen::VectorXd::Constant(6, 1.3)),
+                     {400, 1e-4, [] { return false; }});
   EXPECT_EQ(result.stop, StopReason::kConverged);
   double clearance = 1e9;
   for (double t = 0.0; t < result.curve.duration(); t += 0.01) {
@@ -284,8 +286,7 @@ TEST(TrajectoryOptimizer, ReportsWhyItStopped) {
   auto map = std::make_shared<WaypointMap<2>>(prey_knots<2>(5, random));
   TrajectoryObjective<2, 3> objective(basic_options<2>(map, balls));
   const Eigen::VectorXd x = objective.initial(Eigen::VectorXd::Constant(6, 1.0));
-  OptimizerOptions options;
-  options.max_evaluations = 5;
+  OptimizerOptions options{5, 1e-4, [] { return false; }};
   const auto exhausted = optimize<2, 3>(objective, x, options);
   EXPECT_EQ(exhausted.stop, StopReason::kBudget);
   EXPECT_EQ(exhausted.evaluations, 5);

@@ -17,6 +17,10 @@ constexpr double kMaxSpeed = 2.0;
 constexpr double kMaxAcceleration = 1.5;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+constexpr double kRelativeCost = 1e-4;
+const std::function<bool()> kGoOn = [] { return false; };
+const OptimizerOptions kUsual{400, kRelativeCost, kGoOn};
+
 /// Straight ahead from rest to rest over pieces of `spacing_m`.
 TrajectoryObjective<2, 3> straight_line(int pieces, double duration_weight,
                                         double spacing_m = 1.0) {
@@ -30,6 +34,7 @@ TrajectoryObjective<2, 3> straight_line(int pieces, double duration_weight,
   options.effort_weight = 1e-3;
   options.duration_cost = DurationCost::total(duration_weight);
   options.kappa = 16;
+  options.metres_per_eta = 1.0;
   options.penalties.push_back(
       std::make_unique<DynamicsPenalty<2>>(1e4, kMaxSpeed, kMaxAcceleration));
   return TrajectoryObjective<2, 3>(std::move(options));
@@ -41,10 +46,7 @@ Eigen::VectorXd slow_start(const TrajectoryObjective<2, 3>& objective) {
 
 TEST(TrajectoryOptimizer, StraightLineIsNearlyTimeOptimal) {
   auto objective = straight_line(8, 1.0, 2.5);
-  OptimizerOptions options;
-  options.max_evaluations = 4000;
-  options.relative_cost = 1e-6;
-  const auto result = optimize<2, 3>(objective, slow_start(objective), options);
+  const auto result = optimize<2, 3>(objective, slow_start(objective), {4000, 1e-6, kGoOn});
   EXPECT_EQ(result.stop, StopReason::kConverged) << result.evaluations << " evaluations";
   const double kinematic_s = 20.0 / kMaxSpeed + kMaxSpeed / kMaxAcceleration;
   // Penalties let the limits be passed a little; smooth starts and stops cost a little more.
@@ -60,8 +62,8 @@ TEST(TrajectoryOptimizer, StraightLineIsNearlyTimeOptimal) {
 TEST(TrajectoryOptimizer, ADearerSecondMakesItFaster) {
   auto patient = straight_line(8, 0.1);
   auto hasty = straight_line(8, 10.0);
-  const double slow_s = optimize<2, 3>(patient, slow_start(patient), {}).curve.duration();
-  EXPECT_LT((optimize<2, 3>(hasty, slow_start(hasty), {}).curve.duration()), slow_s);
+  const double slow_s = optimize<2, 3>(patient, slow_start(patient), kUsual).curve.duration();
+  EXPECT_LT((optimize<2, 3>(hasty, slow_start(hasty), kUsual).curve.duration()), slow_s);
 }
 
 TEST(TrajectoryOptimizer, ReturnsTheBestSeenWithItsOwnCostAndTerms) {
@@ -70,9 +72,7 @@ TEST(TrajectoryOptimizer, ReturnsTheBestSeenWithItsOwnCostAndTerms) {
   Eigen::VectorXd gradient(objective.variables());
   double last = objective.evaluate(x, gradient);
   for (const int budget : {1, 3, 10, 40, 400}) {
-    OptimizerOptions options;
-    options.max_evaluations = budget;
-    const auto result = optimize<2, 3>(objective, x, options);
+    const auto result = optimize<2, 3>(objective, x, {budget, kRelativeCost, kGoOn});
     EXPECT_LE(result.evaluations, budget);
     EXPECT_LE(result.cost, last + 1e-9) << "more evaluations made it worse";
     last = result.cost;
@@ -88,10 +88,9 @@ TEST(TrajectoryOptimizer, ReturnsTheBestSeenWithItsOwnCostAndTerms) {
 
 TEST(TrajectoryOptimizer, StopsWhenTheCallerSaysSo) {
   auto objective = straight_line(8, 1.0);
-  OptimizerOptions options;
   int calls = 0;
-  options.should_stop = [&calls] { return ++calls > 7; };
-  const auto result = optimize<2, 3>(objective, slow_start(objective), options);
+  const auto result = optimize<2, 3>(objective, slow_start(objective),
+                                     {400, kRelativeCost, [&calls] { return ++calls > 7; }});
   EXPECT_EQ(result.stop, StopReason::kStopped);
   EXPECT_EQ(result.evaluations, 7);
   EXPECT_EQ(result.curve.pieces(), 8);
@@ -99,9 +98,7 @@ TEST(TrajectoryOptimizer, StopsWhenTheCallerSaysSo) {
 
 TEST(TrajectoryOptimizer, WithoutABudgetThereIsNoCurve) {
   auto objective = straight_line(8, 1.0);
-  OptimizerOptions options;
-  options.max_evaluations = 0;
-  const auto result = optimize<2, 3>(objective, slow_start(objective), options);
+  const auto result = optimize<2, 3>(objective, slow_start(objective), {0, kRelativeCost, kGoOn});
   EXPECT_EQ(result.stop, StopReason::kBudget);
   EXPECT_EQ(result.curve.pieces(), 0);
 }
@@ -111,7 +108,7 @@ TEST(TrajectoryOptimizer, SaysThatTheStartIsNotFinite) {
   Eigen::VectorXd x = slow_start(objective);
   for (const double bad : {kNan, std::numeric_limits<double>::infinity(), 1e200}) {
     x[0] = bad;
-    const auto result = optimize<2, 3>(objective, x, {});
+    const auto result = optimize<2, 3>(objective, x, kUsual);
     EXPECT_EQ(result.stop, StopReason::kNotFinite) << bad;
     EXPECT_EQ(result.curve.pieces(), 0);
   }
@@ -121,9 +118,7 @@ TEST(TrajectoryOptimizer, SurvivesDurationsThatAreFarOff) {
   for (const double duration_s : {1e-3, 1e3}) {
     auto objective = straight_line(8, 1.0);
     const Eigen::VectorXd x = objective.initial(Eigen::VectorXd::Constant(8, duration_s));
-    OptimizerOptions options;
-    options.max_evaluations = 4000;
-    const auto result = optimize<2, 3>(objective, x, options);
+    const auto result = optimize<2, 3>(objective, x, {4000, kRelativeCost, kGoOn});
     ASSERT_EQ(result.curve.pieces(), 8);
     EXPECT_TRUE(std::isfinite(result.cost));
     EXPECT_LT(result.curve.duration(), 1e3);
@@ -154,11 +149,12 @@ TEST(TrajectoryOptimizer, StaysWhereTheCostIsFinite) {
   options.effort_weight = 1e-3;
   options.duration_cost = DurationCost::total(1.0);
   options.kappa = 8;
+  options.metres_per_eta = 1.0;
   options.penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
       1e5, cliff, std::vector<ObstaclePenalty<2>::Cover>{{0.0, 1.0}}, 0.05));
   TrajectoryObjective<2, 3> objective(std::move(options));
   const auto result =
-      optimize<2, 3>(objective, objective.initial(Eigen::VectorXd::Constant(4, 1.0)), {});
+      optimize<2, 3>(objective, objective.initial(Eigen::VectorXd::Constant(4, 1.0)), kUsual);
   ASSERT_EQ(result.curve.pieces(), 4);
   EXPECT_TRUE(std::isfinite(result.cost));
   for (double t = 0.0; t < result.curve.duration(); t += 0.01) {

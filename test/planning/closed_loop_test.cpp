@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "topology/shipped_options.h"
 #include "world/margin_budget.h"
 
 namespace mocha {
@@ -169,7 +170,7 @@ TEST_F(ReplannerLoop, RandomWorldsAreDrivenToTheEnd) {
     const Vector2 start(0.6, 0.6);
     const Vector2 goal(7.4, 5.4);
     const OccupancyGrid grid = random_world(seed, 24, start, goal, 0.6);
-    TravelOptions front_end;
+    TravelOptions front_end = shipped_travel_options();
     front_end.required_clearance_m = 0.3 + margin_m_ + 0.01;
     if (find_path_on_grid(occupied_field(grid), start, goal, {}, front_end).outcome !=
         GridPath::Outcome::kFound)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/parameter_table.h"
+#include "planning/candidates/local_scene.h"
 #include "planning/global/planner_options.h"
 #include "planning/local/local_options.h"
 #include "planning/local/local_plan.h"

@@ -10,6 +10,7 @@
 #include "optimization/obstacle_penalty.h"
 #include "optimization/turning_penalty.h"
 #include "optimization/wheel_penalty.h"
+#include "planning/candidates/start_maneuver.h"
 
 namespace mocha {
 namespace {
@@ -20,6 +21,7 @@ constexpr double kShareOfSpeed = 0.97;
 constexpr double kShareOfAcceleration = 0.95;
 constexpr double kShareOfYawRate = 0.92;
 constexpr double kShareOfWheelSpeed = 0.97;
+constexpr double kRelativeCost = 1e-4;  // falling by less, the search has converged
 constexpr double kSpacingOfRoom = 1.5;  // knots apart, over the room beside the path
 constexpr double kLeastPieces = 10.0;   // of a drive, for its ramps
 constexpr double kLeastTimedPieces = 3.0;
@@ -81,8 +83,7 @@ class TimedGuide {
   Vector2 at(double t) const {
     if (t <= 0.0) return query_.path.front() + t * query_.start.col(1);
     if (t >= duration_s()) {
-      const Vector2 velocity =
-          query_.rejoin ? Vector2(query_.rejoin->state.col(1)) : Vector2::Zero();
+      const Vector2 velocity = query_.rejoin ? Vector2(query_.rejoin->col(1)) : Vector2::Zero();
       return query_.path.back() + (t - duration_s()) * velocity;
     }
     const auto later = std::upper_bound(query_.times_s.begin(), query_.times_s.end(), t);
@@ -117,8 +118,6 @@ DriveOptimizer::DriveOptimizer(const RobotModel& robot, const DriveOptions& opti
                                double static_margin_m)
     : robot_(robot), options_(options), static_margin_m_(static_margin_m) {}
 
-double rest_acceleration(const MotionLimits& limits) { return 0.5 * limits.max_acceleration; }
-
 Effort raised(const Effort& effort, const Violation& violation, double factor) {
   Effort more = effort;
   switch (violation.term) {
@@ -136,8 +135,6 @@ Effort raised(const Effort& effort, const Violation& violation, double factor) {
   if (!more.camouflage) more.speed *= 0.8;
   return more;
 }
-
-double DriveOptimizer::rest_acceleration() const { return mocha::rest_acceleration(robot_.limits); }
 
 const MotionLimits& DriveOptimizer::limits_of(const DriveQuery& query) const {
   return query.limits ? *query.limits : robot_.limits;
@@ -168,9 +165,7 @@ std::shared_ptr<const KnotMap<2>> DriveOptimizer::knot_map(const Eigen::Matrix2X
                                                            bool camouflage) const {
   const Eigen::Matrix2Xd prey = path.middleCols(1, path.cols() - 2);
   if (camouflage) {
-    ReferenceOptions reference_options;
-    reference_options.side_depth_m = options_.knot_travel_m;
-    const auto references = choose_references(path, field, reference_options);
+    const auto references = choose_references(path, field, options_.knot_travel_m);
     if (references)
       return std::make_shared<CamouflageMap<2>>(prey, *references, options_.knot_travel_m);
   }
@@ -228,11 +223,11 @@ InitialKnots<2> DriveOptimizer::initial_knots(const DriveQuery& query,
 }
 
 PlanarMinco::State DriveOptimizer::end_state(const DriveQuery& query) const {
-  if (query.rejoin) return query.rejoin->state;
+  if (query.rejoin) return *query.rejoin;
   PlanarMinco::State end;
   end.col(0) = query.path.back();
   end.col(1).setZero();
-  end.col(2) = -mocha::rest_acceleration(limits_of(query)) * final_direction(query.path, 0.3);
+  end.col(2) = -rest_acceleration(limits_of(query)) * final_direction(query.path, 0.3);
   return end;
 }
 
@@ -247,17 +242,13 @@ OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
   options.end = end_state(query);
   options.knot_map = knot_map(knots.path, field, effort.camouflage);
   options.effort_weight = options_.weight_effort / (a_max * a_max);
-  options.duration_cost =
-      query.rejoin ? DurationCost::with_horizon(options_.weight_duration, query.rejoin->mu_s)
-                   : DurationCost::total(options_.weight_duration);
+  options.duration_cost = query.duration_cost;
   options.penalties = penalties(query, field, effort);
   options.kappa = options_.samples_per_piece;
   options.metres_per_eta = knots.metres_per_eta();
   TrajectoryObjective<2, 3> objective(std::move(options));
-  OptimizerOptions optimizer_options;
-  optimizer_options.max_evaluations = options_.max_evaluations;
-  optimizer_options.should_stop = should_stop;
-  auto found = optimize<2, 3>(objective, objective.initial(knots.durations_s), optimizer_options);
+  auto found = optimize<2, 3>(objective, objective.initial(knots.durations_s),
+                              {options_.max_evaluations, kRelativeCost, should_stop});
   undo(effort, found);
   return found;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "optimization/duration_cost.h"
 #include "optimization/moving_penalty.h"
 #include "optimization/trajectory_optimizer.h"
 #include "planning/candidates/drive_options.h"
@@ -14,12 +15,6 @@
 
 namespace mocha {
 
-/// Where a drive meets a motion that is under way, paper (38), instead of coming to rest.
-struct RejoinTarget {
-  PlanarMinco::State state;  ///< position, velocity, acceleration
-  double mu_s;               ///< the drive should take about this long, paper (40)
-};
-
 /// A drive to be found: from a state of the base along a front-end path to rest at its end, or to
 /// the rejoin point there.
 struct DriveQuery {
@@ -29,7 +24,10 @@ struct DriveQuery {
   std::vector<MovingThing> moving;  ///< and what is proved to be kept from it
   /// When the path is at its points, from 0 [s], increasing; empty: as early as the limits allow.
   std::vector<double> times_s;
-  std::optional<RejoinTarget> rejoin;
+  /// Where it meets a motion that is under way, paper (38), instead of coming to rest: position,
+  /// velocity, acceleration.
+  std::optional<PlanarMinco::State> rejoin;
+  DurationCost duration_cost;
   std::optional<MotionLimits> limits;  ///< in place of the robot's own
 };
 
@@ -37,20 +35,16 @@ struct DriveQuery {
 /// not certified.
 struct Effort {
   bool camouflage = true;        ///< one variable a knot, else waypoints
-  double spacing = 1.0;          ///< of the knots, relative
-  double obstacle_weight = 1.0;  ///< relative
-  double moving_weight = 1.0;    ///< relative
-  double limit_weight = 1.0;     ///< of speed, acceleration and yaw rate, relative
-  double speed = 1.0;            ///< relative to the robot's limit
+  double spacing = 1.0;          ///< of the knots, relative to the options
+  double obstacle_weight = 1.0;  ///< the same, as all that follows
+  double moving_weight = 1.0;
+  double limit_weight = 1.0;  ///< of speed, acceleration and yaw rate
+  double speed = 1.0;         ///< relative to the robot's limit
 };
 
 /// More effort, by the factor, where it is missing: against obstacles, against what moves, or
 /// against the limits of the robot.
-Effort raised(const Effort& effort, const Violation& violation, double factor = 20.0);
-
-/// Acceleration [m/s^2] at which drives from rest begin and end, so that their heading there is
-/// well defined.
-double rest_acceleration(const MotionLimits& limits);
+Effort raised(const Effort& effort, const Violation& violation, double factor);
 
 /// Turns front-end paths into smooth drives: MINCO through knots that camouflage moves, paper (14).
 class DriveOptimizer {
@@ -64,9 +58,6 @@ class DriveOptimizer {
   OptimizedTrajectory<2, 3> optimize_drive(const DriveQuery& query, const ObstacleField<2>& field,
                                            const Effort& effort,
                                            const std::function<bool()>& should_stop) const;
-
-  /// That of the robot's own limits.
-  double rest_acceleration() const;
 
   /// Distance of knots on a path [m]: it follows the room between the obstacles, within the bounds
   /// that the options give.

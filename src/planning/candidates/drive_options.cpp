@@ -5,7 +5,6 @@ namespace mocha {
 DriveOptions DriveOptions::from(const ParameterTable& values) {
   DriveOptions options;
   options.weight_effort = values.number("weight_effort");
-  options.weight_duration = values.number("weight_duration");
   options.weight_obstacle = values.number("weight_obstacle");
   options.weight_dynamics = values.number("weight_dynamics");
   options.weight_turning = values.number("weight_turning");

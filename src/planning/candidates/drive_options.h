@@ -8,7 +8,6 @@ namespace mocha {
 /// default in the config of the node that plans.
 struct DriveOptions {
   double weight_effort;
-  double weight_duration;
   double weight_obstacle;
   double weight_dynamics;
   double weight_turning;
@@ -16,7 +15,7 @@ struct DriveOptions {
   int samples_per_piece;
   double knot_spacing_m;  ///< of knots at full speed
   /// The same where there is plenty of room, on paths without times.
-  double open_knot_spacing_m = 0.0;
+  double open_knot_spacing_m;
   double knot_travel_m;
   double soft_margin_m;
   double moving_soft_margin_m;

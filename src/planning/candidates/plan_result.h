@@ -5,6 +5,7 @@
 
 #include "optimization/trajectory_objective.h"
 #include "safety/certificate.h"
+#include "safety/requirement.h"
 #include "topology/signatures/h_signature.h"
 #include "trajectory/motion.h"
 
@@ -29,30 +30,37 @@ enum class PlanReason {
   kEmergencyStop = 14
 };
 
-/// One path to the goal that was optimised, certified or not.
+/// One path that was optimised, certified or not.
 struct PlanCandidate {
   Signature signature;
   PlanReason reason = PlanReason::kNotCertified;
-  Violation violation;  ///< where `reason` is kNotCertified
-  double cost = 0.0;    ///< J, paper (14), and the time of what comes before and after the drive
-  CostTerms terms;      ///< sum up to the cost
+  RequirementName met = RequirementName::kNone;  ///< by the motion, the most demanding
+  Violation violation;                           ///< of what was wanted, where that is not met
+  double cost = 0.0;  ///< J, paper (14), and what comes before and after the drive
+  CostTerms terms;    ///< sum up to the cost
   int evaluations = 0;
   std::vector<Vector2> path;  ///< of the front end, from which the optimisation started
   Motion motion;
+  double drive_ends_s = 0.0;  ///< absolute: there, a local plan is back on the plan that it left
   bool driven = false;  ///< began on a path of the class that is being driven; at most one does
   bool selected = false;
 };
 
-struct PlanResult {
-  PlanReason reason = PlanReason::kNoPath;
-  std::string message;  ///< the same for a human
-  Violation violation;
-  Motion motion;  ///< certified; empty unless solved, or where the goal executive backs out
-  Vector2 goal =
-      Vector2::Zero();  ///< where it leads: the goal, or the nearest free place; valid where solved
-  /// The motion is of another class than the plan that is being driven.
+/// What was selected among candidates, or why nothing.
+struct Selection {
+  PlanReason reason = PlanReason::kNoPath;  ///< kSolved: there is a motion that is certified
+  std::string message;                      ///< the same for a human
+  Violation violation;                      ///< of the first candidate, where none is certified
+  Motion motion;                            ///< empty unless solved
+  /// The motion is of another class than what is being driven.
   bool switches_class = false;
   std::vector<PlanCandidate> candidates;  ///< one of each class
+};
+
+/// A plan to the goal; where the goal executive backs out, a motion for that.
+struct PlanResult : Selection {
+  /// Where it leads: the goal, or the nearest free place; valid where solved.
+  Vector2 goal = Vector2::Zero();
 };
 
 }  // namespace mocha

@@ -22,15 +22,14 @@ double yaw_of(const Vector2& direction) { return std::atan2(direction.y(), direc
 
 }  // namespace
 
-StartManeuvers::StartManeuvers(const MotionLimits& limits, double smooth_start_rad,
-                               double rest_acceleration)
-    : limits_(limits), smooth_start_rad_(smooth_start_rad), rest_acceleration_(rest_acceleration) {}
+double rest_acceleration(const MotionLimits& limits) { return 0.5 * limits.max_acceleration; }
 
-std::optional<TurnPhase> StartManeuvers::turn(const Pose& pose, double yaw_change_rad) const {
-  if (std::abs(yaw_change_rad) <= kNoTurn_rad) return std::nullopt;
-  return TurnPhase{
-      pose, yaw_change_rad,
-      turn_duration_s(yaw_change_rad, limits_.max_yaw_rate, limits_.max_yaw_acceleration)};
+std::optional<TurnPhase> turn_in_place(const Pose& pose, double yaw_rad,
+                                       const MotionLimits& limits) {
+  const double change_rad = wrap_angle(yaw_rad - pose.yaw_rad);
+  if (std::abs(change_rad) <= kNoTurn_rad) return std::nullopt;
+  return TurnPhase{pose, change_rad,
+                   turn_duration_s(change_rad, limits.max_yaw_rate, limits.max_yaw_acceleration)};
 }
 
 StartManeuver StartManeuvers::start_maneuver(std::vector<Phase> phases, const Pose& end,
@@ -39,7 +38,7 @@ StartManeuver StartManeuvers::start_maneuver(std::vector<Phase> phases, const Po
   start_maneuver.phases = std::move(phases);
   for (const Phase& phase : start_maneuver.phases) start_maneuver.duration_s += duration_s(phase);
   start_maneuver.state << end.position, Vector2::Zero(),
-      rest_acceleration_ * Vector2(std::cos(end.yaw_rad), std::sin(end.yaw_rad));
+      rest_acceleration(limits_) * Vector2(std::cos(end.yaw_rad), std::sin(end.yaw_rad));
   start_maneuver.path = path;
   return start_maneuver;
 }
@@ -52,7 +51,7 @@ std::vector<StartManeuver> StartManeuvers::from_rest(const std::vector<Phase>& b
   std::vector<StartManeuver> start_maneuvers;
   if (std::abs(change) <= std::max(smooth_start_rad_, kNoTurn_rad))
     start_maneuvers.push_back(start_maneuver(before, pose, path));
-  if (const auto turning = turn(pose, change)) {
+  if (const auto turning = turn_in_place(pose, path_yaw, limits_)) {
     std::vector<Phase> phases = before;
     phases.emplace_back(*turning);
     start_maneuvers.push_back(start_maneuver(std::move(phases), {pose.position, path_yaw}, path));

@@ -18,11 +18,19 @@ struct StartManeuver {
   std::vector<Vector2> path;  ///< from there to the goal
 };
 
+/// Acceleration [m/s^2] at which drives from rest begin and end, so that their heading there is
+/// well defined.
+double rest_acceleration(const MotionLimits& limits);
+
+/// In place, to a heading; none for changes so small that a drive can take them.
+std::optional<TurnPhase> turn_in_place(const Pose& pose, double yaw_rad,
+                                       const MotionLimits& limits);
+
 /// The start maneuvers of one robot.
 class StartManeuvers {
  public:
-  /// Drives begin and end with `rest_acceleration` [m/s^2] where they begin and end at rest.
-  StartManeuvers(const MotionLimits& limits, double smooth_start_rad, double rest_acceleration);
+  StartManeuvers(const MotionLimits& limits, double smooth_start_rad)
+      : limits_(limits), smooth_start_rad_(smooth_start_rad) {}
 
   /// From rest at `pose`, after `before`: at once where the path lies ahead, or after a turn in
   /// place; what is to be preferred comes first.
@@ -34,16 +42,12 @@ class StartManeuvers {
   std::vector<StartManeuver> rolling(const MotionState& state,
                                      const std::vector<Vector2>& path) const;
 
-  /// In place; none for changes so small that a drive can take them.
-  std::optional<TurnPhase> turn(const Pose& pose, double yaw_change_rad) const;
-
  private:
   StartManeuver start_maneuver(std::vector<Phase> phases, const Pose& end,
                                const std::vector<Vector2>& path) const;
 
   const MotionLimits limits_;
   const double smooth_start_rad_;
-  const double rest_acceleration_;
 };
 
 }  // namespace mocha

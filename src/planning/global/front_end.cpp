@@ -1,8 +1,11 @@
 #include "planning/global/front_end.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
+#include "planning/candidates/path_clearance.h"
 #include "planning/candidates/peer_discs.h"
 #include "trajectory/stopping.h"
 #include "world/margin_budget.h"
@@ -10,8 +13,16 @@
 namespace mocha {
 namespace {
 
-constexpr double kSlack_m = 0.01;  // over the proved margin, for the optimiser to work in
 constexpr double kSameGoal_m = 0.5;
+
+/// The shortest time in which a length can be driven from `speed` to rest, straight.
+double least_duration_s(double length_m, double speed, const MotionLimits& limits) {
+  const double a = limits.max_acceleration;
+  const double v = std::min(limits.max_speed, std::sqrt(a * length_m + 0.5 * speed * speed));
+  if (v <= speed) return length_m / std::max(speed, limits.max_speed);
+  const double ramps_m = (2.0 * v * v - speed * speed) / (2.0 * a);
+  return (2.0 * v - speed) / a + std::max(0.0, length_m - ramps_m) / v;
+}
 
 bool is_under_way(const PlanQuery& query, const Vector2& goal) {
   return !query.driven.empty() && query.driven.end_time() > query.start_time_s &&
@@ -21,19 +32,10 @@ bool is_under_way(const PlanQuery& query, const Vector2& goal) {
 }  // namespace
 
 HomotopyPathOptions homotopy_path_options(const RobotModel& robot, const PlannerOptions& options) {
-  double radius_m = 0.0;
-  for (const auto& disc : robot.footprint.cover()) radius_m = std::max(radius_m, disc.radius_m);
-  HomotopyPathOptions paths;
-  paths.travel.required_clearance_m =
-      radius_m + MarginBudget::of(robot).static_margin_m() + kSlack_m;
-  paths.travel.preferred_clearance_m =
-      paths.travel.required_clearance_m + options.preferred_clearance_m;
-  paths.travel.clearance_weight = options.clearance_weight;
-  paths.roadmap = options.roadmap;
-  paths.classes = options.classes;
-  paths.longest_ratio = options.longest_ratio;
-  paths.prm_samples = options.prm_samples;
-  return paths;
+  const double required_m = path_clearance_m(robot);
+  const TravelOptions travel{required_m, required_m + options.preferred_clearance_m,
+                             options.clearance_weight, kEscapeRadius_m};
+  return {travel, options.roadmap, options.classes, options.longest_ratio, options.prm_samples};
 }
 
 std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_speed) {
@@ -52,11 +54,11 @@ std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_spe
   return points;
 }
 
-FrontEnd::FrontEnd(const RobotModel& robot, const PlannerOptions& options, double rest_acceleration)
+FrontEnd::FrontEnd(const RobotModel& robot, const PlannerOptions& options)
     : robot_(robot),
       options_(homotopy_path_options(robot, options)),
-      start_maneuvers_(robot.limits, options.smooth_start_rad, rest_acceleration),
-      rest_acceleration_(rest_acceleration) {}
+      start_maneuvers_(robot.limits, options.smooth_start_rad),
+      weight_duration_(options.weight_duration) {}
 
 HomotopyPaths FrontEnd::paths(std::vector<Vector2> lead_in, const PlanQuery& query,
                               const PlanningScene& scene, const Vector2& goal) const {
@@ -65,7 +67,7 @@ HomotopyPaths FrontEnd::paths(std::vector<Vector2> lead_in, const PlanQuery& que
   paths.goal = goal;
   for (const auto& peer : scene.peers) {
     if (!stands(*peer, query.start_time_s)) continue;
-    const BlockedDisc disc = peer_keep_out(*peer, query.start_time_s, robot_, kSlack_m);
+    const BlockedDisc disc = peer_keep_out(*peer, query.start_time_s, robot_, kPathSlack_m);
     // A team-mate on the goal will hardly stay.
     if ((disc.centre - goal).norm() > disc.radius_m) paths.blocked.push_back(disc);
   }
@@ -77,40 +79,55 @@ HomotopyPaths FrontEnd::paths(std::vector<Vector2> lead_in, const PlanQuery& que
   return find_homotopy_paths(*scene.static_map, paths, options_);
 }
 
-CandidateSeeds FrontEnd::seeds(const PlanQuery& query, const PlanningScene& scene,
-                               const Vector2& goal) const {
+Seed FrontEnd::seed_of(const HomotopyPath& path, std::vector<StartManeuver> start_maneuvers,
+                       const std::optional<Signature>& driven) const {
+  double least_s = std::numeric_limits<double>::infinity();
+  for (const StartManeuver& start : start_maneuvers) {
+    const double speed = start.state.col(1).norm();
+    least_s = std::min(
+        least_s, start.duration_s + least_duration_s(path.least_length_m, speed, robot_.limits));
+  }
+  return {std::move(start_maneuvers),
+          {},
+          path.signature,
+          weight_duration_ * least_s,
+          path.signature == driven};
+}
+
+GlobalSeeds FrontEnd::seeds(const PlanQuery& query, const PlanningScene& scene,
+                            const Vector2& goal) const {
   const MotionState start = query.committed.at(query.start_time_s);
   HomotopyPaths found = paths({start.pose.position}, query, scene, goal);
-  CandidateSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
+  GlobalSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
   for (const HomotopyPath& path : found.paths) {
     std::vector<StartManeuver> start_maneuvers =
         start.at_rest ? start_maneuvers_.from_rest({}, start.pose, path.points)
                       : start_maneuvers_.rolling(start, path.points);
     if (start_maneuvers.empty()) continue;
-    result.list.push_back({std::move(start_maneuvers), path.least_length_m, path.signature});
+    result.list.push_back(seed_of(path, std::move(start_maneuvers), result.driven));
   }
   if (result.list.size() == found.paths.size()) return result;
-  for (CandidateSeed& seed : after_braking(query, scene, goal).list) {
-    const bool known =
-        std::any_of(result.list.begin(), result.list.end(),
-                    [&](const CandidateSeed& other) { return other.signature == seed.signature; });
+  for (Seed& seed : after_braking(query, scene, goal).list) {
+    const bool known = std::any_of(result.list.begin(), result.list.end(), [&](const Seed& other) {
+      return other.signature == seed.signature;
+    });
     if (!known) result.list.push_back(std::move(seed));
   }
   return result;
 }
 
-CandidateSeeds FrontEnd::after_braking(const PlanQuery& query, const PlanningScene& scene,
-                                       const Vector2& goal) const {
+GlobalSeeds FrontEnd::after_braking(const PlanQuery& query, const PlanningScene& scene,
+                                    const Vector2& goal) const {
   if (query.committed.at(query.start_time_s).at_rest) return {};
   const std::vector<Phase> brake =
-      brake_along(query.committed, query.start_time_s, rest_acceleration_);
+      brake_along(query.committed, query.start_time_s, rest_acceleration(robot_.limits));
   const Motion stop(query.start_time_s, brake);
   HomotopyPaths found =
       paths(path_of(stop, query.start_time_s, robot_.limits.max_speed), query, scene, goal);
-  CandidateSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
+  GlobalSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
   for (const HomotopyPath& path : found.paths) {
-    result.list.push_back({start_maneuvers_.from_rest(brake, stop.end_pose(), path.points),
-                           path.least_length_m, path.signature});
+    result.list.push_back(seed_of(
+        path, start_maneuvers_.from_rest(brake, stop.end_pose(), path.points), result.driven));
   }
   return result;
 }
@@ -118,7 +135,7 @@ CandidateSeeds FrontEnd::after_braking(const PlanQuery& query, const PlanningSce
 bool FrontEnd::reaches(const Vector2& start, const Vector2& goal,
                        const StaticMap& static_map) const {
   const TravelCost cost(static_map, start, {}, options_.travel);
-  return find_grid_path(static_map, start, goal, cost, options_.lattice_step_m).outcome ==
+  return find_grid_path(static_map, start, goal, cost, kLatticeStep_m).outcome ==
          GridPath::Outcome::kFound;
 }
 

@@ -3,24 +3,16 @@
 #include <optional>
 #include <vector>
 
+#include "planning/candidates/pipeline.h"
 #include "planning/candidates/planning_scene.h"
-#include "planning/candidates/start_maneuver.h"
 #include "planning/global/planner_options.h"
 #include "topology/paths/homotopy_paths.h"
 #include "world/robot_model.h"
 
 namespace mocha {
 
-/// One class of paths to the goal and how to begin on it.
-struct CandidateSeed {
-  std::vector<StartManeuver>
-      start_maneuvers;    ///< at least one; what is to be preferred comes first
-  double least_length_m;  ///< of every drive of this class, proved
-  Signature signature;
-};
-
-struct CandidateSeeds {
-  std::vector<CandidateSeed> list;  ///< cheapest first
+struct GlobalSeeds {
+  std::vector<Seed> list;           ///< cheapest first
   Cuts<2> cuts{{}};                 ///< that tell their classes apart
   std::optional<Signature> driven;  ///< class of the plan that is being driven to the same goal
 };
@@ -34,16 +26,15 @@ std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_spe
 /// Finds the paths to the goal, cheapest first (paper IV-E).
 class FrontEnd {
  public:
-  FrontEnd(const RobotModel& robot, const PlannerOptions& options, double rest_acceleration);
+  FrontEnd(const RobotModel& robot, const PlannerOptions& options);
 
   /// Those that the robot can begin as it moves; where it has to brake first, those from where it
   /// then stands, of the classes that remain.
-  CandidateSeeds seeds(const PlanQuery& query, const PlanningScene& scene,
-                       const Vector2& goal) const;
+  GlobalSeeds seeds(const PlanQuery& query, const PlanningScene& scene, const Vector2& goal) const;
 
   /// Those after braking only, for a robot that moves; else none.
-  CandidateSeeds after_braking(const PlanQuery& query, const PlanningScene& scene,
-                               const Vector2& goal) const;
+  GlobalSeeds after_braking(const PlanQuery& query, const PlanningScene& scene,
+                            const Vector2& goal) const;
 
   /// Whether there is any path, team-mates aside.
   bool reaches(const Vector2& start, const Vector2& goal, const StaticMap& static_map) const;
@@ -51,16 +42,18 @@ class FrontEnd {
   /// Distance of the robot's centre from obstacles on a path [m].
   double required_clearance_m() const { return options_.travel.required_clearance_m; }
 
-  const StartManeuvers& start_maneuvers() const { return start_maneuvers_; }
-
  private:
   HomotopyPaths paths(std::vector<Vector2> lead_in, const PlanQuery& query,
                       const PlanningScene& scene, const Vector2& goal) const;
+  /// What the path costs is at least the time that its least length takes at the robot's limits of
+  /// speed and acceleration.
+  Seed seed_of(const HomotopyPath& path, std::vector<StartManeuver> start_maneuvers,
+               const std::optional<Signature>& driven) const;
 
   const RobotModel robot_;
-  HomotopyPathOptions options_;
+  const HomotopyPathOptions options_;
   const StartManeuvers start_maneuvers_;
-  const double rest_acceleration_;
+  const double weight_duration_;
 };
 
 }  // namespace mocha

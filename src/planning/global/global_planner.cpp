@@ -5,8 +5,9 @@
 #include <sstream>
 #include <utility>
 
-#include "planning/candidates/winner.h"
+#include "planning/global/global_rules.h"
 #include "planning/maneuvers/back_out.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {
@@ -29,13 +30,6 @@ std::string place(const Vector2& p) {
   return text.str();
 }
 
-std::string why_not(const PlanCandidate& candidate) {
-  if (candidate.violation) return describe(candidate.violation);
-  return candidate.reason == PlanReason::kBudgetExhausted
-             ? "planning was stopped before a motion was found"
-             : "the optimisation found nothing finite";
-}
-
 /// Only the heading is left.
 bool is_at_goal(const MotionState& start, const PlanQuery& query) {
   return start.at_rest && (start.pose.position - query.goal).norm() < kAtGoal_m;
@@ -44,12 +38,20 @@ bool is_at_goal(const MotionState& start, const PlanQuery& query) {
 }  // namespace
 
 GlobalPlanner::GlobalPlanner(RobotModel robot, const PlannerOptions& options)
-    : robot_(std::move(robot)), options_(options), planner_(robot_, options_) {}
+    : robot_(std::move(robot)),
+      options_(options),
+      optimizer_(robot_, options_, MarginBudget::of(robot_).static_margin_m()),
+      front_end_(robot_, options_) {}
+
+Violation GlobalPlanner::certify(const Motion& motion, const ObstacleField<2>& obstacles,
+                                 double from_s) const {
+  return certify_plan(motion, robot_, obstacles, from_s);
+}
 
 std::optional<Vector2> GlobalPlanner::free_goal(const Vector2& goal,
                                                 const ObstacleField<2>& obstacles) const {
   constexpr double kStep_m = 0.05;
-  const double needed = planner_.front_end().required_clearance_m();
+  const double needed = front_end_.required_clearance_m();
   for (double radius = 0.0; radius <= options_.goal_search_radius_m; radius += kStep_m) {
     const int directions =
         radius == 0.0 ? 1 : std::max(8, static_cast<int>(2 * M_PI * radius / kStep_m));
@@ -64,9 +66,9 @@ std::optional<Vector2> GlobalPlanner::free_goal(const Vector2& goal,
 
 PlanResult GlobalPlanner::turn_only(const PlanQuery& query, const PlanningScene& scene) const {
   const Pose pose = query.committed.at(query.start_time_s).pose;
-  const double change = query.goal_yaw_rad ? wrap_angle(*query.goal_yaw_rad - pose.yaw_rad) : 0.0;
   std::vector<Phase> phases;
-  if (const auto turn = planner_.front_end().start_maneuvers().turn(pose, change)) {
+  const double yaw_rad = query.goal_yaw_rad.value_or(pose.yaw_rad);
+  if (const auto turn = turn_in_place(pose, yaw_rad, robot_.limits)) {
     phases.emplace_back(*turn);
   } else {
     phases.emplace_back(StandPhase{pose, kStand_s});
@@ -99,8 +101,7 @@ std::optional<Motion> GlobalPlanner::back_out(const PlanQuery& query,
   if (!motion || certify(*motion, obstacles, query.start_time_s)) return std::nullopt;
   // Worth while only if the goal can be reached from there, as far as the map says. Team-mates do
   // not count: they may go away.
-  const bool onward =
-      planner_.front_end().reaches(motion->end_pose().position, *goal, *scene.static_map);
+  const bool onward = front_end_.reaches(motion->end_pose().position, *goal, *scene.static_map);
   return onward ? motion : std::nullopt;
 }
 
@@ -119,26 +120,21 @@ std::optional<PlanResult> GlobalPlanner::refusal(const PlanQuery& query,
   return std::nullopt;
 }
 
-void GlobalPlanner::run(const PlanQuery& query, const CandidateSeeds& seeds,
+void GlobalPlanner::run(const PlanQuery& query, const GlobalSeeds& seeds,
                         const PlanningScene& scene, const std::function<bool()>& should_stop,
                         PlanResult& result) const {
-  result.candidates = race(planner_, query, seeds, scene, options_, should_stop);
-  if (result.candidates.empty()) return;
-  const int best = winner(result.candidates, options_.switch_margin);
-  if (best < 0) {
-    const PlanCandidate& first = result.candidates.front();
-    result.reason = first.reason;
-    result.violation = first.violation;
-    result.message = why_not(first);
-    return;
+  const GlobalRules rules(robot_, options_, query, scene);
+  const SwitchRule rule{options_.switch_margin, 0.0};
+  const CandidatePipeline pipeline(optimizer_, scene.static_map->field(), rules);
+  result.candidates = pipeline.race(seeds.list, rule, options_.threads, should_stop);
+  for (PlanCandidate& candidate : result.candidates) {
+    if (candidate.motion.empty()) continue;
+    // An optimiser may leave its class.
+    candidate.signature = signature_of<2>(
+        seeds.cuts, path_of(candidate.motion, query.start_time_s, robot_.limits.max_speed));
   }
-  PlanCandidate& chosen = result.candidates[best];
-  chosen.selected = true;
-  result.reason = PlanReason::kSolved;
-  result.message = "solved";
-  result.violation = {};
-  result.motion = chosen.motion;
-  result.switches_class = seeds.driven && chosen.signature != *seeds.driven;
+  const PlanCandidate* chosen = select(rule, result);
+  result.switches_class = chosen && seeds.driven && chosen->signature != *seeds.driven;
 }
 
 PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scene,
@@ -159,15 +155,14 @@ PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scen
   PlanResult result = failure(PlanReason::kNoPath, "no path from " + place(start.pose.position) +
                                                        " to " + place(*goal) + " on the map");
   result.goal = *goal;
-  const FrontEnd& front_end = planner_.front_end();
-  run(query, front_end.seeds(query, scene, *goal), scene, should_stop, result);
+  run(query, front_end_.seeds(query, scene, *goal), scene, should_stop, result);
   if (result.reason == PlanReason::kSolved) return result;
   if (!start.at_rest) {
-    run(query, front_end.after_braking(query, scene, *goal), scene, should_stop, result);
+    run(query, front_end_.after_braking(query, scene, *goal), scene, should_stop, result);
     if (result.reason == PlanReason::kSolved) return result;
   }
   const bool peers_block = result.candidates.empty() && !scene.peers.empty() &&
-                           front_end.reaches(start.pose.position, *goal, *scene.static_map);
+                           front_end_.reaches(start.pose.position, *goal, *scene.static_map);
   if (peers_block) {
     result.reason = PlanReason::kPeerConflict;
     result.message = "team-mates stand on every path to " + place(*goal);

@@ -4,7 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "planning/global/candidate_race.h"
+#include "planning/candidates/plan_result.h"
+#include "planning/global/front_end.h"
 
 namespace mocha {
 
@@ -27,22 +28,21 @@ class GlobalPlanner {
   std::optional<Motion> back_out(const PlanQuery& query, const PlanningScene& scene) const;
 
   /// The first violation of a motion on the map from a time on; no violation if it may be driven.
-  Violation certify(const Motion& motion, const ObstacleField<2>& obstacles, double from_s) const {
-    return planner_.certify(motion, obstacles, from_s);
-  }
+  Violation certify(const Motion& motion, const ObstacleField<2>& obstacles, double from_s) const;
 
  private:
   /// Why there is nothing to plan, if so.
   std::optional<PlanResult> refusal(const PlanQuery& query, const PlanningScene& scene) const;
   std::optional<Vector2> free_goal(const Vector2& goal, const ObstacleField<2>& obstacles) const;
   PlanResult turn_only(const PlanQuery& query, const PlanningScene& scene) const;
-  /// Sets the candidates, and takes their winner, if there is one.
-  void run(const PlanQuery& query, const CandidateSeeds& seeds, const PlanningScene& scene,
+  /// Sets the candidates, and selects one, if there is one to be driven.
+  void run(const PlanQuery& query, const GlobalSeeds& seeds, const PlanningScene& scene,
            const std::function<bool()>& should_stop, PlanResult& result) const;
 
   const RobotModel robot_;
   const PlannerOptions options_;
-  const CandidatePlanner planner_;
+  const DriveOptimizer optimizer_;
+  const FrontEnd front_end_;
 };
 
 }  // namespace mocha

@@ -5,6 +5,7 @@ namespace mocha {
 PlannerOptions PlannerOptions::from(const ParameterTable& values) {
   PlannerOptions options;
   static_cast<DriveOptions&>(options) = DriveOptions::from(values);
+  options.weight_duration = values.number("weight_duration");
   options.open_knot_spacing_m = values.number("open_knot_spacing");
   options.preferred_clearance_m = values.number("preferred_clearance");
   options.clearance_weight = values.number("clearance_weight");

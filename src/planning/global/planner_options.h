@@ -8,6 +8,7 @@ namespace mocha {
 /// Weights and sizes of global planning; each stands with unit, range and default in
 /// config/global_planner.yaml.
 struct PlannerOptions : DriveOptions {
+  double weight_duration;
   double preferred_clearance_m;
   double clearance_weight;
   double smooth_start_rad;

@@ -7,8 +7,7 @@ constexpr double kOffPlan_m = 1.5;        // farther from the plan, it is not co
 constexpr double kAgain_s = 0.19;         // between two detours
 constexpr double kAfterFailure_s = 0.39;  // where there was no path just now
 constexpr double kSoonerEvery_s = 0.5;    // people move on
-constexpr double kSooner_s = 0.2;         // to arrive by less is not worth a change
-constexpr double kMuchSooner_s = 1.0;     // the same for a change of class
+constexpr double kMuchSooner_s = 1.0;     // kSoonerArrival_s for a change of class
 
 bool is_on(const Motion& plan, const RejoinPoint& rejoin_point) {
   constexpr double kSamePlace_m = 1e-3;
@@ -76,9 +75,9 @@ std::optional<LocalPlan> Detour::sooner(const Start& at, const LocalScene& scene
     return local.met == query->wanted && local.motion.end_time() < at.plan.end_time() - by_s;
   };
   LocalPlan kept = planner_.keep_on(*query, scene);
-  if (gains(kept, kSooner_s)) return kept;
+  if (gains(kept, kSoonerArrival_s)) return kept;
   LocalPlan other = planner_.anew(*query, scene);
-  if (gains(other, other.switches_class ? kMuchSooner_s : kSooner_s)) return other;
+  if (gains(other, other.switches_class ? kMuchSooner_s : kSoonerArrival_s)) return other;
   return std::nullopt;
 }
 

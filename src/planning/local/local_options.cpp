@@ -5,6 +5,8 @@ namespace mocha {
 LocalOptions LocalOptions::from(const ParameterTable& values) {
   LocalOptions options;
   static_cast<DriveOptions&>(options) = DriveOptions::from(values);
+  options.open_knot_spacing_m = options.knot_spacing_m;  // the paths have times
+  options.weight_delay = values.number("weight_delay");
   options.mu_s = values.number("rejoin_horizon");
   options.t_epsilon_s = values.number("longest_local_drive");
   options.samples = values.integer("samples");

@@ -6,15 +6,15 @@
 
 #include "planning/candidates/exposure.h"
 #include "planning/candidates/parallel.h"
-#include "planning/candidates/winner.h"
+#include "planning/candidates/path_clearance.h"
+#include "planning/candidates/pipeline.h"
+#include "safety/certifier.h"
 #include "world/margin_budget.h"
 
 namespace mocha {
 namespace {
 
-constexpr double kSooner_s = 0.2;  // by less, a farther or later arrival is not better
 constexpr double kLittle_s = 0.5;  // a detour that loses no more is good enough
-constexpr double kSlack_m = 0.01;  // over what is proved, for the optimiser to work in
 
 /// Arrivals later than the plan's, and rejoin points farther along it, in shares of mu. A detour
 /// takes a little longer than the straight line; a robot that waits comes much later; and what
@@ -25,21 +25,10 @@ struct Attempt {
 };
 constexpr Attempt kAttempts[] = {{0.2, 0.0}, {0.6, 0.0}, {0.3, 0.6}, {1.2, 0.0}};
 
-double clearance_radius_m(const RobotModel& robot) {
-  double radius_m = 0.0;
-  for (const auto& disc : robot.footprint.cover()) radius_m = std::max(radius_m, disc.radius_m);
-  return radius_m;
-}
-
 SpaceTimeOptions space_time_options(const RobotModel& robot, const LocalOptions& options) {
-  SpaceTimeOptions space_time;
-  space_time.max_speed = robot.limits.max_speed;
-  space_time.required_clearance_m =
-      clearance_radius_m(robot) + MarginBudget::of(robot).static_margin_m() + kSlack_m;
-  space_time.samples = options.samples;
-  space_time.classes = options.classes;
-  space_time.longest_ratio = options.longest_ratio;
-  return space_time;
+  constexpr std::uint64_t kSeed = 1;
+  return {robot.limits.max_speed, path_clearance_m(robot), kEscapeRadius_m, options.samples, kSeed,
+          options.classes,        options.longest_ratio};
 }
 
 /// What is driven, up to where it is nearest to the rejoin point; empty where that is not near.
@@ -60,7 +49,7 @@ TimedPath driven_to(const RejoinPoint& rejoin_point, const LocalQuery& query) {
 /// so their costs may not be compared, but the time that they lose.
 bool is_worth_a_switch(const LocalPlan& other, const LocalPlan& kept, const LocalOptions& options) {
   const auto loss = [&options](const LocalPlan& plan) {
-    return options.weight_duration * std::pow(std::max(0.0, plan.delay_s), 3);
+    return options.weight_delay * std::pow(std::max(0.0, plan.delay_s), 3);
   };
   const double kept_loss = loss(kept);
   return loss(other) <
@@ -78,7 +67,7 @@ bool is_better(const LocalPlan& later, const LocalPlan& earlier, const LocalOpti
   if (later.met != earlier.met) return later.met < earlier.met;
   if (later.met == RequirementName::kNone)
     return earlier.candidates.empty() && !later.candidates.empty();
-  return later.delay_s < earlier.delay_s - kSooner_s;
+  return later.delay_s < earlier.delay_s - kSoonerArrival_s;
 }
 
 /// Of what begins at that place and time.
@@ -94,10 +83,11 @@ bool begins_inside(const std::vector<MovingThing>& things, const TimedPoint& sta
 
 LocalPlanner::LocalPlanner(const RobotModel& robot, const LocalOptions& options, Watch watch)
     : watch_(std::move(watch)),
-      max_speed_(robot.limits.max_speed),
+      requirements_(robot),
+      footprint_(robot.footprint),
       options_(options),
       space_time_options_(space_time_options(robot, options)),
-      optimizer_(robot, options) {}
+      optimizer_(robot, options, MarginBudget::of(robot).static_margin_m()) {}
 
 double LocalPlanner::rejoin_ahead_s(const LocalQuery& query) const {
   return std::max(options_.mu_s, query.rejoin_point_s - query.progress_s);
@@ -112,13 +102,13 @@ std::vector<LocalPlanner::Task> LocalPlanner::tasks(const LocalQuery& query,
         query.plan, query.progress_s, rejoin_ahead_s(query) + tried.farther * options_.mu_s);
     if (!rejoin_point) break;
     if (tried.farther > 0.0 && rejoin_point->plan_time_s >= query.plan.end_time()) continue;
-    Return back = optimizer_.return_to(*rejoin_point, query);
+    Return back = return_to(*rejoin_point, query, limits_of(query));
     SpaceTimeQuery paths;
     paths.start = {start.pose.position, query.start_time_s};
     paths.goal = {rejoin_point->place(),
                   query.start_time_s + back.earliest_s + tried.later * options_.mu_s};
     paths.moving = foreseen(moving(query, scene));
-    for (MovingThing& thing : paths.moving) thing.keep_m += kSlack_m;
+    for (MovingThing& thing : paths.moving) thing.keep_m += kPathSlack_m;
     paths.driven = driven_to(*rejoin_point, query);
     tasks.push_back({std::move(back), std::move(paths)});
   }
@@ -127,59 +117,46 @@ std::vector<LocalPlanner::Task> LocalPlanner::tasks(const LocalQuery& query,
 
 std::vector<MovingThing> LocalPlanner::moving(const LocalQuery& query,
                                               const LocalScene& scene) const {
-  return kept_apart(scene, optimizer_.requirements()[query.wanted].from(query.start_time_s));
+  return kept_apart(scene, requirements_[query.wanted].from(query.start_time_s));
 }
 
 Cuts<2> LocalPlanner::cuts_for(const std::vector<Task>& tasks, const LocalScene& scene) const {
   Eigen::AlignedBox2d reach;
-  for (const Task& task : tasks) reach.extend(reach_of(task.paths, max_speed_));
+  for (const Task& task : tasks) reach.extend(reach_of(task.paths, space_time_options_.max_speed));
   return cuts_within(*scene.static_map, reach, tasks.front().paths.start.position,
                      space_time_options_);
 }
 
-void LocalPlanner::select(const LocalQuery& query, const LocalScene& scene, const Return& back,
+void LocalPlanner::finish(const LocalQuery& query, const LocalScene& scene, const Return& back,
                           LocalPlan& plan) const {
-  for (const LocalCandidate& each : plan.candidates) plan.met = std::min(plan.met, each.met);
-  for (LocalCandidate& each : plan.candidates) {
-    const bool good = each.met == plan.met && plan.met != RequirementName::kNone;
-    each.reason = good ? PlanReason::kSolved : PlanReason::kNotCertified;
-  }
-  const int best = winner(plan.candidates, options_.switch_margin, options_.switch_gain);
-  if (best < 0) {
-    const LocalCandidate& first = plan.candidates.front();
-    plan.reason = first.reason;
-    plan.violation = first.violation;
-    plan.message =
-        first.motion.empty() ? "the optimisation found no motion" : describe(first.violation);
-    return;
-  }
-  LocalCandidate& chosen = plan.candidates[best];
-  chosen.selected = true;
-  plan.reason = PlanReason::kSolved;
-  plan.message = "solved";
-  plan.violation = {};
-  plan.motion = chosen.motion;
-  plan.rejoins_s = chosen.rejoins_s;
-  const double drive_s = chosen.rejoins_s - query.start_time_s;
-  plan.delay_s = drive_s - back.rejoin_point.drive_s;
+  const PlanCandidate* chosen = select({options_.switch_margin, options_.switch_gain}, plan);
+  if (!chosen) return;
+  plan.met = chosen->met;
+  plan.rejoins_s = chosen->drive_ends_s;
+  plan.delay_s = plan.rejoins_s - query.start_time_s - back.rejoin_point.drive_s;
   // Against a rejoin point that is farther, it takes longer in any case.
-  plan.late = drive_s - back.rejoin_point.drive_s > options_.t_epsilon_s - options_.mu_s;
-  plan.beyond = optimizer_.violation_of(plan.motion, scene, query.wanted, chosen.rejoins_s);
-  plan.switches_class = !chosen.driven;
+  plan.late = plan.delay_s > options_.t_epsilon_s - options_.mu_s;
+  plan.beyond =
+      certify(plan.motion, footprint_, scene, requirements_[query.wanted].from(plan.rejoins_s));
+  plan.switches_class = !chosen->driven;
 }
 
-LocalPlan LocalPlanner::along(const std::vector<SpaceTimePath>& paths, const LocalQuery& query,
+LocalPlan LocalPlanner::along(std::vector<SpaceTimePath> paths, const LocalQuery& query,
                               const LocalScene& scene, const Return& back) const {
   LocalPlan plan;
   plan.message = "no path through space-time back to the plan";
   plan.rejoin_point = back.rejoin_point;
-  if (paths.empty()) return plan;
+  plan.paths = std::move(paths);
+  if (plan.paths.empty()) return plan;
   watch_(LocalStage::kOptimisation);
-  plan.candidates.resize(paths.size());
-  in_parallel(paths.size(), options_.threads, [&](std::size_t i) {
-    plan.candidates[i] = optimizer_.optimize(query, scene, back, paths[i]);
-  });
-  select(query, scene, back, plan);
+  std::vector<Seed> seeds;
+  for (const SpaceTimePath& path : plan.paths)
+    seeds.push_back(seed_of(path, query, limits_of(query), options_.smooth_start_rad));
+  const LocalRules rules(requirements_, footprint_, options_, query, scene, back);
+  const CandidatePipeline pipeline(optimizer_, scene.static_map->field(), rules);
+  plan.candidates = pipeline.race(seeds, {options_.switch_margin, options_.switch_gain},
+                                  options_.threads, [] { return false; });
+  finish(query, scene, back, plan);
   watch_(LocalStage::kDone);
   return plan;
 }
@@ -187,10 +164,9 @@ LocalPlan LocalPlanner::along(const std::vector<SpaceTimePath>& paths, const Loc
 LocalPlan LocalPlanner::attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,
                                 const Cuts<2>& cuts) const {
   watch_(LocalStage::kFrontEnd);
-  const auto found =
-      find_space_time_paths(*scene.static_map, cuts, task.paths, space_time_options_);
+  auto found = find_space_time_paths(*scene.static_map, cuts, task.paths, space_time_options_);
   watch_(LocalStage::kDone);
-  return along(found.paths, query, scene, task.back);
+  return along(std::move(found.paths), query, scene, task.back);
 }
 
 LocalPlan LocalPlanner::keep_on(const LocalQuery& query, const LocalScene& scene) const {
@@ -200,15 +176,12 @@ LocalPlan LocalPlanner::keep_on(const LocalQuery& query, const LocalScene& scene
   path.points = driven_to(*rejoin_point, query);
   path.driven = true;
   if (path.points.empty()) return {};
-  return along({path}, query, scene, optimizer_.return_to(*rejoin_point, query));
+  return along({path}, query, scene, return_to(*rejoin_point, query, limits_of(query)));
 }
 
 LocalPlan LocalPlanner::again(const LocalQuery& query, const LocalScene& scene,
                               const LocalPlan& failed) const {
-  std::vector<SpaceTimePath> paths;
-  for (const LocalCandidate& each : failed.candidates)
-    paths.push_back({each.path, 0.0, each.signature, each.driven});
-  return along(paths, query, scene, optimizer_.return_to(failed.rejoin_point, query));
+  return along(failed.paths, query, scene, return_to(failed.rejoin_point, query, limits_of(query)));
 }
 
 LocalPlan LocalPlanner::search(const LocalQuery& query, const LocalScene& scene) const {

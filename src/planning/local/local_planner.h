@@ -3,9 +3,9 @@
 #include <functional>
 #include <vector>
 
-#include "planning/local/local_optimizer.h"
+#include "planning/candidates/drive_optimizer.h"
 #include "planning/local/local_options.h"
-#include "planning/local/local_plan.h"
+#include "planning/local/local_rules.h"
 #include "topology/space_time/space_time_paths.h"
 
 namespace mocha {
@@ -41,6 +41,9 @@ class LocalPlanner {
     SpaceTimeQuery paths;
   };
 
+  const MotionLimits& limits_of(const LocalQuery& query) const {
+    return *requirements_[query.wanted].limits;
+  }
   /// mu, but no less than to the rejoin point that is driven to: what is driven could not be told
   /// from other paths to a nearer one.
   double rejoin_ahead_s(const LocalQuery& query) const;
@@ -49,18 +52,20 @@ class LocalPlanner {
   Cuts<2> cuts_for(const std::vector<Task>& tasks, const LocalScene& scene) const;
   std::vector<MovingThing> moving(const LocalQuery& query, const LocalScene& scene) const;
   LocalPlan search(const LocalQuery& query, const LocalScene& scene) const;
-  LocalPlan along(const std::vector<SpaceTimePath>& paths, const LocalQuery& query,
+  LocalPlan along(std::vector<SpaceTimePath> paths, const LocalQuery& query,
                   const LocalScene& scene, const Return& back) const;
   LocalPlan attempt(const LocalQuery& query, const LocalScene& scene, const Task& task,
                     const Cuts<2>& cuts) const;
-  void select(const LocalQuery& query, const LocalScene& scene, const Return& back,
+  /// The winner of the candidates, as a plan.
+  void finish(const LocalQuery& query, const LocalScene& scene, const Return& back,
               LocalPlan& plan) const;
 
   const Watch watch_;
-  const double max_speed_;
+  const Requirements requirements_;
+  const Footprint footprint_;
   const LocalOptions options_;
   const SpaceTimeOptions space_time_options_;
-  const LocalOptimizer optimizer_;
+  const DriveOptimizer optimizer_;
 };
 
 }  // namespace mocha

@@ -9,8 +9,8 @@
 namespace mocha {
 
 struct ClassSearchOptions {
-  int classes = 6;             ///< at most this many, at least 1
-  double longest_ratio = 2.0;  ///< longer than the shortest by more than this is not a path; >= 1
+  int classes;           ///< at most this many, at least 1
+  double longest_ratio;  ///< longer than the shortest by more than this is not a path; >= 1
 };
 
 /// A path through a roadmap from start to goal.

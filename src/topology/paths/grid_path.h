@@ -7,6 +7,9 @@
 
 namespace mocha {
 
+/// Apart are the places of the lattice on which robots look for paths [m].
+inline constexpr double kLatticeStep_m = 0.05;
+
 struct GridPath {
   enum class Outcome { kFound, kStartBlocked, kGoalBlocked, kNoPath };
   Outcome outcome = Outcome::kNoPath;

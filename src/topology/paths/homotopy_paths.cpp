@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <stdexcept>
 #include <utility>
@@ -24,6 +25,8 @@ namespace {
 constexpr int kSpare = 2;                // paths that are shortened, for each one that is kept
 constexpr double kCircleError_m = 0.12;  // of the circles that stand for solid matter, at most
 constexpr double kNarrowest = 0.5;  // passage that obstacles are told apart by, of the required
+constexpr std::uint64_t kSeed = 1;  // of the sampled roadmap
+constexpr double kReach_m = 20.0;   // its edges are no longer
 
 /// Obstacles and their cuts as seen by one robot.
 struct Scenery {
@@ -82,9 +85,8 @@ Roadmap<2> roadmap_of(const TravelCost& cost, const Scenery& scenery, const Vect
                               {relaxed_m, options.travel.escape_radius_m});
   }
 #endif
-  VisibilityPrmOptions prm;
-  prm.samples = options.prm_samples;
-  return visibility_prm<2>(TravelSpace(cost, scenery.cuts), cost.start(), goal, prm);
+  return visibility_prm<2>(TravelSpace(cost, scenery.cuts), cost.start(), goal,
+                           {options.prm_samples, kSeed, kReach_m});
 }
 
 /// From the start that `cost` knows.
@@ -101,8 +103,7 @@ std::vector<std::vector<Vector2>> paths_of_classes(const TravelCost& cost, const
     paths.push_back(std::move(path.points));
   if (!paths.empty()) return paths;
   // Too narrow for the roadmap's circles, perhaps; the lattice is slower, but misses nothing.
-  GridPath path =
-      find_grid_path(cost.static_map(), cost.start(), goal, cost, options.lattice_step_m);
+  GridPath path = find_grid_path(cost.static_map(), cost.start(), goal, cost, kLatticeStep_m);
   if (path.outcome == GridPath::Outcome::kFound) paths.push_back(std::move(path.points));
   return paths;
 }

@@ -18,11 +18,10 @@ RoadmapKind roadmap_kind(const std::string& name);
 
 struct HomotopyPathOptions {
   TravelOptions travel;
-  RoadmapKind roadmap = RoadmapKind::kApollonius;
-  int classes = 6;             ///< at most this many paths
-  double longest_ratio = 2.0;  ///< a path that costs more than the cheapest by this is none
-  int prm_samples = 1000;      ///< of the visibility roadmap
-  double lattice_step_m = 0.05;
+  RoadmapKind roadmap;
+  int classes;           ///< at most this many paths
+  double longest_ratio;  ///< a path that costs more than the cheapest by this is none
+  int prm_samples;       ///< of the visibility roadmap
 };
 
 /// A path from start to goal of one class.

@@ -32,9 +32,9 @@ struct Skeleton {
 };
 
 struct SkeletonOptions {
-  double required_clearance_m = 0.3;  ///< of the robot's centre, above 0; closer is forbidden
+  double required_clearance_m;  ///< of the robot's centre, above 0; closer is forbidden
   /// Around a start that stands closer than required, places no closer than the start are allowed.
-  double escape_radius_m = 0.6;
+  double escape_radius_m;
 };
 
 /// The roadmap of all of the skeleton that is wide enough, with start and goal.

@@ -9,10 +9,10 @@ namespace mocha {
 
 /// How close to obstacles paths may come [m].
 struct ClearanceOptions {
-  double required_m = 0.3;  ///< at least 0; less is forbidden
+  double required_m;  ///< at least 0; less is forbidden
   /// Around the start, places that are no closer to obstacles than the start itself are allowed. At
   /// least 0.
-  double escape_radius_m = 0.6;
+  double escape_radius_m;
 };
 
 /// A box with obstacles that stand still. Touching obstacles is forbidden whatever the options say.

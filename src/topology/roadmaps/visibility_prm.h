@@ -10,9 +10,9 @@
 namespace mocha {
 
 struct VisibilityPrmOptions {
-  int samples = 3000;      ///< points that are tried, at least 0
-  std::uint64_t seed = 1;  ///< the same one gives the same roadmap, on every machine
-  double reach_m = 20.0;   ///< farther points do not see each other, above 0
+  int samples;         ///< points that are tried, at least 0
+  std::uint64_t seed;  ///< the same one gives the same roadmap, on every machine
+  double reach_m;      ///< farther points do not see each other, above 0
 };
 
 /// A sampled roadmap that stays small however many samples are drawn, yet keeps a path of every

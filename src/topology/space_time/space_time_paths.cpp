@@ -96,11 +96,9 @@ void keep_best(std::vector<SpaceTimePath>& found, const SpaceTimeOptions& option
 
 std::vector<SpaceTimePath> paths_through(const SpaceTime<2>& space, const SpaceTimeQuery& query,
                                          const SpaceTimeOptions& options) {
-  VisibilityPrmOptions prm;
-  prm.samples = options.samples;
-  prm.seed = options.seed;
-  prm.reach_m = M_SQRT2 * space.goal().z();
-  const Roadmap<3> roadmap = visibility_prm<3>(space, space.start(), space.goal(), prm);
+  const Roadmap<3> roadmap =
+      visibility_prm<3>(space, space.start(), space.goal(),
+                        {options.samples, options.seed, M_SQRT2 * space.goal().z()});
   std::vector<std::vector<Point>> paths;
   for (auto& path : shortest_classes<3>(roadmap, space, {kSpare * options.classes, M_SQRT2}))
     paths.push_back(std::move(path.points));

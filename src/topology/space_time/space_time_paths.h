@@ -26,11 +26,11 @@ struct SpaceTimeOptions {
   double required_clearance_m;  ///< to static obstacles, at least 0
   /// Around the start, places that are no closer to static obstacles than the start itself are
   /// allowed.
-  double escape_radius_m = 0.6;
-  int samples = 400;
-  std::uint64_t seed = 1;
-  int classes = 4;             ///< at most this many paths, at least 1
-  double longest_ratio = 2.0;  ///< a path longer than the shortest by this is none, at least 1
+  double escape_radius_m;
+  int samples;           ///< of the roadmap
+  std::uint64_t seed;    ///< of the samples
+  int classes;           ///< at most this many paths, at least 1
+  double longest_ratio;  ///< a path longer than the shortest by this is none, at least 1
 };
 
 /// A path of one class, as short as that class allows.

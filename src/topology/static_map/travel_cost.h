@@ -9,11 +9,10 @@ namespace mocha {
 
 /// What a metre of path costs.
 struct TravelOptions {
-  double required_clearance_m = 0.3;   ///< of the robot's centre; closer is forbidden
-  double preferred_clearance_m = 0.6;  ///< closer than this costs more
-  double clearance_weight = 3.0;       ///< relative extra cost at zero distance
-  double escape_radius_m =
-      0.6;  ///< around the start, places that are no closer than the start itself are allowed
+  double required_clearance_m;   ///< of the robot's centre; closer is forbidden
+  double preferred_clearance_m;  ///< closer than this costs more
+  double clearance_weight;       ///< relative extra cost at zero distance
+  double escape_radius_m;        ///< around the start, places no closer than the start are allowed
 };
 
 /// A disc that must not be entered by the robot's centre, such as a standing team-mate with its

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "planning/candidates/peer_discs.h"
+#include "planning/candidates/start_maneuver.h"
 #include "planning/worlds.h"
 #include "safety/circle_field.h"
 #include "world/margin_budget.h"
@@ -12,14 +13,15 @@
 namespace mocha {
 namespace {
 
+const DurationCost kDurationCost = DurationCost::total(1.0);
 const std::function<bool()> kGoOn = [] { return false; };
 
 class DriveOptimizerTest : public ::testing::Test {
  protected:
   DriveQuery from_rest(const std::vector<Vector2>& path) const {
-    DriveQuery query{path, PlanarMinco::State::Zero(), 0.0, {}, {}, {}, {}};
+    DriveQuery query{path, PlanarMinco::State::Zero(), 0.0, {}, {}, {}, kDurationCost, {}};
     query.start.col(0) = path.front();
-    query.start.col(2) = optimizer_.rest_acceleration() * (path[1] - path[0]).normalized();
+    query.start.col(2) = rest_acceleration(robot_.limits) * (path[1] - path[0]).normalized();
     return query;
   }
 
@@ -83,9 +85,15 @@ TEST(DriveOptimizerWheels, SlowDownInBendsWhereTheWheelsAskForIt) {
   robot.limits.track_m = 0.5;
   const DriveOptimizer optimizer(robot, default_options(),
                                  MarginBudget::of(robot).static_margin_m());
-  DriveQuery query{
-      {{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}}, PlanarMinco::State::Zero(), 0.0, {}, {}, {}, {}};
-  query.start.col(2) = Vector2(optimizer.rest_acceleration(), 0.0);
+  DriveQuery query{{{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}},
+                   PlanarMinco::State::Zero(),
+                   0.0,
+                   {},
+                   {},
+                   {},
+                   kDurationCost,
+                   {}};
+  query.start.col(2) = Vector2(rest_acceleration(robot.limits), 0.0);
   const CircleField open({});
   const auto found = optimizer.optimize_drive(query, open, {}, kGoOn);
   const Motion motion(0.0, {DrivePhase{1, found.curve}});
@@ -193,12 +201,12 @@ TEST(Effort, IsRaisedWhereItIsMissing) {
   Violation yaw_rate;
   yaw_rate.term = ViolatedTerm::kYawRate;
   const Effort first;
-  EXPECT_GT(raised(first, clearance).obstacle_weight, first.obstacle_weight);
-  EXPECT_EQ(raised(first, clearance).limit_weight, first.limit_weight);
-  EXPECT_GT(raised(first, yaw_rate).limit_weight, first.limit_weight);
-  EXPECT_EQ(raised(first, yaw_rate).obstacle_weight, first.obstacle_weight);
+  EXPECT_GT(raised(first, clearance, 20.0).obstacle_weight, first.obstacle_weight);
+  EXPECT_EQ(raised(first, clearance, 20.0).limit_weight, first.limit_weight);
+  EXPECT_GT(raised(first, yaw_rate, 20.0).limit_weight, first.limit_weight);
+  EXPECT_EQ(raised(first, yaw_rate, 20.0).obstacle_weight, first.obstacle_weight);
   Effort effort = first;
-  for (int i = 0; i < 4; ++i) effort = raised(effort, yaw_rate);
+  for (int i = 0; i < 4; ++i) effort = raised(effort, yaw_rate, 20.0);
   EXPECT_FALSE(effort.camouflage);  // in the end the knots move freely
   EXPECT_LT(effort.speed, 1.0);
   EXPECT_GT(effort.spacing, 0.3);

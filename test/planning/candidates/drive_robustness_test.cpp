@@ -5,6 +5,7 @@
 #include <random>
 
 #include "planning/candidates/drive_optimizer.h"
+#include "planning/candidates/start_maneuver.h"
 #include "planning/worlds.h"
 #include "world/margin_budget.h"
 #include "world/primitive_field.h"
@@ -22,6 +23,7 @@ class StrangeQueries {
   /// A path with jumps, repeated points, loops, and now and then a number that is none.
   DriveQuery next() {
     DriveQuery query;
+    query.duration_cost = DurationCost::total(1.0);
     query.start_time_s = pick({0.0, 1e3, 1e9, -5.0});
     Vector2 p = size() * Vector2(unit(), unit());
     const int points = static_cast<int>(pick({0, 1, 2, 2, 3, 5, 12}));
@@ -120,8 +122,9 @@ TEST(DriveRobustness, APathThroughAnObstacleIsNotCertified) {
   // A wall without an end: no way round.
   const Polygon wall{{{4.0, -500.0}, {4.5, -500.0}, {4.5, 500.0}, {4.0, 500.0}}};
   const PrimitiveField<2> field({wall}, 1.0);
-  DriveQuery query{{{0.0, 0.0}, {8.0, 0.0}}, PlanarMinco::State::Zero(), 0.0, {}, {}, {}, {}};
-  query.start.col(2) = Vector2(optimizer.rest_acceleration(), 0.0);
+  DriveQuery query{{{0.0, 0.0}, {8.0, 0.0}}, PlanarMinco::State::Zero(), 0.0, {}, {}, {}, {}, {}};
+  query.duration_cost = DurationCost::total(1.0);
+  query.start.col(2) = Vector2(rest_acceleration(robot.limits), 0.0);
   const auto result = optimizer.optimize_drive(query, field, {}, [] { return false; });
   ASSERT_GT(result.curve.pieces(), 0);
   const Motion motion(0.0, {DrivePhase{1, result.curve}});

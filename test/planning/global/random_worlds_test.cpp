@@ -4,6 +4,7 @@
 
 #include "planning/global/global_planner.h"
 #include "planning/worlds.h"
+#include "topology/shipped_options.h"
 #include "world/margin_budget.h"
 
 namespace mocha {
@@ -26,7 +27,7 @@ class RandomWorlds : public ::testing::Test {
   /// Is there a path for the planner's front end?
   bool has_path(const std::shared_ptr<const DistanceField>& field, const Vector2& from,
                 const Vector2& to) const {
-    TravelOptions options;
+    TravelOptions options = shipped_travel_options();
     options.required_clearance_m = robot_.footprint.cover().front().radius_m + margin_m_ + 0.01;
     return find_path_on_grid(field, from, to, {}, options).outcome == GridPath::Outcome::kFound;
   }

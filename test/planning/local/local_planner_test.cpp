@@ -78,7 +78,7 @@ class LocalPlannerTest : public ::testing::Test {
     expect_continuous(plan, query);
     expect_back_on_the_plan(plan, query);
     int selected = 0;
-    for (const LocalCandidate& candidate : plan.candidates) selected += candidate.selected;
+    for (const PlanCandidate& candidate : plan.candidates) selected += candidate.selected;
     EXPECT_EQ(selected, 1);
   }
 
@@ -220,7 +220,7 @@ TEST_F(LocalPlannerTest, TheCheapestOfSeveralClassesIsChosen) {
   double cheapest = std::numeric_limits<double>::infinity();
   int certified = 0;
   for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
-    const LocalCandidate& candidate = plan.candidates[i];
+    const PlanCandidate& candidate = plan.candidates[i];
     for (std::size_t j = 0; j < i; ++j)
       EXPECT_NE(candidate.signature, plan.candidates[j].signature);
     if (candidate.reason != PlanReason::kSolved) continue;
@@ -231,7 +231,7 @@ TEST_F(LocalPlannerTest, TheCheapestOfSeveralClassesIsChosen) {
     EXPECT_NEAR(sum, candidate.cost, 1e-9 * (1.0 + sum));
   }
   EXPECT_GE(certified, 2);
-  for (const LocalCandidate& candidate : plan.candidates) {
+  for (const PlanCandidate& candidate : plan.candidates) {
     EXPECT_TRUE(!candidate.selected || candidate.cost == cheapest);
   }
   EXPECT_LT(plan.motion.at(query().start_time_s + 2.5).pose.position.y(), 0.0);  // the nearer side
@@ -247,18 +247,18 @@ TEST_F(LocalPlannerTest, AClassIsKeptUnlessAnotherIsCheaperByTheMargin) {
     const LocalScene around = scene({person(planned(2.5) + Vector2(0.0, aside_m), 0.0, {0, 0})});
     const LocalPlan first = planner.plan(query(), around);
     EXPECT_TRUE(first.switches_class) << "there was no class before";
-    for (const LocalCandidate& other : first.candidates) {
+    for (const PlanCandidate& other : first.candidates) {
       if (other.reason != PlanReason::kSolved || other.selected) continue;
       LocalQuery under_way = query();
       under_way.driven = other.motion;
       const LocalPlan second = planner.anew(under_way, around);
       ASSERT_EQ(second.reason, PlanReason::kSolved) << second.message;
       const auto driven = std::find_if(second.candidates.begin(), second.candidates.end(),
-                                       [](const LocalCandidate& c) { return c.driven; });
+                                       [](const PlanCandidate& c) { return c.driven; });
       ASSERT_NE(driven, second.candidates.end()) << aside_m;
       EXPECT_EQ(driven->signature, other.signature);
       double cheapest = std::numeric_limits<double>::infinity();
-      for (const LocalCandidate& candidate : second.candidates) {
+      for (const PlanCandidate& candidate : second.candidates) {
         if (candidate.reason == PlanReason::kSolved) cheapest = std::min(cheapest, candidate.cost);
       }
       const bool stays = cheapest >= (1.0 - options.switch_margin) * driven->cost;
@@ -276,7 +276,7 @@ TEST_F(LocalPlannerTest, AClassIsKeptUnlessAnotherIsCheaperByTheMargin) {
 TEST_F(LocalPlannerTest, KeepsOnWithWhatIsDrivenAndLooksForNothingElse) {
   const LocalScene around = scene({person(planned(2.5) + Vector2(0.0, 0.1), 0.0, {0.0, 0.0})});
   EXPECT_TRUE(planner_.keep_on(query(), around).candidates.empty()) << "nothing is driven";
-  for (const LocalCandidate& first : planner_.anew(query(), around).candidates) {
+  for (const PlanCandidate& first : planner_.anew(query(), around).candidates) {
     if (first.met != RequirementName::kDetour) continue;
     LocalQuery under_way = query();
     under_way.driven = first.motion;

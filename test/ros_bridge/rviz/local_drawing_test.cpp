@@ -9,9 +9,9 @@ namespace {
 
 using visualization_msgs::Marker;
 
-LocalCandidate candidate(double y) {
-  LocalCandidate result;
-  result.path = {{{0.0, 0.0}, 0.0}, {{2.0, y}, 2.0}, {{4.0, 0.0}, 4.0}};
+PlanCandidate candidate(double y) {
+  PlanCandidate result;
+  result.path = {{0.0, 0.0}, {2.0, y}, {4.0, 0.0}};
   return result;
 }
 
@@ -20,13 +20,13 @@ LocalPlan swerve() {
   LocalPlan plan;
   plan.reason = PlanReason::kSolved;
   plan.candidates = {candidate(1.0), candidate(-1.0)};
-  LocalCandidate& chosen = plan.candidates[1];
+  PlanCandidate& chosen = plan.candidates[1];
   chosen.selected = true;
   chosen.reason = PlanReason::kSolved;
   chosen.motion = straight_drive(10.0, {0.0, 0.0}, 0.0, 8.0, 1.0, 1.0);
-  chosen.rejoins_s = 14.5;  // half of it
+  chosen.drive_ends_s = 14.5;  // half of it
   plan.motion = chosen.motion;
-  plan.rejoins_s = chosen.rejoins_s;
+  plan.rejoins_s = chosen.drive_ends_s;
   plan.rejoin_point.state.col(0) << 4.0, 0.0;
   return plan;
 }

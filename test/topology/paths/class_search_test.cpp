@@ -296,8 +296,8 @@ TEST(ClassSearch, WorksInSpace) {
   roadmap.edges = {{0, 1, {{5.0, 0.0, 1.0}}, 10.0, 1.0}, {0, 1, {{5.0, 0.0, 5.0}}, 13.0, 1.0}};
   const Cuts<3> window(
       {Loop{{{5.0, -1.0, 0.0}, {5.0, 1.0, 0.0}, {5.0, 1.0, 2.0}, {5.0, -1.0, 2.0}}}});
-  EXPECT_EQ(shortest_classes<3>(roadmap, window, {}).size(), 2u);
-  EXPECT_EQ(shortest_classes<3>(roadmap, Cuts<3>({}), {}).size(), 1u);
+  EXPECT_EQ(shortest_classes<3>(roadmap, window, {6, 2.0}).size(), 2u);
+  EXPECT_EQ(shortest_classes<3>(roadmap, Cuts<3>({}), {6, 2.0}).size(), 1u);
 }
 
 TEST(ClassSearch, RefusesBadOptions) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "topology/grid_world.h"
+#include "topology/shipped_options.h"
 
 namespace mocha {
 namespace {
@@ -43,7 +44,7 @@ void expect_ends(const FoundGridPath& path, const Vector2& start, const Vector2&
 
 FoundGridPath search(const OccupancyGrid& grid, const Vector2& start, const Vector2& goal,
                      const std::vector<BlockedDisc>& blocked = {},
-                     const TravelOptions& options = {}) {
+                     const TravelOptions& options = shipped_travel_options()) {
   return find_path_on_grid(occupied_field(grid), start, goal, blocked, options);
 }
 
@@ -60,7 +61,7 @@ TEST(GridPath, IsStraightOnAnEmptyMap) {
 TEST(GridPath, RoundsAWallByTheShortestPath) {
   OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0});
   fill_box(grid, {4.0, 0.0}, {4.05, 4.0});  // open above
-  TravelOptions options;
+  TravelOptions options = shipped_travel_options();
   options.preferred_clearance_m = options.required_clearance_m;  // length alone counts
   const Vector2 start(2.0, 2.0);
   const Vector2 goal(6.0, 2.0);
@@ -83,9 +84,9 @@ TEST(GridPath, PrefersRoomWhereThereIsAny) {
   fill_box(grid, {3.5, 2.6}, {4.5, 3.4});
   const Vector2 start(1.0, 3.0);
   const Vector2 goal(7.0, 3.0);
-  TravelOptions tight;
+  TravelOptions tight = shipped_travel_options();
   tight.preferred_clearance_m = tight.required_clearance_m;
-  TravelOptions wide;
+  TravelOptions wide = shipped_travel_options();
   wide.preferred_clearance_m = 1.0;
   const auto field = occupied_field(grid);
   const double near = clearance_m(search(grid, start, goal, {}, tight), *field);
@@ -95,7 +96,7 @@ TEST(GridPath, PrefersRoomWhereThereIsAny) {
 TEST(GridPath, EveryPointKeepsTheClearanceInRandomWorlds) {
   const Vector2 start(0.5, 0.5);
   const Vector2 goal(7.5, 5.5);
-  const TravelOptions options;
+  const TravelOptions options = shipped_travel_options();
   int found = 0;
   for (int seed = 1; seed <= 60; ++seed) {
     const OccupancyGrid grid = random_world(seed, 28, start, goal, 0.4);
@@ -113,7 +114,7 @@ TEST(GridPath, EveryPointKeepsTheClearanceInRandomWorlds) {
 }
 
 TEST(GridPath, KeepsTheClearanceFromAndToPlacesThatBarelyHaveIt) {
-  const TravelOptions options;
+  const TravelOptions options = shipped_travel_options();
   int found = 0;
   for (int seed = 1; seed <= 400; ++seed) {
     const OccupancyGrid grid = random_world(seed % 40, 28, {0.5, 0.5}, {7.5, 5.5}, 0.4);
@@ -156,7 +157,7 @@ TEST(GridPath, DoesNotSlipThroughAGapBetweenTwoNodes) {
     }
     const auto field = occupied_field(grid);
     for (double required_m = 0.2; required_m < 0.45; required_m += 0.0037) {
-      TravelOptions options;
+      TravelOptions options = shipped_travel_options();
       options.required_clearance_m = required_m;
       const FoundGridPath path = find_path_on_grid(field, {2.0, 1.5}, {6.0, 5.0}, {}, options);
       if (path.outcome != Outcome::kFound) continue;
@@ -172,7 +173,7 @@ TEST(GridPath, CornersAreNotCutThroughForbiddenSpace) {
     for (double y = 0.5; y < 6.0; y += 1.0) fill_box(grid, {x, y}, {x + 0.05, y + 0.05});
   }
   const auto field = occupied_field(grid);
-  const TravelOptions options;
+  const TravelOptions options = shipped_travel_options();
   for (double y = 0.35; y < 5.6; y += 0.35) {
     const FoundGridPath path = find_path_on_grid(field, {0.5, y}, {7.6, 6.0 - y}, {}, options);
     ASSERT_EQ(path.outcome, Outcome::kFound) << y;
@@ -189,7 +190,7 @@ TEST(GridPath, FindsANarrowGapThatIsJustWideEnough) {
     const FoundGridPath path = search(grid, {2.0, 3.0}, {6.0, 3.0});
     // The middle of an even number of cells is a node of the lattice; of an odd number half a cell
     // off.
-    const double slack_m = gap_m - 2.0 * TravelOptions().required_clearance_m;
+    const double slack_m = gap_m - 2.0 * shipped_travel_options().required_clearance_m;
     if (slack_m < -1e-6) {
       EXPECT_EQ(path.outcome, Outcome::kNoPath) << gap_m;
     } else if (slack_m >= 0.05) {
@@ -283,8 +284,9 @@ TEST(GridPath, WhoStandsTooCloseToAWallMayLeaveItButNotComeCloser) {
   const FoundGridPath along = search(grid, start, {3.6, 5.5});
   expect_ends(along, start, {3.6, 5.5});
   for (std::size_t i = 1; i < along.points.size(); ++i) {
-    if ((along.points[i] - start).norm() < TravelOptions().escape_radius_m) continue;
-    EXPECT_GE(field->distance_bound(along.points[i]), TravelOptions().required_clearance_m - 0.003);
+    if ((along.points[i] - start).norm() < shipped_travel_options().escape_radius_m) continue;
+    EXPECT_GE(field->distance_bound(along.points[i]),
+              shipped_travel_options().required_clearance_m - 0.003);
   }
   EXPECT_EQ(search(grid, start, {3.85, 3.1}).outcome, Outcome::kFound);  // within the escape radius
   EXPECT_EQ(search(grid, start, {3.85, 5.0}).outcome, Outcome::kGoalBlocked);  // far beyond it
@@ -292,8 +294,8 @@ TEST(GridPath, WhoStandsTooCloseToAWallMayLeaveItButNotComeCloser) {
 
 TEST(GridPath, TheLatticeIsNeverFinerThanTheMap) {
   const OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0}, 0.2);
-  const FoundGridPath path =
-      find_path_on_grid(occupied_field(grid), {1.0, 1.0}, {7.0, 5.0}, {}, {}, 0.01);
+  const FoundGridPath path = find_path_on_grid(occupied_field(grid), {1.0, 1.0}, {7.0, 5.0}, {},
+                                               shipped_travel_options(), 0.01);
   EXPECT_EQ(path.outcome, Outcome::kFound);
 }
 
@@ -301,9 +303,10 @@ TEST(GridPath, ACoarseLatticeOnAFineMapStillKeepsTheClearance) {
   OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0}, 0.025);
   for (double y = 0.3; y < 6.0; y += 0.9) fill_disc(grid, {4.0, y}, 0.1, OccupancyGrid::kOccupied);
   const auto field = occupied_field(grid);
-  const FoundGridPath path = find_path_on_grid(field, {2.0, 3.0}, {6.0, 3.1}, {}, {}, 0.2);
+  const FoundGridPath path =
+      find_path_on_grid(field, {2.0, 3.0}, {6.0, 3.1}, {}, shipped_travel_options(), 0.2);
   ASSERT_EQ(path.outcome, Outcome::kFound);
-  EXPECT_GE(clearance_m(path, *field), TravelOptions().required_clearance_m - 0.003);
+  EXPECT_GE(clearance_m(path, *field), shipped_travel_options().required_clearance_m - 0.003);
 }
 
 TEST(GridPath, OneCellIsAMap) {
@@ -322,7 +325,7 @@ OccupancyGrid two_rooms() {
 GridPath nearest(const OccupancyGrid& grid, const Vector2& start, double most_m,
                  const std::function<bool(const Vector2&)>& suits) {
   const GridStaticMap static_map(occupied_field(grid));
-  const TravelCost cost(static_map, start, {}, {});
+  const TravelCost cost(static_map, start, {}, shipped_travel_options());
   return find_nearest_place(static_map, start, cost, 0.1, most_m, suits);
 }
 

@@ -10,6 +10,7 @@
 #include "topology/grid_world.h"
 #include "topology/paths/class_search.h"
 #include "topology/roadmaps/visibility_prm.h"
+#include "topology/shipped_options.h"
 #include "world/world_file.h"
 
 namespace mocha {
@@ -76,7 +77,7 @@ struct Rooms {
 struct Hall {
   OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0});
   HomotopyPathQuery query;
-  HomotopyPathOptions options;
+  HomotopyPathOptions options = shipped_path_options();
 
   Hall() {
     query.lead_in = {{1.0, 3.0}};
@@ -119,7 +120,7 @@ std::set<std::string> routes(const HomotopyPaths& found) {
 
 TEST(HomotopyPaths, GoThroughTheRoomsByAllDoorsThatAPersonWouldName) {
   const Rooms rooms;
-  HomotopyPathOptions options;
+  HomotopyPathOptions options = shipped_path_options();
   options.classes = 12;
   HomotopyPathQuery query;
   query.lead_in = {rooms.start};
@@ -159,8 +160,7 @@ TEST(HomotopyPaths, SamplesFindMostDoors) {
     feet.push_back(group.representative);
   const Cuts<2> cuts(feet);
   std::size_t classes = 0;
-  VisibilityPrmOptions prm;
-  prm.samples = 1000;
+  VisibilityPrmOptions prm = prm_options(1000);
   for (prm.seed = 1; prm.seed <= 20; ++prm.seed) {
     const Roadmap<2> roadmap =
         visibility_prm<2>(rooms.static_map->field(), cuts, rooms.static_map->bounds(), rooms.start,
@@ -175,7 +175,7 @@ TEST(HomotopyPaths, AreNoMoreThanAskedAndNoneMuchDearerThanTheCheapest) {
   HomotopyPathQuery query;
   query.lead_in = {rooms.start};
   query.goal = rooms.goal;
-  HomotopyPathOptions options;
+  HomotopyPathOptions options = shipped_path_options();
   options.roadmap = roadmap_kind("best");
   const double cheapest =
       find_homotopy_paths(*rooms.static_map, query, options).paths.front().cost_m;

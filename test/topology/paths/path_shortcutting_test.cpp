@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "topology/grid_world.h"
+#include "topology/shipped_options.h"
 
 namespace mocha {
 namespace {
@@ -51,7 +52,7 @@ std::vector<Vector2> by_way_of(const std::vector<Vector2>& places, const StaticM
 TEST(PathShortcutting, KeepsEndsClassAndClearanceAndCostsNoMore) {
   const Vector2 start(0.5, 0.5);
   const Vector2 goal(7.5, 5.5);
-  const TravelOptions options;
+  const TravelOptions options = shipped_travel_options();
   int detours = 0;
   int wound = 0;
   for (int seed = 1; seed <= 80; ++seed) {
@@ -91,7 +92,7 @@ TEST(PathShortcutting, KeepsEndsClassAndClearanceAndCostsNoMore) {
 }
 
 TEST(PathShortcutting, StaysPossibleFromBarelyFreePlaces) {
-  TravelOptions options;
+  TravelOptions options = shipped_travel_options();
   int found = 0;
   for (int seed = 1; seed <= 300; ++seed) {
     const auto static_map = static_map_of(random_world(seed % 30, 28, {0.5, 0.5}, {7.5, 5.5}, 0.4));
@@ -121,7 +122,7 @@ TEST(PathShortcutting, LeavesAPathWoundRoundAnObstacle) {
   OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0});
   fill_box(grid, {3.5, 2.5}, {4.5, 3.5});
   const auto static_map = static_map_of(grid);
-  TravelOptions options;
+  TravelOptions options = shipped_travel_options();
   options.preferred_clearance_m = options.required_clearance_m;
   const Vector2 start(1.0, 3.0);
   const TravelCost cost(*static_map, start, {}, options);
@@ -147,7 +148,7 @@ TEST(PathShortcutting, DoesNotJumpOverAPost) {
   const Vector2 post(16.05, 16.05);
   fill_box(grid, post - Vector2(0.05, 0.05), post + Vector2(0.05, 0.05));
   const auto static_map = static_map_of(grid);
-  const TravelOptions options;
+  const TravelOptions options = shipped_travel_options();
   const Cuts<2> cuts = cuts_of(*static_map, options.required_clearance_m);
   for (double from = 0.0; from < 2.0 * M_PI; from += 0.3) {
     std::vector<Vector2> path;
@@ -166,7 +167,7 @@ TEST(PathShortcutting, IsNearlyAsShortAsCanBe) {
   OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0});
   fill_box(grid, {4.0, 0.0}, {4.05, 4.0});
   const auto static_map = static_map_of(grid);
-  TravelOptions options;
+  TravelOptions options = shipped_travel_options();
   options.preferred_clearance_m = options.required_clearance_m;
   const Vector2 start(2.0, 2.0);
   const Vector2 goal(6.0, 2.0);
@@ -183,7 +184,7 @@ TEST(PathShortcutting, IsNearlyAsShortAsCanBe) {
 
 TEST(PathShortcutting, LeavesAloneWhatCannotBeShorter) {
   const auto static_map = static_map_of(free_grid({0.0, 0.0}, {8.0, 6.0}));
-  const TravelCost cost(*static_map, {1.0, 1.0}, {}, TravelOptions());
+  const TravelCost cost(*static_map, {1.0, 1.0}, {}, shipped_travel_options());
   const Cuts<2> none({});
   EXPECT_TRUE(with_shortcuts({}, cost, none).empty());
   const std::vector<Vector2> point = {{1.0, 1.0}};
@@ -198,7 +199,7 @@ TEST(PathShortcutting, CutsNothingOfAnImpossiblePath) {
   OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0});
   fill_box(grid, {3.5, 2.5}, {4.5, 3.5});
   const auto static_map = static_map_of(grid);
-  const TravelCost cost(*static_map, {1.0, 3.0}, {}, TravelOptions());
+  const TravelCost cost(*static_map, {1.0, 3.0}, {}, shipped_travel_options());
   const std::vector<Vector2> through = {{1.0, 3.0}, {4.0, 3.0}, {7.0, 3.0}};
   const auto same = with_shortcuts(through, cost, Cuts<2>({Vector2(4.0, 2.6)}));
   EXPECT_EQ(cost_of(same, cost), TravelCost::kInfinity);

@@ -10,6 +10,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "topology/shipped_options.h"
+
 namespace mocha {
 namespace {
 
@@ -22,7 +24,7 @@ struct World {
   Vector2 start{0.5, 4.0};
   Vector2 goal{9.5, 4.0};
   std::vector<Circle> circles;
-  SkeletonOptions options;
+  SkeletonOptions options = shipped_skeleton_options();
 
   Roadmap<2> roadmap() const {
     std::vector<ObstacleGroup> groups;

@@ -10,6 +10,7 @@
 #include "topology/paths/class_search.h"
 #include "topology/paths/path_shortcutting.h"
 #include "topology/roadmaps/visibility_prm.h"
+#include "topology/shipped_options.h"
 #include "topology/signatures/signature_sums.h"
 #include "topology/static_map/primitive_static_map.h"
 
@@ -25,7 +26,7 @@ struct Park {
   Cuts<2> cuts{{}};
   Vector2 start{0.6, 4.0};
   Vector2 goal{9.4, 4.0};
-  TravelOptions options;
+  TravelOptions options = shipped_travel_options();
 
   explicit Park(int seed, int count = 12) {
     std::mt19937_64 random(seed);
@@ -45,10 +46,9 @@ struct Park {
   }
   TravelCost cost() const { return TravelCost(*static_map, start, {}, options); }
   Roadmap<2> roadmap() const {
-    VisibilityPrmOptions prm;
-    prm.samples = 400;
     return visibility_prm<2>(static_map->field(), cuts, static_map->bounds(), start, goal,
-                             {options.required_clearance_m, 0.6}, prm);
+                             {options.required_clearance_m, options.escape_radius_m},
+                             prm_options(400));
   }
 };
 

@@ -5,6 +5,7 @@
 
 #include "topology/roadmaps/roadmap_classes.h"
 #include "topology/roadmaps/visibility_prm.h"
+#include "topology/shipped_options.h"
 
 namespace mocha {
 namespace {
@@ -46,9 +47,9 @@ TEST(VisibilityPrmInSpace, FindsTheWayThroughAWindowAndRoundPillars) {
   const AlignedBox3d bounds(Vector3d(0.0, 0.0, 0.0), Vector3d(15.0, 10.0, 6.0));
   const Vector3d start(1.0, 5.0, 2.5);
   const Vector3d goal(14.0, 5.0, 2.5);
-  const ClearanceOptions clearance;
+  const ClearanceOptions clearance = shipped_clearance();
   const StaticSpace<3> space(field, cuts, bounds, start, clearance);
-  const Roadmap<3> roadmap = visibility_prm<3>(space, start, goal, {});
+  const Roadmap<3> roadmap = visibility_prm<3>(space, start, goal, prm_options());
   for (const auto& edge : roadmap.edges) {
     const Vector3d p = roadmap.nodes[edge.from].position;
     const Vector3d q = roadmap.nodes[edge.to].position;
@@ -106,7 +107,7 @@ TEST(VisibilityPrmInSpaceTime, PassesBeforeAndBehindAMovingDisc) {
   const CrossedPlane space;
   const Vector3d start(1.0, 5.0, 0.0);
   const Vector3d goal(9.0, 5.0, 10.0);
-  const Roadmap<3> roadmap = visibility_prm<3>(space, start, goal, {});
+  const Roadmap<3> roadmap = visibility_prm<3>(space, start, goal, prm_options());
   for (const auto& edge : roadmap.edges) {
     const Vector3d p = roadmap.nodes[edge.from].position;
     const Vector3d q = roadmap.nodes[edge.to].position;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "topology/roadmaps/roadmap_classes.h"
+#include "topology/shipped_options.h"
 #include "world/primitive_field.h"
 
 namespace mocha {
@@ -23,7 +24,7 @@ struct PlanarWorld {
   AlignedBox2d bounds{Vector2d(0.0, 0.0), Vector2d(20.0, 20.0)};
   Vector2d start{1.0, 1.0};
   Vector2d goal{19.0, 19.0};
-  ClearanceOptions clearance;
+  ClearanceOptions clearance = shipped_clearance();
 
   PrimitiveField<2> field() const { return {{circles.begin(), circles.end()}, 2.0}; }
   Cuts<2> cuts() const {
@@ -31,7 +32,7 @@ struct PlanarWorld {
     for (const Circle& circle : circles) centres.push_back(circle.centre);
     return Cuts<2>(centres);
   }
-  Roadmap<2> roadmap(const VisibilityPrmOptions& options = {}) const {
+  Roadmap<2> roadmap(const VisibilityPrmOptions& options = prm_options()) const {
     return visibility_prm<2>(field(), cuts(), bounds, start, goal, clearance, options);
   }
 };
@@ -152,9 +153,7 @@ TEST(VisibilityPrm, FindsAllFourClassesOfTwoObstaclesInARow) {
   world.start = {1.0, 10.0};
   world.goal = {19.0, 10.0};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    VisibilityPrmOptions options;
-    options.samples = 1000;
-    options.seed = seed;
+    const VisibilityPrmOptions options = prm_options(1000, seed);
     const PrimitiveField<2> field = world.field();
     const Cuts<2> cuts = world.cuts();
     const StaticSpace<2> space(field, cuts, world.bounds, world.start, world.clearance);
@@ -193,8 +192,7 @@ TEST(VisibilityPrm, ShortestPathsAreHardlyLongerThanTheyMustBe) {
 
 TEST(VisibilityPrm, StaysSmallHoweverManySamplesAreDrawn) {
   const PlanarWorld world = random_world(3, 20);
-  VisibilityPrmOptions options;
-  options.samples = 2000;
+  VisibilityPrmOptions options = prm_options(2000);
   const std::size_t few = world.roadmap(options).nodes.size();
   options.samples = 30000;
   EXPECT_LT(world.roadmap(options).nodes.size(), 3 * few);
@@ -203,8 +201,7 @@ TEST(VisibilityPrm, StaysSmallHoweverManySamplesAreDrawn) {
 
 TEST(VisibilityPrm, IsTheSameForTheSameSeed) {
   const PlanarWorld world = random_world(5, 30);
-  VisibilityPrmOptions options;
-  options.samples = 500;
+  VisibilityPrmOptions options = prm_options(500);
   const Roadmap<2> one = world.roadmap(options);
   const Roadmap<2> two = world.roadmap(options);
   ASSERT_EQ(one.nodes.size(), two.nodes.size());
@@ -225,10 +222,7 @@ TEST(VisibilityPrm, DrawsTheNumbersOfTheGeneratorItself) {
   PlanarWorld world;
   world.goal = world.start + Vector2d(0.5, 0.0);
   world.bounds = {Vector2d(0.0, 0.0), Vector2d(1.0, 1.0)};
-  VisibilityPrmOptions options;
-  options.samples = 1;
-  options.seed = 5489;
-  const Roadmap<2> roadmap = world.roadmap(options);
+  const Roadmap<2> roadmap = world.roadmap(prm_options(1, 5489));
   ASSERT_EQ(roadmap.nodes.size(), 3u);
   EXPECT_EQ(roadmap.nodes[2].position.x(), (14514284786278117030u >> 11) * 0x1p-53);
 }
@@ -300,18 +294,14 @@ TEST(VisibilityPrm, DegenerateQuestionsHaveAnswers) {
   EXPECT_EQ(nowhere.roadmap().nodes.size(), 2u);
   EXPECT_TRUE(nowhere.roadmap().edges.empty());
 
-  VisibilityPrmOptions none;
-  none.samples = 0;
-  EXPECT_EQ(world.roadmap(none).nodes.size(), 2u);
+  EXPECT_EQ(world.roadmap(prm_options(0)).nodes.size(), 2u);
 }
 
 TEST(VisibilityPrm, RefusesRulesOutOfRange) {
   PlanarWorld world;
-  VisibilityPrmOptions options;
-  options.samples = -1;
-  EXPECT_THROW(world.roadmap(options), std::invalid_argument);
+  EXPECT_THROW(world.roadmap(prm_options(-1)), std::invalid_argument);
   for (const double reach_m : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
-    options = {};
+    VisibilityPrmOptions options = prm_options();
     options.reach_m = reach_m;
     EXPECT_THROW(world.roadmap(options), std::invalid_argument) << reach_m;
   }

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "topology/grid_world.h"
+#include "topology/shipped_options.h"
 #include "topology/signatures/h_signature.h"
 #include "topology/static_map/primitive_static_map.h"
 
@@ -140,7 +141,7 @@ struct Comparison {
     };
     const Vector2 start = place();
     const Vector2 goal = place();
-    TravelOptions options;
+    TravelOptions options = shipped_travel_options();
     options.required_clearance_m = clearance_m - 0.03;  // what a knight's move loses
     const TravelCost cost(static_map, start, {}, options);
     std::vector<Vector2> feet;
@@ -194,7 +195,7 @@ TEST(LengthBound, KnowsTheDetourRoundAWall) {
   const auto static_map = static_map_of(grid);
   const Vector2 start(2.0, 1.0);
   const Vector2 goal(6.0, 1.0);
-  TravelOptions options;
+  TravelOptions options = shipped_travel_options();
   options.preferred_clearance_m = options.required_clearance_m;
   const TravelCost cost(*static_map, start, {}, options);
   const GridPath lattice = find_grid_path(*static_map, start, goal, cost, 0.05);

@@ -4,6 +4,7 @@
 
 #include "topology/paths/euclidean_shortcutting.h"
 #include "topology/roadmaps/visibility_prm.h"
+#include "topology/shipped_options.h"
 #include "topology/signatures/signature_sums.h"
 #include "world/primitive_field.h"
 
@@ -98,9 +99,8 @@ TEST(ProjectedSignature, ColumnsNeverAbstain) {
 /// Paths past balls in space and time: possible, and pairwise different.
 std::vector<ClassPath<4>> paths_through(const World& world, int samples) {
   const SpaceTime<3> space = world.space();
-  VisibilityPrmOptions prm;
-  prm.samples = samples;
-  const Roadmap<4> roadmap = visibility_prm<4>(space, space.start(), space.goal(), prm);
+  const Roadmap<4> roadmap =
+      visibility_prm<4>(space, space.start(), space.goal(), prm_options(samples));
   std::vector<ClassPath<4>> paths = shortest_classes<4>(roadmap, space, {30, 1.5});
   for (const ClassPath<4>& path : paths)
     EXPECT_EQ(space.signature_of(with_shortcuts<4>(path.points, space)),

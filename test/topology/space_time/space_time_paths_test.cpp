@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "topology/shipped_options.h"
 #include "topology/signatures/signature_sums.h"
 #include "topology/space_time/space_time_scenes.h"
 
@@ -19,7 +20,8 @@ constexpr double kMaxSpeed = 1.5;
 constexpr double kRequired_m = 0.35;
 
 SpaceTimeOptions rules_with(int classes = 4) {
-  SpaceTimeOptions options{kMaxSpeed, kRequired_m};
+  SpaceTimeOptions options = shipped_space_time_options(kMaxSpeed);
+  options.required_clearance_m = kRequired_m;
   options.classes = classes;
   return options;
 }

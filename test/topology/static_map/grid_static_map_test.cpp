@@ -7,6 +7,7 @@
 #include <random>
 
 #include "topology/grid_world.h"
+#include "topology/shipped_options.h"
 
 namespace mocha {
 namespace {
@@ -174,7 +175,7 @@ void expect_not_parted(const OccupancyGrid& grid, const std::vector<Vector2>& lo
 }
 
 TEST(GridStaticMap, NoPathPassesBetweenTwoPartsOfAGroup) {
-  TravelOptions options;
+  TravelOptions options = shipped_travel_options();
   options.preferred_clearance_m = options.required_clearance_m;  // the narrowest gaps are worth it
   int loops = 0;
   for (int seed = 1; seed <= 40; ++seed) {

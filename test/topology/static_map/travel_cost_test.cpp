@@ -6,6 +6,7 @@
 #include <random>
 
 #include "topology/grid_world.h"
+#include "topology/shipped_options.h"
 #include "topology/static_map/primitive_static_map.h"
 
 namespace mocha {
@@ -21,7 +22,7 @@ std::shared_ptr<const StaticMap> circles(const std::vector<Obstacle>& obstacles)
 
 TEST(TravelCost, IsOneInTheOpenAndMoreWhereItIsNarrow) {
   const auto static_map = circles({Circle{{5.0, 5.0}, 1.0}});
-  const TravelOptions options;
+  const TravelOptions options = shipped_travel_options();
   const TravelCost cost(*static_map, {1.0, 1.0}, {}, options);
   EXPECT_EQ(cost.at({5.0, 7.0}), 1.0);
   EXPECT_EQ(cost.at({5.0, 6.61}), 1.0);
@@ -33,7 +34,7 @@ TEST(TravelCost, IsOneInTheOpenAndMoreWhereItIsNarrow) {
 
 TEST(TravelCost, OfALineIsTheIntegral) {
   const auto static_map = circles({Circle{{5.0, 5.0}, 1.0}, Circle{{2.0, 7.1}, 0.3}});
-  const TravelCost cost(*static_map, {1.0, 1.0}, {}, TravelOptions());
+  const TravelCost cost(*static_map, {1.0, 1.0}, {}, shipped_travel_options());
   const Vector2 a(0.5, 6.2);
   const Vector2 b(9.0, 6.9);
   double integral = 0.0;
@@ -51,7 +52,7 @@ TEST(TravelCost, OfALineIsInfiniteExactlyWhereItMeetsAForbiddenPlace) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> coordinate(0.0, 10.0);
   for (const double preferred_m : {0.1, 0.3, 0.6}) {
-    TravelOptions options;
+    TravelOptions options = shipped_travel_options();
     options.preferred_clearance_m = preferred_m;
     int forbidden = 0;
     for (int round = 0; round < 2000; ++round) {
@@ -86,7 +87,7 @@ TEST(TravelCost, IsTheSameInBothDirections) {
   std::uniform_real_distribution<double> x(0.0, 8.0);
   std::uniform_real_distribution<double> y(0.0, 6.0);
   const auto static_map = static_map_of(random_world(3, 25, {0.5, 0.5}, {7.5, 5.5}, 0.4));
-  const TravelCost cost(*static_map, {0.5, 0.5}, {{{4.0, 3.0}, 0.5}}, TravelOptions());
+  const TravelCost cost(*static_map, {0.5, 0.5}, {{{4.0, 3.0}, 0.5}}, shipped_travel_options());
   int finite = 0;
   for (int round = 0; round < 20000; ++round) {
     const Vector2 a(x(random), y(random));
@@ -103,7 +104,7 @@ TEST(TravelCost, IsTheSameInBothDirections) {
 
 TEST(TravelCost, LetsOneOutOfANarrowPlaceButNotDeeperIn) {
   const auto static_map = circles({Circle{{5.0, 5.0}, 1.0}});
-  const TravelOptions options;
+  const TravelOptions options = shipped_travel_options();
   const TravelCost cost(*static_map, {5.0, 6.2}, {}, options);
   EXPECT_TRUE(std::isfinite(cost.at({5.0, 6.2})));
   EXPECT_TRUE(std::isfinite(cost.of_line({5.0, 6.2}, {5.0, 7.0})));
@@ -118,11 +119,11 @@ TEST(TravelCost, LetsOneOutOfANarrowPlaceButNotDeeperIn) {
 TEST(TravelCost, KeepsOffBlockedDiscsButLetsOneLeaveThem) {
   const auto static_map = circles({});
   const BlockedDisc disc{{5.0, 5.0}, 1.0};
-  const TravelCost outside(*static_map, {1.0, 5.0}, {disc}, TravelOptions());
+  const TravelCost outside(*static_map, {1.0, 5.0}, {disc}, shipped_travel_options());
   EXPECT_EQ(outside.at({5.0, 5.9}), kInfinity);
   EXPECT_EQ(outside.at({5.0, 6.1}), 1.0) << "discs hold their margins already";
   EXPECT_EQ(outside.of_line({1.0, 5.0}, {9.0, 5.0}), kInfinity);
-  const TravelCost within(*static_map, {5.0, 5.5}, {disc}, TravelOptions());
+  const TravelCost within(*static_map, {5.0, 5.5}, {disc}, shipped_travel_options());
   EXPECT_NEAR(within.of_line({5.0, 5.5}, {5.0, 9.0}), 3.5, 1e-9);
   EXPECT_EQ(within.of_line({5.0, 5.5}, {5.0, 1.0}), kInfinity);
 }

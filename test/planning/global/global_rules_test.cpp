@@ -1,4 +1,4 @@
-#include "planning/global/candidate_race.h"
+#include "planning/global/global_rules.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include "planning/global/global_planner.h"
 #include "planning/worlds.h"
 #include "topology/static_map/primitive_static_map.h"
+#include "world/margin_budget.h"
 #include "world/world_file.h"
 
 namespace mocha {
@@ -42,19 +43,25 @@ const PlanCandidate& selected(const PlanResult& result) {
                        [](const PlanCandidate& candidate) { return candidate.selected; });
 }
 
+PlanCandidate candidate_of(const Task& task, const PlannerOptions& options, const Seed& seed) {
+  const DriveOptimizer optimizer(task.robot, options,
+                                 MarginBudget::of(task.robot).static_margin_m());
+  const GlobalRules rules(task.robot, options, task.query, task.scene);
+  return CandidatePipeline(optimizer, task.scene.static_map->field(), rules)
+      .optimise_and_certify(seed, kGoOn);
+}
+
 TEST(Classes, ThePlanFromTheStraightLineIsTwentyPerCentDearerInTheSlalom) {
   const Task task = task_of("config/worlds/slalom.yaml");
   const PlannerOptions options = default_options();
   const PlanResult all = plan(task, options);
   ASSERT_EQ(all.reason, PlanReason::kSolved) << all.message;
   ASSERT_GE(all.candidates.size(), 4u);
-  const CandidatePlanner planner(task.robot, options);
   const Pose start = task.query.committed.end_pose();
-  const CandidateSeed line{
-      planner.front_end().start_maneuvers().from_rest({}, start, {start.position, task.query.goal}),
-      0.0,
-      {}};
-  const PlanCandidate single = planner.plan(task.query, line, task.scene, kGoOn);
+  const StartManeuvers start_maneuvers(task.robot.limits, options.smooth_start_rad);
+  const Seed line{
+      start_maneuvers.from_rest({}, start, {start.position, task.query.goal}), {}, {}, 0.0, false};
+  const PlanCandidate single = candidate_of(task, options, line);
   ASSERT_EQ(single.reason, PlanReason::kSolved) << describe(single.violation);
   EXPECT_GE(single.cost, 1.2 * selected(all).cost);
   EXPECT_GE(single.motion.end_time(), 1.2 * all.motion.end_time());
@@ -63,16 +70,16 @@ TEST(Classes, ThePlanFromTheStraightLineIsTwentyPerCentDearerInTheSlalom) {
 TEST(Classes, CostsAreSumsOfTheirTermsAndNoLessThanTheirBound) {
   const Task task = task_of("config/worlds/rooms.yaml");
   const PlannerOptions options = default_options();
-  const CandidatePlanner planner(task.robot, options);
-  const CandidateSeeds seeds = planner.front_end().seeds(task.query, task.scene, task.query.goal);
+  const GlobalSeeds seeds =
+      FrontEnd(task.robot, options).seeds(task.query, task.scene, task.query.goal);
   ASSERT_GE(seeds.list.size(), 4u);
-  for (const CandidateSeed& seed : seeds.list) {
-    const PlanCandidate found = planner.plan(task.query, seed, task.scene, kGoOn);
+  for (const Seed& seed : seeds.list) {
+    const PlanCandidate found = candidate_of(task, options, seed);
     ASSERT_EQ(found.reason, PlanReason::kSolved);
     double sum = 0.0;
     for (const auto& [name, value] : found.terms) sum += value;
     EXPECT_NEAR(found.cost, sum, 1e-6 * sum);
-    EXPECT_GE(found.cost, planner.least_cost(seed));
+    EXPECT_GE(found.cost, seed.least_cost);
     EXPECT_GE(found.cost, options.weight_duration * found.motion.end_time());
   }
 }

@@ -1,0 +1,137 @@
+#include "planning/candidates/pipeline.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "planning/candidates/parallel.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kSlowest = 4.0;      // times as long as optimised: slower motions are none
+constexpr double kRepairable = 1.03;  // not worth another optimisation
+constexpr double kSlowDownSlack = 1.001;
+
+/// How many times as long a motion must take to keep the limit that it violates; 1 where that does
+/// not help.
+double slow_down(const Violation& violation) {
+  const double excess = kSlowDownSlack * violation.value / violation.limit;
+  switch (violation.term) {
+    case ViolatedTerm::kSpeed:
+    case ViolatedTerm::kYawRate:
+    case ViolatedTerm::kWheelSpeed:
+      return excess;
+    case ViolatedTerm::kAcceleration:
+      return std::sqrt(excess);
+    default:
+      return 1.0;
+  }
+}
+
+/// From rest to rest, a drive may take longer.
+bool is_free_in_time(const DriveQuery& query) {
+  return query.start.col(1).isZero() && !query.rejoin;
+}
+
+/// The cost that a candidate has to stay below in order to be driven.
+class CostToBeat {
+ public:
+  double get() const { return cost_.load(); }
+  void lower_to(double cost) {
+    double known = cost_.load();
+    while (cost < known && !cost_.compare_exchange_weak(known, cost)) {
+    }
+  }
+
+ private:
+  std::atomic<double> cost_{std::numeric_limits<double>::infinity()};
+};
+
+/// Slower than optimised by a factor, and dearer by what that costs.
+OptimizedTrajectory<2, 3> slowed(OptimizedTrajectory<2, 3> found, double factor,
+                                 const DurationCost& cost) {
+  const double optimised_s = found.curve.duration();
+  const double more = cost.value(factor * optimised_s) - cost.value(optimised_s);
+  found.curve = found.curve.stretched(factor);
+  found.cost += more;
+  for (auto& [name, value] : found.terms) {
+    if (name == "duration") value += more;
+  }
+  return found;
+}
+
+}  // namespace
+
+bool CandidatePipeline::prove(const StartManeuver& start_maneuver,
+                              const OptimizedTrajectory<2, 3>& found,
+                              PlanCandidate& candidate) const {
+  candidate.cost = found.cost;
+  candidate.terms = found.terms;
+  if (!rules_.assemble(start_maneuver, found.curve, candidate)) return false;
+  rules_.certify(candidate);
+  return true;
+}
+
+void CandidatePipeline::climb(const Seed& seed, const StartManeuver& start_maneuver,
+                              const std::function<bool()>& should_stop, PlanCandidate& best) const {
+  const DriveQuery query = rules_.drive(seed, start_maneuver);
+  const EffortLadder ladder = rules_.ladder();
+  Effort effort;
+  for (int attempt = 1; attempt <= ladder.attempts && !should_stop(); ++attempt) {
+    const auto found = optimizer_.optimize_drive(query, obstacles_, effort, should_stop);
+    best.evaluations += found.evaluations;
+    PlanCandidate tried = best;
+    if (found.curve.pieces() == 0 || !prove(start_maneuver, found, tried)) return;
+    const double slower = is_free_in_time(query) ? slow_down(tried.violation) : 1.0;
+    if (slower > 1.0 && slower <= (attempt == ladder.attempts ? kSlowest : kRepairable))
+      prove(start_maneuver, slowed(found, slower, query.duration_cost), tried);
+    const Violation violation = tried.violation;
+    if (tried.met <= best.met) best = std::move(tried);
+    if (best.met == rules_.wanted() || !rules_.may_be_mended(violation)) return;
+    effort = raised(effort, violation, ladder.factor);
+  }
+}
+
+PlanCandidate CandidatePipeline::optimise_and_certify(
+    const Seed& seed, const std::function<bool()>& should_stop) const {
+  PlanCandidate best;
+  best.signature = seed.signature;
+  best.driven = seed.driven;
+  best.path = seed.start_maneuvers.front().path;
+  for (const StartManeuver& start_maneuver : seed.start_maneuvers) {
+    climb(seed, start_maneuver, should_stop, best);
+    if (best.met == rules_.wanted()) break;
+  }
+  if (best.met != RequirementName::kNone) {
+    best.reason = PlanReason::kSolved;
+  } else {
+    best.reason = should_stop() ? PlanReason::kBudgetExhausted : PlanReason::kNotCertified;
+  }
+  return best;
+}
+
+std::vector<PlanCandidate> CandidatePipeline::race(const std::vector<Seed>& seeds,
+                                                   const SwitchRule& rule, int threads,
+                                                   const std::function<bool()>& should_stop) const {
+  std::vector<PlanCandidate> candidates(seeds.size());
+  CostToBeat to_beat;
+  // Cheapest path first, so that what is to beat is known early.
+  in_parallel(seeds.size(), threads, [&](std::size_t i) {
+    const Seed& seed = seeds[i];
+    PlanCandidate& candidate = candidates[i];
+    const auto cannot_win = [&] { return !seed.driven && seed.least_cost >= to_beat.get(); };
+    candidate = optimise_and_certify(seed, [&] { return cannot_win() || should_stop(); });
+    if (candidate.reason == PlanReason::kBudgetExhausted && cannot_win()) {
+      candidate.reason = PlanReason::kCannotWin;
+      candidate.cost = std::max(candidate.cost, seed.least_cost);
+    }
+    if (candidate.met == rules_.wanted())
+      to_beat.lower_to(seed.driven ? rule.to_beat(candidate.cost) : candidate.cost);
+  });
+  return candidates;
+}
+
+}  // namespace mocha

@@ -1,0 +1,148 @@
+#include "planning/candidates/pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+
+#include "planning/worlds.h"
+#include "world/margin_budget.h"
+#include "world/primitive_field.h"
+
+namespace mocha {
+namespace {
+
+using Name = RequirementName;
+
+const std::function<bool()> kGoOn = [] { return false; };
+
+/// Straight drives, certified as the test says: the n-th one as the n-th verdict, the last of which
+/// stays.
+class ToldRules : public CandidateRules {
+ public:
+  struct Verdict {
+    Name met;
+    Violation violation;
+  };
+  mutable std::deque<Verdict> verdicts;
+  mutable std::vector<double> durations_s;  ///< of the drives that were certified
+  bool mends = true;
+
+  Name wanted() const override { return Name::kDetour; }
+  EffortLadder ladder() const override { return {4, 20.0}; }
+  DriveQuery drive(const Seed&, const StartManeuver& start_maneuver) const override {
+    DriveQuery drive;
+    drive.path = start_maneuver.path;
+    drive.start = start_maneuver.state;
+    drive.start_time_s = 0.0;
+    drive.duration_cost = DurationCost::total(1.0);
+    return drive;
+  }
+  bool assemble(const StartManeuver&, const PlanarPath& drive,
+                PlanCandidate& candidate) const override {
+    candidate.motion = Motion(0.0, {DrivePhase{1, drive}});
+    return true;
+  }
+  void certify(PlanCandidate& candidate) const override {
+    durations_s.push_back(candidate.motion.end_time());
+    candidate.met = verdicts.front().met;
+    candidate.violation = verdicts.front().violation;
+    if (verdicts.size() > 1) verdicts.pop_front();
+  }
+  bool may_be_mended(const Violation&) const override { return mends; }
+};
+
+Violation violated(ViolatedTerm term, double value = 2.0, double limit = 1.0) {
+  Violation violation;
+  violation.term = term;
+  violation.value = value;
+  violation.limit = limit;
+  return violation;
+}
+
+class PipelineTest : public ::testing::Test {
+ protected:
+  /// Six metres ahead, from rest.
+  Seed seed(double least_cost, bool driven) const {
+    const StartManeuvers start_maneuvers(robot_.limits, 0.8);
+    return {start_maneuvers.from_rest({}, {{0.0, 0.0}, 0.0}, {{0.0, 0.0}, {6.0, 0.0}}),
+            {},
+            {},
+            least_cost,
+            driven};
+  }
+  PlanCandidate found() const { return pipeline_.optimise_and_certify(seed(0.0, false), kGoOn); }
+
+  const RobotModel robot_ = rover();
+  const DriveOptimizer optimizer_{robot_, default_options(),
+                                  MarginBudget::of(robot_).static_margin_m()};
+  const PrimitiveField<2> open_{{}, 1.0};
+  ToldRules rules_;
+  const CandidatePipeline pipeline_{optimizer_, open_, rules_};
+};
+
+TEST_F(PipelineTest, TriesHarderUntilTheMotionIsCertified) {
+  const Violation unclear = violated(ViolatedTerm::kClearance, 0.1, 0.2);
+  rules_.verdicts = {{Name::kNone, unclear}, {Name::kNone, unclear}, {Name::kDetour, {}}};
+  const PlanCandidate candidate = found();
+  EXPECT_EQ(candidate.reason, PlanReason::kSolved);
+  EXPECT_EQ(candidate.met, Name::kDetour);
+  EXPECT_FALSE(candidate.violation);
+  EXPECT_EQ(rules_.durations_s.size(), 3u);
+}
+
+TEST_F(PipelineTest, GivesUpAfterTheLadderWithTheReason) {
+  rules_.verdicts = {{Name::kNone, violated(ViolatedTerm::kClearance, 0.1, 0.2)}};
+  const PlanCandidate candidate = found();
+  EXPECT_EQ(candidate.reason, PlanReason::kNotCertified);
+  EXPECT_EQ(candidate.violation.term, ViolatedTerm::kClearance);
+  EXPECT_EQ(rules_.durations_s.size(), 4u);
+}
+
+TEST_F(PipelineTest, TriesNoFurtherWhatCannotBeMended) {
+  rules_.mends = false;
+  rules_.verdicts = {{Name::kNone, violated(ViolatedTerm::kClearance, 0.1, 0.2)}};
+  EXPECT_EQ(found().reason, PlanReason::kNotCertified);
+  EXPECT_EQ(rules_.durations_s.size(), 1u);
+}
+
+TEST_F(PipelineTest, KeepsWhatMeetsLessWhereNothingMeetsMore) {
+  const Violation near = violated(ViolatedTerm::kSeparation, 0.1, 0.2);
+  rules_.verdicts = {{Name::kDetourLikely, near}, {Name::kNone, near}};
+  const PlanCandidate candidate = found();
+  EXPECT_EQ(candidate.met, Name::kDetourLikely);
+  EXPECT_EQ(candidate.reason, PlanReason::kSolved);
+  EXPECT_EQ(candidate.motion.end_time(), rules_.durations_s.front());
+}
+
+TEST_F(PipelineTest, DrivesALittleSlowerInsteadOfOptimisingAgain) {
+  rules_.verdicts = {{Name::kNone, violated(ViolatedTerm::kSpeed, 1.02, 1.0)}, {Name::kDetour, {}}};
+  const PlanCandidate candidate = found();
+  EXPECT_EQ(candidate.reason, PlanReason::kSolved);
+  ASSERT_EQ(rules_.durations_s.size(), 2u);
+  EXPECT_NEAR(rules_.durations_s[1], 1.02 * 1.001 * rules_.durations_s[0], 1e-6);
+  double sum = 0.0;
+  for (const auto& [name, value] : candidate.terms) sum += value;
+  EXPECT_NEAR(candidate.cost, sum, 1e-9) << "what it takes longer counts";
+  EXPECT_GE(candidate.cost, candidate.motion.end_time());
+}
+
+TEST_F(PipelineTest, WhatCannotWinIsStoppedUnlessItIsDriven) {
+  rules_.verdicts = {{Name::kDetour, {}}};
+  const auto raced =
+      pipeline_.race({seed(0.0, false), seed(1e3, false), seed(1e3, true)}, {0.1, 0.0}, 1, kGoOn);
+  EXPECT_EQ(raced[0].reason, PlanReason::kSolved);
+  EXPECT_EQ(raced[1].reason, PlanReason::kCannotWin);
+  EXPECT_EQ(raced[1].cost, 1e3);
+  EXPECT_EQ(raced[2].reason, PlanReason::kSolved);
+  EXPECT_TRUE(raced[2].driven);
+}
+
+TEST_F(PipelineTest, SaysThatItWasStopped) {
+  rules_.verdicts = {{Name::kDetour, {}}};
+  const auto raced = pipeline_.race({seed(0.0, false)}, {0.1, 0.0}, 1, [] { return true; });
+  EXPECT_EQ(raced[0].reason, PlanReason::kBudgetExhausted);
+  EXPECT_TRUE(raced[0].motion.empty());
+}
+
+}  // namespace
+}  // namespace mocha

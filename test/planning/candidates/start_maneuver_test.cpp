@@ -1,0 +1,70 @@
+#include "planning/candidates/start_maneuver.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planning/worlds.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kSmoothStart_rad = 0.8;
+const MotionLimits kLimits = rover().limits;
+const StartManeuvers kStartManeuvers(kLimits, kSmoothStart_rad);
+const Pose kAhead{{1.0, 2.0}, 0.0};
+
+/// Straight from where the robot is.
+std::vector<Vector2> path_towards(double yaw_rad) {
+  return {kAhead.position, kAhead.position + 3.0 * Vector2(std::cos(yaw_rad), std::sin(yaw_rad))};
+}
+
+TEST(StartManeuvers, BeginAtOnceWhereThePathLiesAhead) {
+  const auto found = kStartManeuvers.from_rest({}, kAhead, path_towards(0.0));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].phases.empty());
+  EXPECT_EQ(found[0].duration_s, 0.0);
+  EXPECT_EQ(found[0].state.col(0), kAhead.position);
+  EXPECT_TRUE(found[0].state.col(1).isZero());
+  EXPECT_NEAR(found[0].state(0, 2), rest_acceleration(kLimits), 1e-12);
+}
+
+TEST(StartManeuvers, RatherDriveABendThanTurnFirst) {
+  const auto found = kStartManeuvers.from_rest({}, kAhead, path_towards(0.5));
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_TRUE(found[0].phases.empty());
+  EXPECT_EQ(found[1].phases.size(), 1u);
+}
+
+TEST(StartManeuvers, TurnInPlaceWhereThePathLiesAside) {
+  const Phase before = StandPhase{kAhead, 0.4};
+  for (const double yaw_rad : {-2.5, -1.0, 1.0, 3.0}) {
+    const auto found = kStartManeuvers.from_rest({before}, kAhead, path_towards(yaw_rad));
+    ASSERT_EQ(found.size(), 1u) << yaw_rad;
+    ASSERT_EQ(found[0].phases.size(), 2u);
+    EXPECT_NEAR(std::get<TurnPhase>(found[0].phases[1]).yaw_change_rad, yaw_rad, 1e-9);
+    EXPECT_NEAR(found[0].duration_s, 0.4 + duration_s(found[0].phases[1]), 1e-12);
+    const Vector2 along = found[0].state.col(2);
+    EXPECT_NEAR(std::atan2(along.y(), along.x()), yaw_rad, 1e-9) << "it drives off as it stands";
+  }
+}
+
+TEST(StartManeuvers, GoOnOutOfADriveUnlessThePathTurnsAway) {
+  const MotionState state = straight_drive(0.0, kAhead.position, 0.0, 4.0, 0.8, 0.5).at(3.0);
+  const auto found = kStartManeuvers.rolling(state, path_towards(0.6));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].state.col(1), state.velocity);
+  EXPECT_TRUE(found[0].phases.empty());
+  EXPECT_TRUE(kStartManeuvers.rolling(state, path_towards(1.5)).empty());
+  EXPECT_TRUE(kStartManeuvers.rolling({kAhead}, path_towards(0.0)).empty()) << "it stands";
+}
+
+TEST(TurnInPlace, GoesTheShortWayAndLeavesALittleToTheDrive) {
+  const auto turn = turn_in_place({{0.0, 0.0}, 3.0}, -3.0, kLimits);
+  ASSERT_TRUE(turn);
+  EXPECT_NEAR(turn->yaw_change_rad, 2.0 * M_PI - 6.0, 1e-9);
+  EXPECT_FALSE(turn_in_place(kAhead, 0.01, kLimits));
+}
+
+}  // namespace
+}  // namespace mocha

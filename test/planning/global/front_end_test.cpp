@@ -1,0 +1,89 @@
+#include "planning/global/front_end.h"
+
+#include <gtest/gtest.h>
+
+#include "planning/worlds.h"
+
+namespace mocha {
+namespace {
+
+class FrontEndTest : public ::testing::Test {
+ protected:
+  /// Two metres to the left of a post, or of a wall with a gap on either side, to two on its right.
+  FrontEndTest() {
+    fill_box(grid_, {-0.2, -1.0}, {0.2, 1.0});
+    query_.committed = standing(-1.0, {-2.0, 0.0}, 0.0);
+  }
+  GlobalSeeds seeds() const { return front_end_.seeds(query_, {static_map_of(grid_), {}}, kGoal); }
+
+  inline static const Vector2 kGoal{2.0, 0.0};
+  const RobotModel robot_ = rover();
+  const PlannerOptions options_ = default_options();
+  const FrontEnd front_end_{robot_, options_};
+  OccupancyGrid grid_ = free_grid({-5.0, -4.0}, {5.0, 4.0});
+  PlanQuery query_;
+};
+
+TEST_F(FrontEndTest, FindsASeedOnEitherSideWithWhatItCostsAtLeast) {
+  const GlobalSeeds found = seeds();
+  ASSERT_GE(found.list.size(), 2u);
+  EXPECT_NE(found.list[0].signature, found.list[1].signature);
+  for (const Seed& seed : found.list) {
+    ASSERT_FALSE(seed.start_maneuvers.empty());
+    EXPECT_EQ(seed.start_maneuvers[0].path.back(), kGoal);
+    EXPECT_FALSE(seed.driven);
+    // From rest to rest over four metres, straight.
+    const MotionLimits& limits = robot_.limits;
+    EXPECT_GE(seed.least_cost,
+              options_.weight_duration *
+                  (4.0 / limits.max_speed + limits.max_speed / limits.max_acceleration));
+    EXPECT_LT(seed.least_cost, options_.weight_duration * 15.0);
+  }
+}
+
+TEST_F(FrontEndTest, KnowsTheClassThatIsBeingDriven) {
+  const GlobalSeeds fresh = seeds();
+  const std::vector<Vector2>& path = fresh.list[1].start_maneuvers[0].path;
+  std::vector<Phase> phases;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vector2 step = path[i] - path[i - 1];
+    const double yaw_rad = std::atan2(step.y(), step.x());
+    const Pose from{path[i - 1], phases.empty() ? 0.0 : Motion(0.0, phases).end_pose().yaw_rad};
+    if (const auto turn = turn_in_place(from, yaw_rad, robot_.limits)) phases.emplace_back(*turn);
+    const Motion leg = straight_drive(0.0, path[i - 1], yaw_rad, step.norm(), 0.5, 0.5);
+    phases.insert(phases.end(), leg.phases().begin(), leg.phases().end());
+  }
+  query_.driven = Motion(0.0, std::move(phases));
+  const GlobalSeeds found = seeds();
+  ASSERT_TRUE(found.driven);
+  int driven = 0;
+  for (const Seed& seed : found.list) {
+    EXPECT_EQ(seed.driven, seed.signature == *found.driven);
+    driven += seed.driven;
+  }
+  EXPECT_EQ(driven, 1);
+}
+
+TEST_F(FrontEndTest, BrakesFirstWhereThePathTurnsAway) {
+  query_.committed = straight_drive(-2.0, {-1.6, 0.0}, M_PI, 3.0, 0.8, 0.8);
+  const double speed = query_.committed.at(0.0).speed;
+  ASSERT_GT(speed, 0.5);
+  const GlobalSeeds found = seeds();
+  ASSERT_FALSE(found.list.empty());
+  for (const Seed& seed : found.list) {
+    ASSERT_GE(seed.start_maneuvers[0].phases.size(), 2u) << "it brakes and turns";
+    EXPECT_TRUE(seed.start_maneuvers[0].state.col(1).isZero());
+  }
+  query_.committed = standing(-1.0, {-2.0, 0.0}, 0.0);
+  EXPECT_TRUE(front_end_.after_braking(query_, {static_map_of(grid_), {}}, kGoal).list.empty());
+}
+
+TEST_F(FrontEndTest, ReachesWhatIsNotWalledIn) {
+  EXPECT_TRUE(front_end_.reaches({-2.0, 0.0}, kGoal, *static_map_of(grid_)));
+  fill_box(grid_, {-0.2, -4.0}, {0.2, 4.0});
+  EXPECT_FALSE(front_end_.reaches({-2.0, 0.0}, kGoal, *static_map_of(grid_)));
+  EXPECT_TRUE(seeds().list.empty());
+}
+
+}  // namespace
+}  // namespace mocha
