@@ -41,7 +41,7 @@ class GlobalPlannerNode {
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
         values_(values),
         planner_(std::make_unique<GlobalPlanner>(model_, PlannerOptions::from(values))),
-        executive_(GoalExecutiveOptions::from(values), model_.braking_deceleration(),
+        executive_(GoalExecutiveOptions::from(values), model_.braking(),
                    Yielding({false, values.integer("priority"), identity_.name}, model_,
                             PlannerOptions::from(values))),
         stop_(node),

@@ -266,7 +266,7 @@ class TrajectoryBroadcasterNode {
   /// The tracker brakes now: that is what is promised from now on. What the replanner proposed
   /// before it hears so was made for another motion.
   void stop_where_the_lease_ended() {
-    const auto stop = lease_.expire(now_.toSec(), model_.braking_deceleration());
+    const auto stop = lease_.expire(now_.toSec(), model_.braking());
     if (!stop) return;
     ++lease_stops_;
     stop_sequence_ = ++newest_sequence_;

@@ -70,7 +70,7 @@ FleetRobot::FleetRobot(std::string name, const FleetAgent& agent, const FleetOpt
       agent_(agent),
       options_(options),
       planner_(robot_, PlannerOptions::from(global_values(options))),
-      executive_(GoalExecutiveOptions::from(global_values(options)), robot_.braking_deceleration(),
+      executive_(GoalExecutiveOptions::from(global_values(options)), robot_.braking(),
                  Yielding({false, 0, name_}, robot_, PlannerOptions::from(global_values(options)))),
       replanner_(robot_, LocalReplannerOptions::from(local_values(options), robot_),
                  LocalOptions::from(local_values(options))),
@@ -118,7 +118,7 @@ std::vector<FleetRobot::Bytes> FleetRobot::hear(const Bytes& datagram, double no
 }
 
 std::vector<FleetRobot::Bytes> FleetRobot::tick(double now_s) {
-  const auto stop = lease_.expire(now_s, robot_.braking_deceleration());
+  const auto stop = lease_.expire(now_s, robot_.braking());
   if (stop) ++record_.leases_lost;
   return with_protocol(now_s, [&](auto& protocol) {
     return stop ? protocol.brake(proposal(++proposed_, quantised(*stop)), now_s)
