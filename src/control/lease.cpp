@@ -24,11 +24,11 @@ bool stops_alike(const Motion& motion, const Motion& stop) {
 }  // namespace
 
 Motion stop_at_lease_end(const Motion& motion, double lease_end_s, double now_s,
-                         double deceleration) {
+                         const Braking& braking) {
   const double t = motion.clean_cut(std::max(lease_end_s, now_s - kNoticedAfter_s));
   if (t < motion.start_time() || turning(motion, t))
     return Motion(t, {StandPhase{motion.at(t).pose, kStand_s}});
-  return with_brake(motion, t, t, deceleration);
+  return with_brake(motion, t, t, braking);
 }
 
 void LeaseWatch::commit(const MotionId& id, Motion motion, double lease_end_s) {
@@ -41,9 +41,9 @@ void LeaseWatch::renew(const MotionId& id, double lease_end_s) {
   if (id == id_) end_s_ = lease_end_s;
 }
 
-std::optional<Motion> LeaseWatch::expire(double now_s, double deceleration) {
+std::optional<Motion> LeaseWatch::expire(double now_s, const Braking& braking) {
   if (!motion_ || now_s <= end_s_) return std::nullopt;
-  Motion stop = stop_at_lease_end(*motion_, end_s_, now_s, deceleration);
+  Motion stop = stop_at_lease_end(*motion_, end_s_, now_s, braking);
   if (stops_alike(*motion_, stop)) return std::nullopt;
   motion_.reset();
   return stop;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "trajectory/braking.h"
 #include "trajectory/motion.h"
 
 namespace mocha {
@@ -24,22 +25,21 @@ struct Lease {
 };
 
 /// What a robot does on `motion` once its lease has ended: from `lease_end_s` on (absolute; at most
-/// 0.1 s before `now_s`, where that was noticed late) it brakes along its path at `deceleration`
-/// [m/s^2]. A turn in place is broken off, and what has not begun does not begin. Throws
-/// std::invalid_argument for a deceleration that is not positive and finite.
+/// 0.1 s before `now_s`, where that was noticed late) it brakes along its path. A turn in place is
+/// broken off, and what has not begun does not begin.
 Motion stop_at_lease_end(const Motion& motion, double lease_end_s, double now_s,
-                         double deceleration);
+                         const Braking& braking);
 
-/// The lease of the committed motion, as it is followed to tell the others when it ends.
+/// Watches the lease of the committed motion, so that the peers can be told when it ends.
 class LeaseWatch {
  public:
   /// A newly committed motion and the end of its first lease.
   void commit(const MotionId& id, Motion motion, double lease_end_s);
-  /// Sets the end of the lease of the committed motion; of others nothing is known here.
+  /// Sets the end of the lease of the committed motion; those of other motions are ignored.
   void renew(const MotionId& id, double lease_end_s);
   /// The stop that the robot makes because its lease has ended: once, and not where the motion
   /// does the same, or moves no more.
-  std::optional<Motion> expire(double now_s, double deceleration);
+  std::optional<Motion> expire(double now_s, const Braking& braking);
 
   /// The end of the lease (absolute); 0 without a motion.
   double end_s() const { return end_s_; }

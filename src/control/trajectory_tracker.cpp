@@ -51,7 +51,7 @@ TrajectoryTracker::TrajectoryTracker(const TrackerParameters& parameters, const 
       max_position_error_m_(robot.margins.tracking_m),
       lag_s_(robot.actuator_lag_s),
       lead_s_(robot.actuator_lag_s + parameters.command_delay_s),
-      deceleration_(robot.braking_deceleration()),
+      braking_(robot.braking()),
       catch_up_acceleration_(robot.max_wheel_acceleration),
       limiter_(robot) {
   require_positive(max_position_error_m_, "margin_tracking");
@@ -204,7 +204,7 @@ void TrajectoryTracker::handle(TrackerEvent event, double t, const std::string& 
   const TrackerMode next = next_mode(mode_, event);
   if (next == mode_) return;
   if (next == TrackerMode::kBraking) {
-    active_.motion = stop_at_lease_end(active_.motion, active_.lease_end_s, t, deceleration_);
+    active_.motion = stop_at_lease_end(active_.motion, active_.lease_end_s, t, braking_);
   }
   mode_ = next;
   stop_reason_ = reason;

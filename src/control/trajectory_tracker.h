@@ -86,7 +86,7 @@ class TrajectoryTracker {
   double max_position_error_m_;  // e_track, for which the motions were certified
   double lag_s_;
   double lead_s_;  // a command takes effect this much later
-  double deceleration_;
+  Braking braking_;
   double catch_up_acceleration_;
   CommandLimiter limiter_;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace mocha {
 namespace {
@@ -14,9 +15,9 @@ constexpr double kWayStep_s = 0.01;  // the same, where it is the way that is me
 // they stand for.
 constexpr double kOverstated_m = 0.05;
 // The way of a leaving robot, in stages.
-constexpr double kStage_m = 0.05;
-constexpr int kFirst = 6;  // after so many it has the floor
-constexpr int kAll = 20;   // and then all of its margin
+constexpr double kStage_m = 0.02;
+constexpr int kFirst = 15;  // after so many it has the floor
+constexpr int kAll = 50;    // and then all of its margin
 
 double clearance_at(const Pose& pose, const Footprint& footprint, const ObstacleField<2>& field) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -24,6 +25,18 @@ double clearance_at(const Pose& pose, const Footprint& footprint, const Obstacle
     nearest = std::min(nearest, field.distance_bound(cover_centre(pose, disc)) - disc.radius_m);
   }
   return nearest;
+}
+
+/// The gap to ask for, where `gaps_m` are those of all stages so far, the present one included.
+double required_gap_m(const std::vector<double>& gaps_m, double margin_m, const Leaving& leaving) {
+  const int stage = static_cast<int>(gaps_m.size()) - 1;
+  if (stage >= kAll) return margin_m;
+  double required_m = stage >= kFirst ? std::min(leaving.floor_m, margin_m) : gaps_m[0];
+  for (int i = 0; i <= stage; ++i) {
+    const double share = static_cast<double>(stage - i) / kAll;
+    required_m = std::max(required_m, gaps_m[i] + share * share * (margin_m - gaps_m[i]));
+  }
+  return std::min(required_m, margin_m);
 }
 
 /// The time at which the motion has driven `way_m` from `from_s` on; its end where that is sooner.
@@ -47,19 +60,18 @@ Violation check_clearance_or_leaving(const Motion& motion, const Footprint& foot
   const Violation strict = check_clearance(motion, footprint, field, margin_m, from_s);
   if (!strict) return strict;
   const auto gap_at = [&](double t) { return clearance_at(motion.at(t).pose, footprint, field); };
-  double gap_m = gap_at(from_s) - kSlack_m;  // the room that it must not lose any more
-  if (gap_m >= margin_m || gap_m + kSlack_m <= -kOverstated_m) return strict;
+  std::vector<double> gaps_m = {gap_at(from_s) - kSlack_m};
+  if (gaps_m[0] >= margin_m || gaps_m[0] + kSlack_m <= -kOverstated_m) return strict;
   double t = std::max(from_s, motion.start_time());
-  for (int stage = 0; stage < kAll && gap_m < margin_m; ++stage) {
-    if (stage >= kFirst) gap_m = std::max(gap_m, std::min(leaving.floor_m, margin_m));
+  for (;;) {
+    const double required_m = required_gap_m(gaps_m, margin_m, leaving);
+    if (required_m >= margin_m) return check_clearance(motion, footprint, field, margin_m, t);
     const double next_s = time_after(motion, t, kStage_m);
-    const Violation closer = check_clearance(motion, footprint, field, gap_m, t, next_s);
-    if (closer) return closer;
+    const Violation closer = check_clearance(motion, footprint, field, required_m, t, next_s);
+    if (closer || next_s >= motion.end_time()) return closer;
     t = next_s;
-    if (t >= motion.end_time()) return {};
-    gap_m = std::max(gap_m, gap_at(t) - kSlack_m);
+    gaps_m.push_back(gap_at(t) - kSlack_m);
   }
-  return check_clearance(motion, footprint, field, margin_m, t);
 }
 
 Violation check_separation_or_leaving(const Motion& motion, double own_radius_m,

@@ -7,17 +7,18 @@ namespace mocha {
 // Proofs for robots that may already be closer than they should, because the map got better or a
 // peer stopped near by.
 
-/// How a motion that begins closer to obstacles than its margin may go on: it never loses room that
-/// it has gained, and has all of the margin after a metre. So what is certified once is certified
-/// at every later moment of the drive, too.
+/// How a motion that begins closer to obstacles than its margin may go on: the gap grows along the
+/// way as on an arc that leaves a wall, with the square of the way, to all of the margin after a
+/// metre. That is asked from every place of the way on; so room that was gained is never lost, and
+/// what is certified once is certified at every later moment of the drive, too.
 struct Leaving {
   /// The gap [m] that it has to have after 0.3 m already: the tracking error, below which a
   /// contact cannot be excluded.
   double floor_m = 0.0;
 };
 
-/// Clearance as check_clearance() proves it, with that exception. It is none for a robot whose
-/// discs reach more than 5 cm into an obstacle.
+/// Clearance as check_clearance() proves it, with that exception. It does not hold for a robot
+/// whose discs reach more than 5 cm into an obstacle.
 Violation check_clearance_or_leaving(const Motion& motion, const Footprint& footprint,
                                      const ObstacleField<2>& field, double margin_m,
                                      const Leaving& leaving, double from_s);

@@ -50,7 +50,7 @@ CommitmentNews CommitmentKeeping::tick(double now_s) {
 /// The tracker brakes now: that is what is promised from now on. Proposals that were made before
 /// were made for another motion.
 void CommitmentKeeping::stop_where_the_lease_ended(double now_s, CommitmentNews& news) {
-  const auto stop = lease_.expire(now_s, robot_.braking_deceleration());
+  const auto stop = lease_.expire(now_s, robot_.braking());
   if (!stop) return;
   ++counts_.lease_stops;
   news.lease_ended = committed_sequence_;

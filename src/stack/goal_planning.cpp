@@ -14,7 +14,7 @@ PlanningScene scene_of(const PlanQuery& query, const SceneSource& scene) {
 GoalPlanning::GoalPlanning(const RobotModel& robot, const ParameterTable& values, const Rank& rank)
     : robot_(robot),
       planner_(std::make_unique<GlobalPlanner>(robot, PlannerOptions::from(values))),
-      executive_(GoalExecutiveOptions::from(values), robot.braking_deceleration(),
+      executive_(GoalExecutiveOptions::from(values), robot.braking(),
                  Yielding(rank, robot, PlannerOptions::from(values))) {}
 
 void GoalPlanning::set_options(const ParameterTable& values) {

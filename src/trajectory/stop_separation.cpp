@@ -20,14 +20,18 @@ constexpr double kLongestReaction_s = 10.0;
 class SteppedMotion {
  public:
   /// Steps are counted from `first` on, that is from first * kStep_s.
-  SteppedMotion(const Motion& motion, long first, double deceleration)
-      : first_(first), deceleration_(deceleration) {
+  SteppedMotion(const Motion& motion, long first, const Braking& braking)
+      : first_(first), braking_(braking) {
     const double end_s = motion.end_time();
     const long last = std::max(first, static_cast<long>(std::ceil(end_s / kStep_s)));
     for (long i = first; i <= last; ++i) {
       const double t = static_cast<double>(i) * kStep_s;
-      places_.push_back(motion.position(t));
-      speeds_.push_back(t < motion.start_time() || t >= end_s ? 0.0 : motion.velocity(t).norm());
+      const MotionState state = motion.at(t);
+      const bool drives = t >= motion.start_time() && t < end_s;
+      places_.push_back(state.pose.position);
+      speeds_.push_back(drives ? std::abs(state.speed) : 0.0);
+      yaw_rates_.push_back(std::abs(state.yaw_rate));
+      max_lateral_ = std::max(max_lateral_, speeds_.back() * yaw_rates_.back());
     }
     stops_.resize(places_.size());
     max_speed_ = *std::max_element(speeds_.begin(), speeds_.end());
@@ -38,7 +42,7 @@ class SteppedMotion {
   long last() const { return first_ + static_cast<long>(places_.size()) - 1; }
   /// No stop is longer [m].
   double longest_stop_m() const {
-    return max_speed_ * (0.5 * max_speed_ / deceleration_ + 2.0 * kRamp_s);
+    return max_speed_ * (0.5 * max_speed_ / braking_.beside(max_lateral_) + 2.0 * kRamp_s);
   }
 
   /// Where the robot is at step k that brakes from step i on; k is not before i.
@@ -77,8 +81,9 @@ class SteppedMotion {
     double at = static_cast<double>(start);
     stop.push_back(places_[start]);
     for (int i = 0; speed > kSlowest; ++i) {
-      const double ramp = std::min(1.0, (i + 0.5) * kStep_s / kRamp_s);
-      const double rate = acceleration + ramp * (-deceleration_ - acceleration);
+      const double ramped = std::min(1.0, (i + 0.5) * kStep_s / kRamp_s);
+      const double bend = between(yaw_rates_, at) / std::max(between(speeds_, at), kSlowest);
+      const double rate = braking_.rate(acceleration, ramped, bend * speed * speed);
       const double later = std::max(0.0, speed + rate * kStep_s);
       const double brakes_s = rate < 0.0 ? std::min(kStep_s, speed / -rate) : kStep_s;
       const double way_m = 0.5 * (speed + later) * brakes_s;
@@ -90,11 +95,13 @@ class SteppedMotion {
   }
 
   long first_;
-  double deceleration_;
+  Braking braking_;
   std::vector<Vector2> places_;
   std::vector<double> speeds_;
+  std::vector<double> yaw_rates_;
   std::vector<std::vector<Vector2>> stops_;  // as far as they were asked for
   double max_speed_ = 0.0;
+  double max_lateral_ = 0.0;
 };
 
 /// How close the straight line from a to b comes to the origin.
@@ -163,11 +170,8 @@ class Stops {
 
 void check(const Motion& a, const Motion& b, const StopOptions& options) {
   if (a.empty() || b.empty()) throw std::invalid_argument("first_stop_meeting: a motion is empty");
-  if (!(options.deceleration > 0.0) || !(options.reaction_s >= 0.0) ||
-      options.reaction_s > kLongestReaction_s) {
-    throw std::invalid_argument(
-        "first_stop_meeting: needs a deceleration above 0 and a reaction time up to 10 s");
-  }
+  if (!(options.reaction_s >= 0.0) || options.reaction_s > kLongestReaction_s)
+    throw std::invalid_argument("first_stop_meeting: needs a reaction time up to 10 s");
 }
 
 }  // namespace
@@ -179,8 +183,8 @@ std::optional<StopMeeting> first_stop_meeting(const Motion& a, const Motion& b, 
   if (far_apart(a, b, distance_m)) return std::nullopt;
   const long first = static_cast<long>(std::ceil(from_s / kStep_s));
   const long reaction = static_cast<long>(std::ceil(options.reaction_s / kStep_s - 1e-6));
-  SteppedMotion one(a, first, options.deceleration);
-  SteppedMotion other(b, first, options.deceleration);
+  SteppedMotion one(a, first, options.braking);
+  SteppedMotion other(b, first, options.braking);
   const double step_m = (one.max_speed() + other.max_speed()) * kStep_s;
   // From one moment of braking to the next a stop moves by no more than three steps.
   const double far_m = std::max(0.0, distance_m) + 3.0 * step_m;

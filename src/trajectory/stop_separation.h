@@ -3,14 +3,15 @@
 #include <limits>
 #include <optional>
 
+#include "trajectory/braking.h"
 #include "trajectory/motion.h"
 
 namespace mocha {
 
 /// How robots stop for each other.
 struct StopOptions {
-  double deceleration;  ///< [m/s^2] along the own path, of either robot
-  double reaction_s;    ///< from the moment at which the one brakes until the other does
+  Braking braking;    ///< along the own path, of either robot
+  double reaction_s;  ///< from the moment at which the one brakes until the other does
 };
 
 /// A stop by which two robots come too close.
@@ -26,9 +27,8 @@ struct StopMeeting {
 /// its own path after the reaction time.
 ///
 /// Moments and places are 0.1 s apart and joined by straight lines; what is accepted holds to
-/// within 2 cm for accelerations up to 2 m/s^2. Robots brake as brake_along() does: a ramp of 0.2
-/// s, then the deceleration. Throws std::invalid_argument for empty motions, a deceleration that is
-/// not above 0, and a reaction time that is negative or above 10 s.
+/// within 2 cm for accelerations up to 2 m/s^2. Robots brake as brake_along() does. Throws
+/// std::invalid_argument for empty motions, and for a reaction time that is negative or above 10 s.
 std::optional<StopMeeting> first_stop_meeting(
     const Motion& a, const Motion& b, double distance_m, const StopOptions& options, double from_s,
     double until_s = std::numeric_limits<double>::infinity());

@@ -41,15 +41,16 @@ struct Schedule {
   }
 };
 
-void check_deceleration(double deceleration) {
-  if (!(deceleration > 0.0) || !std::isfinite(deceleration)) {
-    throw std::invalid_argument("braking: the deceleration is not positive and finite");
-  }
+/// The acceleration across the track where it is driven at `speed`, not faster than the track is.
+double lateral(const Track& track, double t, double speed) {
+  const MotionState state = track.at(t);
+  return std::abs(state.yaw_rate / state.speed) * speed * speed;
 }
 
 /// Slows down from the track's state at its start: a ramp to the deceleration, then that, but never
 /// faster than the track at the same place (which may be slowing down for a bend).
-Schedule slow_down(const Track& track, double deceleration) {
+Schedule slow_down(const Track& track, const Braking& braking) {
+  const double deceleration = braking.deceleration();
   const MotionState start = track.at(track.start_s);
   double speed = start.velocity.norm();
   const double acceleration = start.acceleration.dot(start.velocity) / speed;
@@ -60,10 +61,10 @@ Schedule slow_down(const Track& track, double deceleration) {
   Schedule schedule{{track.start_s}, std::min(0.01, expected_s / 64.0), 0.0, false};
   double t = track.start_s;
   for (int i = 0;; ++i) {
-    const double share = std::min(1.0, (i + 0.5) * schedule.step_s / ramp_s);
-    const double rate = acceleration + share * (-deceleration - acceleration);
+    const double ramped = std::min(1.0, (i + 0.5) * schedule.step_s / ramp_s);
     const double track_speed = track.speed(t);
     speed = std::min(speed, track_speed);
+    const double rate = braking.rate(acceleration, ramped, lateral(track, t, speed));
     const double next_speed = speed + rate * schedule.step_s;
     const double step = next_speed > 0.0 ? schedule.step_s : -speed / rate;
     // Half a step ahead on the track, for its speed in the middle of the step.
@@ -150,38 +151,35 @@ MotionState on_circle(const Pose& pose, double speed, double yaw_rate, double t)
 
 }  // namespace
 
-std::vector<Phase> brake_along(const Motion& motion, double t, double deceleration) {
-  check_deceleration(deceleration);
+std::vector<Phase> brake_along(const Motion& motion, double t, const Braking& braking) {
   t = motion.switch_time(t);
   const MotionState now = motion.at(t);
   if (now.velocity.norm() < kSlowest) return {StandPhase{now.pose, kStand_s}};
   const Track track{[&motion](double when) { return motion.at(when); },
                     [&motion](double when) { return motion.velocity(when).norm(); }, t,
                     path_end(motion, t)};
-  const Schedule schedule = slow_down(track, deceleration);
+  const Schedule schedule = slow_down(track, braking);
   if (schedule.reaches_end) return motion.phases_between(t, track.end_s);
-  return {drive_to_rest(track, schedule, deceleration)};
+  return {drive_to_rest(track, schedule, braking.deceleration())};
 }
 
 std::vector<Phase> brake_from(const Pose& pose, double speed, double yaw_rate,
-                              double deceleration) {
-  check_deceleration(deceleration);
+                              const Braking& braking) {
   if (std::abs(speed) < kSlowest) return {StandPhase{pose, kStand_s}};
   const Track track{[&](double t) { return on_circle(pose, speed, yaw_rate, t); },
                     [speed](double) { return std::abs(speed); }, 0.0,
                     std::numeric_limits<double>::infinity()};
-  return {drive_to_rest(track, slow_down(track, deceleration), deceleration)};
+  return {drive_to_rest(track, slow_down(track, braking), braking.deceleration())};
 }
 
-Motion with_brake(const Motion& motion, double t0, double t_brake, double deceleration) {
+Motion with_brake(const Motion& motion, double t0, double t_brake, const Braking& braking) {
   const double start = std::max(t0, motion.start_time());
   t_brake = motion.clean_cut(before_crawling(motion, t_brake));
   if (t_brake > start && t_brake - start < kSliver_s) t_brake = start;
   const double switch_s = motion.switch_time(t_brake);
   std::vector<Phase> phases = motion.phases_between(start, switch_s);
   if (phases.empty() || switch_s == t_brake) {
-    for (Phase& phase : brake_along(motion, switch_s, deceleration))
-      phases.push_back(std::move(phase));
+    for (Phase& phase : brake_along(motion, switch_s, braking)) phases.push_back(std::move(phase));
   }
   return Motion(start, std::move(phases));
 }

@@ -2,33 +2,34 @@
 
 #include <vector>
 
+#include "trajectory/braking.h"
 #include "trajectory/motion.h"
 
 namespace mocha {
 
-// Braking motions. `deceleration` [m/s^2] is positive, and std::invalid_argument is thrown
-// otherwise.
+// Braking motions.
 //
 // Guaranteed: they begin at the given position, velocity and acceleration, end at rest, and meet
 // the path again at every knot (0.2 s apart or less). Typical, for motions as they are planned:
-// they leave the path by millimetres between knots and exceed the acceleration limit of the motion
-// by less than 15 % if `deceleration` is at most 0.7 of it. Whether a particular one may be driven
-// is for the certificate to say.
+// they leave the path by millimetres between knots, and exceed an acceleration limit that the
+// motion keeps by less than 15 %, if the deceleration is at most 0.7 of it. Whether a particular
+// one may be driven is for the certificate to say.
 
 /// From the motion's state at absolute time t to rest along its own path, never faster than the
 /// motion itself is at the same place. Where the motion comes to rest no later on the path, that is
 /// what is returned, exactly. At rest, or slower than 1 mm/s: a short stand. In a turn in place,
 /// which cannot be cut, the phases begin at motion.switch_time(t).
-std::vector<Phase> brake_along(const Motion& motion, double t, double deceleration);
+std::vector<Phase> brake_along(const Motion& motion, double t, const Braking& braking);
 
 /// For a robot off its motion: from `speed` [m/s] (negative: backward) to rest. It stays on the
 /// circle on which it is by `yaw_rate` [rad/s], which dies with the speed; straight ahead if that
 /// is 0.
-std::vector<Phase> brake_from(const Pose& pose, double speed, double yaw_rate, double deceleration);
+std::vector<Phase> brake_from(const Pose& pose, double speed, double yaw_rate,
+                              const Braking& braking);
 
 /// The motion from t0 to t_brake, then braking along it. If t_brake falls into a turn in place, the
 /// turn is finished and nothing follows. t0 must be a switch time, or std::invalid_argument is
 /// thrown.
-Motion with_brake(const Motion& motion, double t0, double t_brake, double deceleration);
+Motion with_brake(const Motion& motion, double t0, double t_brake, const Braking& braking);
 
 }  // namespace mocha

@@ -8,8 +8,7 @@
 namespace mocha {
 namespace {
 
-// Of an acceleration limit. Braking along a path overshoots its deceleration by up to 15 %, and the
-// path may bend.
+// Of an acceleration limit, where there is time: a comfortable stop.
 constexpr double kBrakingShare = 0.6;
 constexpr double kBrakingOvershoot = 1.15;  // of a braking curve over its deceleration
 
@@ -76,10 +75,12 @@ void check_lidar(const LidarModel& lidar, const std::string& path) {
 
 }  // namespace
 
-double RobotModel::braking_deceleration() const { return kBrakingShare * limits.max_acceleration; }
+Braking RobotModel::braking() const {
+  return {kBrakingShare * limits.max_acceleration, limits.max_acceleration};
+}
 
-double RobotModel::hard_braking_deceleration() const {
-  return emergency_acceleration / kBrakingOvershoot;
+Braking RobotModel::hard_braking() const {
+  return {emergency_acceleration / kBrakingOvershoot, emergency_acceleration};
 }
 
 MotionLimits RobotModel::emergency_limits() const {
@@ -90,7 +91,7 @@ MotionLimits RobotModel::emergency_limits() const {
 
 std::optional<StopOptions> RobotModel::stop_options() const {
   if (!stops_checked) return std::nullopt;
-  return StopOptions{braking_deceleration(), peer_reaction_s};
+  return StopOptions{braking(), peer_reaction_s};
 }
 
 RobotModel load_robot_model(const std::string& config_directory, const std::string& model) {

@@ -66,11 +66,11 @@ struct RobotModel {
   double odometry_noise_distance;  ///< [m/sqrt(m)]
   double odometry_noise_yaw;       ///< [rad/sqrt(rad)]
 
-  /// Deceleration [m/s^2] of braking in good time: the braking motion stays within the limits.
-  double braking_deceleration() const;
-  /// Deceleration [m/s^2] of braking where that comes too late: within emergency_limits(), for what
-  /// a braking curve adds between its knots.
-  double hard_braking_deceleration() const;
+  /// Braking in good time: the braking motion stays within the limits.
+  Braking braking() const;
+  /// Braking where that comes too late: within emergency_limits(), for what a braking curve adds
+  /// between its knots.
+  Braking hard_braking() const;
   /// What an emergency motion may ask of the robot.
   MotionLimits emergency_limits() const;
   /// How this robot and its peers, which are taken to brake like it, are to be able to stop for

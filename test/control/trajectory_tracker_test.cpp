@@ -86,7 +86,7 @@ TEST(TrajectoryTracker, ExpiredLeaseStopsAlongThePath) {
         if (samples[i].t > expiry)
           braked += (samples[i].pose.position - samples[i - 1].pose.position).norm();
       }
-      EXPECT_LT(braked, speed * speed / (2.0 * model.braking_deceleration()) + 0.2 * speed + 0.03)
+      EXPECT_LT(braked, speed * speed / (2.0 * model.braking().deceleration()) + 0.2 * speed + 0.03)
           << "run " << run;
       EXPECT_LT(worst_position_error(samples), 0.06) << "run " << run;
       EXPECT_LT(std::abs(samples.back().twist.speed), 1e-3);
@@ -111,7 +111,7 @@ TEST(TrajectoryTracker, DrivesWithoutALeaseWhatTheOthersAreTold) {
   loop.tracker.offer({1, 1}, motion, 3.0);
   loop.run(3.1);
   ASSERT_EQ(loop.tracker.mode(), TrackerMode::kBraking);
-  const auto told = watch.expire(3.015, model.braking_deceleration());
+  const auto told = watch.expire(3.015, model.braking());
   ASSERT_TRUE(told);
   for (double t = 3.0; t < told->end_time(); t += 0.1)
     EXPECT_NEAR((told->position(t) - loop.tracker.motion().position(t)).norm(), 0.0, 1e-9);

@@ -13,7 +13,7 @@ using Kind = CommitmentEvent::Kind;
 
 constexpr double kNow_s = 20.0;
 constexpr double kRadius_m = 0.3;
-constexpr StopOptions kOptions{0.5, 0.3};
+const StopOptions kOptions{0.5, 0.3};
 
 CommitmentOptions with_stops(const std::string& agent) {
   CommitmentOptions options = test::options(agent);
@@ -59,7 +59,7 @@ std::vector<CommitmentEvent> proposed(CommitmentProtocol& robot, Motion motion) 
   return events;
 }
 
-TEST(StopConflict, WhoWouldStopInTheWayIsRefused) {
+TEST(StopConflict, ARobotThatWouldStopInTheWayIsRefused) {
   CommitmentOptions options = with_stops("m");
   constexpr double kLater_s = 0.85;  // both drive on: more than 0.6 m apart; one brakes: less
   CommitmentProtocol robot = robot_beside_a_promise(options);
@@ -82,7 +82,7 @@ TEST(StopConflict, WhoWouldStopInTheWayIsRefused) {
   EXPECT_EQ(taken[0].kind, Kind::kSettled);
 }
 
-TEST(StopConflict, WhoIsInTheWayOfAStopDoesNotAgree) {
+TEST(StopConflict, ARobotInTheWayOfAStopDoesNotAgree) {
   for (const bool checks : {true, false}) {
     CommitmentOptions options = with_stops("m");
     if (!checks) options.stops.reset();

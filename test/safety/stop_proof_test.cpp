@@ -7,7 +7,7 @@
 namespace mocha {
 namespace {
 
-constexpr StopOptions kOptions{0.5, 0.3};
+const StopOptions kOptions{0.5, 0.3};
 constexpr double kRadius_m = 0.3;
 
 PeerObstacle peer_on(Motion motion) {
@@ -30,7 +30,7 @@ TEST(StopProof, SaysWhenWhereAndByHowMuch) {
   EXPECT_FALSE(check_stops(own, kRadius_m, later, 0.1, kOptions, 0.0));
 }
 
-TEST(StopProof, WhoIsTooCloseAlreadyMayLeaveButComeNoCloser) {
+TEST(StopProof, ARobotThatIsTooCloseMayLeaveButComeNoCloser) {
   const PeerObstacle stands = peer_on(test::stand(0.0, {0.5, 0.0}));
   const Motion leaves = test::drive(0.0, {{0.0, 0.0}, {-3.0, 0.0}}, 0.5);
   const Motion comes = test::drive(0.0, {{0.0, 0.0}, {0.1, 0.0}}, 0.5);

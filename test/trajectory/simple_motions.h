@@ -62,4 +62,24 @@ inline Motion straight_drive(double start_s, const Vector2& from, double yaw_rad
   return Motion(start_s, {DrivePhase{1, minco.curve()}});
 }
 
+/// Round a circle to the left of the origin, from rest to rest, at about `speed` [m/s] between.
+inline Motion round_a_circle(double radius_m, double speed) {
+  constexpr int kPieces = 24;
+  PlanarMinco::Knots points(2, kPieces + 1);
+  for (int i = 0; i <= kPieces; ++i) {
+    const double angle = 0.25 * i;
+    points.col(i) = radius_m * Vector2(std::sin(angle), 1.0 - std::cos(angle));
+  }
+  Eigen::VectorXd durations = Eigen::VectorXd::Constant(kPieces, 0.25 * radius_m / speed);
+  durations[0] *= 2.0;
+  durations[kPieces - 1] *= 2.0;
+  PlanarMinco::State start = PlanarMinco::State::Zero();
+  PlanarMinco::State end = PlanarMinco::State::Zero();
+  end.col(0) = points.col(kPieces);
+  PlanarMinco minco;
+  minco.resize(kPieces);
+  minco.solve(start, end, points.middleCols(1, kPieces - 1), durations);
+  return Motion(0.0, {DrivePhase{1, minco.curve()}});
+}
+
 }  // namespace mocha

@@ -10,6 +10,7 @@
 
 #include "fleet/protocol/motions.h"
 #include "trajectory/separation.h"
+#include "trajectory/simple_motions.h"
 #include "trajectory/stopping.h"
 
 namespace mocha {
@@ -17,20 +18,23 @@ namespace {
 
 constexpr double kApart_m = 0.6;
 constexpr double kTolerance_m = 0.02;
-constexpr StopOptions kOptions{0.5, 0.3};
+const StopOptions kOptions{0.5, 0.3};
 
 /// How close they come if a brakes at t and b after the reaction time, along real braking motions.
-double closest_where_first_brakes(const Motion& a, const Motion& b, double t) {
-  const auto braking = [](const Motion& motion, double when) {
+double closest_where_first_brakes(const Motion& a, const Motion& b, double t,
+                                  const StopOptions& options) {
+  const auto braking = [&](const Motion& motion, double when) {
     return with_brake(motion, motion.start_time(), std::max(when, motion.start_time()),
-                      kOptions.deceleration);
+                      options.braking);
   };
-  return closest_approach(braking(a, t), braking(b, t + kOptions.reaction_s), t, t + 30.0)
+  return closest_approach(braking(a, t), braking(b, t + options.reaction_s), t, t + 30.0)
       .distance_m;
 }
 
-double closest_stop(const Motion& a, const Motion& b, double t) {
-  return std::min(closest_where_first_brakes(a, b, t), closest_where_first_brakes(b, a, t));
+double closest_stop(const Motion& a, const Motion& b, double t,
+                    const StopOptions& options = kOptions) {
+  return std::min(closest_where_first_brakes(a, b, t, options),
+                  closest_where_first_brakes(b, a, t, options));
 }
 
 /// From rest to rest, at `speed` [m/s] but for the first metre and the last.
@@ -66,7 +70,7 @@ TEST(StopSeparation, AFollowerKeepsWhatTheReactionTakes) {
   EXPECT_NEAR(meeting->distance_m, 0.8 - 0.3, 0.08);
 }
 
-TEST(StopSeparation, WhoCrossesFirstMustNotStopInTheWay) {
+TEST(StopSeparation, TheFirstToCrossMustNotStopInTheWay) {
   const Motion first = along(0.0, {-4.0, 0.0}, {4.0, 0.0}, 1.0);
   const auto second = [](double later_s) { return along(later_s, {0.0, -4.0}, {0.0, 4.0}, 1.0); };
   ASSERT_GT(closest_approach(first, second(0.9), 0.0, 1e3).distance_m, kApart_m)
@@ -87,7 +91,7 @@ TEST(StopSeparation, TwoHeadOnMustBothBeAbleToStop) {
   const Motion comes = along(-1.4, {-4.0, 0.0}, {4.0, 0.0}, 1.0);
   ASSERT_GT(closest_approach(aside, comes, 0.0, 1e3).distance_m, kApart_m + 0.1);
   EXPECT_FALSE(first_stop_meeting(aside, comes, kApart_m, kOptions, 0.0));
-  EXPECT_TRUE(first_stop_meeting(aside, comes, kApart_m, {kOptions.deceleration, 1.2}, 0.0))
+  EXPECT_TRUE(first_stop_meeting(aside, comes, kApart_m, {kOptions.braking, 1.2}, 0.0))
       << "hears of it late";
 }
 
@@ -139,9 +143,34 @@ TEST(StopSeparation, AgreesWithRealBrakingAtEveryMoment) {
   EXPECT_GT(meetings, 30);
 }
 
+TEST(StopSeparation, KnowsThatBrakingIsGentlerInABend) {
+  constexpr double kRadius_m = 4.0;
+  const StopOptions gently_in_bends{{0.6, 1.0}, 0.3};
+  const Motion circling = round_a_circle(kRadius_m, 1.97);  // takes 97 % of the limit
+  const double arrives_s = 0.5 * circling.end_time();
+  const Vector2 crossing = circling.position(arrives_s);
+  const Vector2 outward = (crossing - Vector2(0.0, kRadius_m)).normalized();
+  int meetings = 0;
+  int apart = 0;
+  for (double before_s = 1.0; before_s < 4.0; before_s += 0.05) {
+    const Motion crosses = test::drive(
+        arrives_s - before_s, {crossing - outward, crossing, crossing + 3.0 * outward}, 1.0);
+    if (first_stop_meeting(circling, crosses, kApart_m, gently_in_bends, 0.0)) {
+      ++meetings;
+      continue;
+    }
+    ++apart;
+    for (double t = arrives_s - before_s; t < arrives_s; t += 0.1)
+      EXPECT_GT(closest_stop(circling, crosses, t, gently_in_bends), kApart_m - kTolerance_m)
+          << before_s;
+  }
+  EXPECT_GT(meetings, 5);
+  EXPECT_GT(apart, 5);
+}
+
 TEST(StopSeparation, FindsMeetingsBetweenItsMoments) {
   constexpr double kNear_m = 0.1;
-  constexpr StopOptions kFast{3.0, 0.3};
+  const StopOptions kFast{3.0, 0.3};
   std::mt19937 random(12);
   std::uniform_real_distribution<double> angle(0.5, 2.6);
   std::uniform_real_distribution<double> late_s(-0.3, 0.3);

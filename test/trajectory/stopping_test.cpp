@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "trajectory/random_motion.h"
+#include "trajectory/simple_motions.h"
 
 namespace mocha {
 namespace {
@@ -66,6 +67,32 @@ TEST(Stopping, BrakesAlongRandomMotions) {
   EXPECT_LT(worst_off, 0.01);
   EXPECT_LT(worst_acceleration, 1.15);
   EXPECT_LT(worst_yaw_rate, 1.15);
+}
+
+TEST(Stopping, BrakesGentlyInABend) {
+  constexpr double kLimit = 1.0;  // [m/s^2]
+  const Braking braking(0.6 * kLimit, kLimit);
+  const Motion bend = round_a_circle(4.0, 1.97);  // takes 97 % of the limit
+  for (double share = 0.3; share < 0.7; share += 0.05) {
+    const double t = share * bend.end_time();
+    ASSERT_GT(bend.at(t).acceleration.norm(), 0.95 * kLimit);
+    const Motion stop(t, brake_along(bend, t, braking));
+    EXPECT_LE(sampled_peaks(stop, t).acceleration, 1.02 * kLimit) << share;
+    EXPECT_LT(stop.end_time(), bend.end_time());
+    EXPECT_LT(stop.at(stop.end_time()).velocity.norm(), 1e-9);
+    const Motion careless(t, brake_along(bend, t, 0.6 * kLimit));
+    EXPECT_GT(sampled_peaks(careless, t).acceleration, 1.05 * kLimit) << share;
+    EXPECT_LT(stop.length_m(), 1.4 * careless.length_m());
+  }
+}
+
+TEST(Stopping, BrakesOnTheStraightAsWithoutABend) {
+  const Motion straight = straight_drive(0.0, {0.0, 0.0}, 0.3, 4.0, 1.0, 0.8);
+  const double t = 0.4 * straight.end_time();
+  const Motion one(t, brake_along(straight, t, Braking(0.6, 1.0)));
+  const Motion other(t, brake_along(straight, t, 0.6));
+  EXPECT_EQ(one.end_time(), other.end_time());
+  EXPECT_EQ(one.end_pose().position, other.end_pose().position);
 }
 
 TEST(Stopping, StopsWithinTheDistanceOfTheDeceleration) {
@@ -222,7 +249,7 @@ TEST(Stopping, RefusesDecelerationsThatAreNone) {
   }
 }
 
-TEST(Stopping, WhoHasHardlySetOffKeepsHisHeading) {
+TEST(Stopping, ARobotThatHasHardlySetOffKeepsItsHeading) {
   for (const int direction : {1, -1}) {
     PlanarPath::Piece piece = PlanarPath::Piece::Zero();  // 1 m at 0.7 rad, minimum jerk
     const Vector2 along(std::cos(0.7), std::sin(0.7));

@@ -68,11 +68,16 @@ TEST_F(RobotModelTest, TheJackalIsThatOfTheBarnChallenge) {
 TEST_F(RobotModelTest, BrakesWithinItsLimitsAndHardWithinThoseOfAnEmergency) {
   RobotModel robot = load_robot_model("config", "jackal");
   // As braking along a path asks for (trajectory/stopping.h).
-  EXPECT_LE(robot.braking_deceleration(), 0.7 * robot.limits.max_acceleration);
-  EXPECT_GE(robot.braking_deceleration(), 0.5 * robot.limits.max_acceleration);
+  EXPECT_LE(robot.braking().deceleration(), 0.7 * robot.limits.max_acceleration);
+  EXPECT_GE(robot.braking().deceleration(), 0.5 * robot.limits.max_acceleration);
   EXPECT_EQ(robot.emergency_limits().max_acceleration, robot.emergency_acceleration);
-  EXPECT_GT(robot.hard_braking_deceleration(), robot.braking_deceleration());
-  EXPECT_LT(robot.hard_braking_deceleration(), robot.emergency_acceleration);
+  EXPECT_GT(robot.hard_braking().deceleration(), robot.braking().deceleration());
+  EXPECT_LT(robot.hard_braking().deceleration(), robot.emergency_acceleration);
+  // Gentler in bends.
+  const double all = robot.limits.max_acceleration;
+  EXPECT_LT(robot.braking().beside(0.99 * all), 0.99 * robot.braking().deceleration());
+  EXPECT_EQ(robot.hard_braking().beside(0.0), robot.hard_braking().deceleration());
+  EXPECT_LT(robot.hard_braking().beside(0.99 * robot.emergency_acceleration), all);
 }
 
 TEST_F(RobotModelTest, ValuesThatAreNotGivenAreTheSchemasDefaults) {
@@ -125,9 +130,9 @@ TEST_F(RobotModelTest, AnEmergencyHasMoreAccelerationAndNothingElse) {
     EXPECT_EQ(limits.max_speed, robot.limits.max_speed);
     EXPECT_EQ(limits.max_yaw_rate, robot.limits.max_yaw_rate);
     EXPECT_EQ(limits.max_wheel_speed, robot.limits.max_wheel_speed);
-    EXPECT_LT(robot.braking_deceleration(), robot.limits.max_acceleration);
-    EXPECT_LT(robot.hard_braking_deceleration(), robot.emergency_acceleration);
-    EXPECT_GT(robot.hard_braking_deceleration(), robot.braking_deceleration());
+    EXPECT_LT(robot.braking().deceleration(), robot.limits.max_acceleration);
+    EXPECT_LT(robot.hard_braking().deceleration(), robot.emergency_acceleration);
+    EXPECT_GT(robot.hard_braking().deceleration(), robot.braking().deceleration());
   }
 }
 

@@ -114,7 +114,7 @@ class CommitmentProtocol : public SettlingProtocol {
 
   Meetings meetings(double now) const { return {options_, binding_, now}; }
   Refusal refusal_by_itself(const Motion& motion, double now) const;
-  /// A peer in reach that has not told us that it has seen the promise; none: empty.
+  /// The name of a peer in reach that has not acknowledged the promise; empty if there is none.
   std::string unaware_peer(TrajectoryId id, double now) const;
   std::string unclocked_peer(double now) const;
 

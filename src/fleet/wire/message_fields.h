@@ -12,7 +12,7 @@
 namespace mocha {
 
 // What the parts of a message have in common: numbers as integers, times, names. Everything throws
-// std::invalid_argument, saying what is wrong, for what cannot be said or was not.
+// std::invalid_argument, saying what is wrong, for values that cannot be encoded or decoded.
 
 // What an integer counts, in one second, metre, and so on. Whole numbers: so the nearest double to
 // a decimal number comes back as it went.

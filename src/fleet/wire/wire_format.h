@@ -62,7 +62,7 @@ Datagram decode(const std::uint8_t* data, std::size_t size, const FleetKey* key 
 std::vector<Heartbeat> in_datagrams(const Heartbeat& heartbeat);
 
 /// The promise as its receivers decode it. Throws as encode() does, and where the quantised motion
-/// is none any more. Quantised again it stays as it is.
+/// is not valid any more. Quantised again it stays as it is.
 CommittedTrajectory quantised(const CommittedTrajectory& trajectory);
 
 /// The same for the motion alone.

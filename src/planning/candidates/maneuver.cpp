@@ -8,8 +8,8 @@ namespace mocha {
 
 Maneuver whole(Motion motion, double join_s, bool at_once, const char* words) {
   constexpr double kNever_s = std::numeric_limits<double>::infinity();
-  return {join_s, std::move(motion), kNever_s,          kNever_s, -kNever_s,
-          0.0,    at_once,           Follows::kNothing, words};
+  return {join_s,       std::move(motion), kNever_s,          kNever_s, -kNever_s,
+          std::nullopt, at_once,           Follows::kNothing, words};
 }
 
 bool is_alone(const ManeuverStart& start) {

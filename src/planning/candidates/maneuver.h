@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "planning/candidates/local_scene.h"
@@ -32,9 +33,9 @@ struct Maneuver {
   /// end where all of it is.
   double brake_from_s;
   double brake_until_s;
-  double least_reach_s;  ///< a part that brakes earlier is not worth a message
-  double deceleration;   ///< [m/s^2] of that braking
-  bool at_once;          ///< binds as an emergency, without settling
+  double least_reach_s;            ///< a part that brakes earlier is not worth a message
+  std::optional<Braking> braking;  ///< none where all is promised
+  bool at_once;                    ///< binds as an emergency, without settling
   Follows follows;
   const char* words;  ///< for reports
 };

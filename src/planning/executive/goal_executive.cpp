@@ -27,10 +27,10 @@ GoalExecutive::Report report(PlanReason reason, const std::string& message,
 
 }  // namespace
 
-GoalExecutive::GoalExecutive(const GoalExecutiveOptions& options, double braking_deceleration,
+GoalExecutive::GoalExecutive(const GoalExecutiveOptions& options, const Braking& braking,
                              Yielding yielding)
     : options_(options),
-      braking_deceleration_(braking_deceleration),
+      braking_(braking),
       yielding_(std::move(yielding), options.goals.tolerance_m),
       goals_(options.goals) {}
 
@@ -95,7 +95,7 @@ Vector2 GoalExecutive::destination() const {
 
 Motion GoalExecutive::brake(const Motion& committed, double now_s) const {
   const double from_s = committed.switch_time(now_s + options_.planning_time_s);
-  return Motion(from_s, brake_along(committed, from_s, braking_deceleration_));
+  return Motion(from_s, brake_along(committed, from_s, braking_));
 }
 
 // --- a step ---

@@ -102,7 +102,7 @@ Maneuvers emergency_swerves(const ManeuverStart& start) {
   const MotionState state = start.committed.at(join_s);
   if (std::abs(state.speed) < kSlowest_mps || !is_alone(start)) return {};
   MotionLimits limits = start.robot.limits;
-  limits.max_acceleration = start.robot.hard_braking_deceleration();
+  limits.max_acceleration = start.robot.hard_braking().deceleration();
   Maneuvers maneuvers;
   for (const double hold_s : kHolds_s) {
     for (const double yaw_rate : kYawRates) {

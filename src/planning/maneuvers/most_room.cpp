@@ -28,7 +28,7 @@ class Room {
       : start_(start),
         things_(exposed_to(start, start.now_s)),
         brake_m_(of(with_brake(start.committed, start.committed.cut_time(start.now_s),
-                               start.emergency_s, start.robot.hard_braking_deceleration()))),
+                               start.emergency_s, start.robot.hard_braking()))),
         on_m_(of(start.committed)),
         contact_m_(-(MarginBudget::of(start.robot).own_margin_m() + start.robot.moving_clearance_m +
                      kGraze_m)) {}
@@ -81,7 +81,7 @@ Maneuvers last_resort(const ManeuverStart& start) {
   const bool stands = start.committed.end_time() <= start.now_s;
   if (stands || Room(start).going_on_is_better()) return {};
   return {whole(rest_of(with_brake(start.committed, start.committed.cut_time(start.now_s),
-                                   start.emergency_s, start.robot.hard_braking_deceleration()),
+                                   start.emergency_s, start.robot.hard_braking()),
                         start.emergency_s),
                 start.emergency_s, true, "brakes all the same")};
 }

@@ -110,11 +110,11 @@ std::vector<Step> steps(const ManeuverStart& start, double join_s, const std::ve
   return steps;
 }
 
-Maneuvers best_steps(const ManeuverStart& start, bool at_once, double deceleration,
+Maneuvers best_steps(const ManeuverStart& start, bool at_once, const Braking& braking,
                      const MotionLimits& limits, const char* words) {
   const double join_s = at_once ? start.emergency_s : start.settled_s;
   std::vector<Step> choices =
-      steps(start, join_s, brake_along(start.committed, join_s, deceleration), limits);
+      steps(start, join_s, brake_along(start.committed, join_s, braking), limits);
   std::stable_sort(choices.begin(), choices.end(), [](const Step& a, const Step& b) {
     return a.room_m != b.room_m ? a.room_m > b.room_m : a.motion.end_time() < b.motion.end_time();
   });
@@ -128,19 +128,16 @@ Maneuvers best_steps(const ManeuverStart& start, bool at_once, double decelerati
 }  // namespace
 
 Maneuvers sidesteps(const ManeuverStart& start) {
-  return best_steps(start, false, start.robot.braking_deceleration(), start.robot.limits,
-                    "steps aside");
+  return best_steps(start, false, start.robot.braking(), start.robot.limits, "steps aside");
 }
 
 Maneuvers hard_sidesteps(const ManeuverStart& start) {
   constexpr const char* kWords = "steps aside, which keeps the most room";
   MotionLimits limits = start.robot.limits;
-  limits.max_acceleration = start.robot.hard_braking_deceleration();
-  Maneuvers maneuvers =
-      best_steps(start, false, start.robot.braking_deceleration(), limits, kWords);
+  limits.max_acceleration = start.robot.hard_braking().deceleration();
+  Maneuvers maneuvers = best_steps(start, false, start.robot.braking(), limits, kWords);
   if (!is_alone(start)) return maneuvers;
-  for (Maneuver& each :
-       best_steps(start, true, start.robot.hard_braking_deceleration(), limits, kWords))
+  for (Maneuver& each : best_steps(start, true, start.robot.hard_braking(), limits, kWords))
     maneuvers.push_back(std::move(each));
   return maneuvers;
 }

@@ -60,7 +60,7 @@ class Cutter {
   }
 
   std::optional<CertifiedPart> braking_at(double t, const Violation& cut_by) {
-    return promised(with_brake(onward_, onward_.start_time(), t, maneuver_.deceleration), t,
+    return promised(with_brake(onward_, onward_.start_time(), t, maneuver_.braking.value()), t,
                     cut_by);
   }
 

@@ -70,15 +70,9 @@ std::optional<Maneuver> LocalReplanner::following(Step& step) {
   const bool waits = !same_plan && committed.at(join_s).at_rest;
   const double least_reach_s = same_plan || waits ? (waits ? join_s : reach_s) + kWorthwhile_s
                                                   : -std::numeric_limits<double>::infinity();
-  return Maneuver{join_s,
-                  plan_,
-                  join_s,
-                  now_s + options_.horizon_s,
-                  least_reach_s,
-                  robot.braking_deceleration(),
-                  false,
-                  Follows::kPlan,
-                  ""};
+  return Maneuver{
+      join_s, plan_,          join_s, now_s + options_.horizon_s, least_reach_s, robot.braking(),
+      false,  Follows::kPlan, ""};
 }
 
 Detour::Start LocalReplanner::detour_start(const Step& step) const {
@@ -91,7 +85,7 @@ Maneuvers LocalReplanner::detour(const Step& step, const char* words) const {
   const Motion& motion = step.output.local->motion;
   const double join_s = motion.start_time();
   return {{join_s, motion, join_s, step.start.now_s + options_.horizon_s, join_s + kWorthwhile_s,
-           robot_.braking_deceleration(), false, Follows::kPlan, words}};
+           robot_.braking(), false, Follows::kPlan, words}};
 }
 
 Maneuvers LocalReplanner::detours(const Rung& rung, Step& step) {

@@ -21,7 +21,7 @@ double stop_deceleration(const UnicycleState& twist, const RobotModel& robot) {
   const WheelSpeeds wheels = wheel_speeds(twist, robot.limits.track_m);
   const double fastest = std::max(std::abs(wheels.left), std::abs(wheels.right));
   const double share = fastest > 0.0 ? std::abs(twist.speed) / fastest : 1.0;
-  return std::max(robot.braking_deceleration(), share * robot.max_wheel_acceleration);
+  return std::max(robot.braking().deceleration(), share * robot.max_wheel_acceleration);
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ void LocalReplanner::stop_here(double now_s, const RobotState& measured, Output&
   output.message = text.str();
   output.request_plan = true;
   const Motion stop(now_s, brake_from(measured.pose, measured.twist.speed, measured.twist.yaw_rate,
-                                      robot_.braking_deceleration()));
+                                      robot_.braking()));
   announce(now_s, stop, true, Row::kStopHere, output);
 }
 
@@ -84,8 +84,7 @@ LocalReplanner::Output LocalReplanner::stop_blind(double now_s) {
   output.row = Row::kStopBlind;
   if (committed_.empty() || announced_stop(now_s)) return counted(output);
   const double brake_s = committed_.switch_time(now_s + options_.emergency_s);
-  const Motion stop =
-      with_brake(committed_, committed_.cut_time(now_s), brake_s, robot_.braking_deceleration());
+  const Motion stop = with_brake(committed_, committed_.cut_time(now_s), brake_s, robot_.braking());
   if (stop.end_time() < committed_.end_time() - kSooner_s)
     announce(now_s, rest_of(stop, brake_s), true, Row::kStopBlind, output);
   return counted(output);

@@ -62,8 +62,9 @@ TEST_F(BrakeTest, HardStopsInLessWay) {
   const Motion hard = part(start, brake_hard(start).at(0));
   const double speed = ahead_.at(start.emergency_s).speed;
   const double jerk_m = 0.15 * speed;  // until it brakes with all of its deceleration
-  EXPECT_NEAR(soon.length_m(), speed * speed / (2.0 * robot_.braking_deceleration()), jerk_m);
-  EXPECT_NEAR(hard.length_m(), speed * speed / (2.0 * robot_.hard_braking_deceleration()), jerk_m);
+  EXPECT_NEAR(soon.length_m(), speed * speed / (2.0 * robot_.braking().deceleration()), jerk_m);
+  EXPECT_NEAR(hard.length_m(), speed * speed / (2.0 * robot_.hard_braking().deceleration()),
+              jerk_m);
   EXPECT_LT(hard.length_m(), 0.7 * soon.length_m());
   for (const Motion* stop : {&soon, &hard}) EXPECT_EQ(stop->start_time(), start.emergency_s);
 }

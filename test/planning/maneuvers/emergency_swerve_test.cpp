@@ -71,7 +71,7 @@ TEST_P(EmergencySwerveTest, TurnsOffToBothSidesSoonerAndLater) {
     shortest_m = std::min(shortest_m, end.x() - from_x);
     longest_m = std::max(longest_m, end.x() - from_x);
   }
-  const double brakes_m = 0.5 * speed * speed / robot_.hard_braking_deceleration();
+  const double brakes_m = 0.5 * speed * speed / robot_.hard_braking().deceleration();
   EXPECT_GT(left_m, 0.3);
   EXPECT_NEAR(right_m, -left_m, 0.02);
   EXPECT_LT(shortest_m, 2.0 * brakes_m);

@@ -20,10 +20,9 @@ class CertifiedPartTest : public ManeuverTest {
                                        double now_s, double earliest_s, double latest_s) const {
     const ManeuverStart start = start_of(committed, scene, now_s);
     const double join_s = committed.switch_time(now_s);
-    const Maneuver goes_on{
-        join_s,     rest_of(committed, join_s),    earliest_s, latest_s,
-        earliest_s, robot_.braking_deceleration(), false,      Follows::kCommitted,
-        "goes on"};
+    const Maneuver goes_on{join_s,     rest_of(committed, join_s), earliest_s, latest_s,
+                           earliest_s, robot_.braking(),           false,      Follows::kCommitted,
+                           "goes on"};
     return certified_part(start, goes_on, RequirementName::kPromise);
   }
 
@@ -153,8 +152,7 @@ TEST_F(CertifiedPartTest, GoesOnBeforeWhatComesFromBehind) {
   behind.confident = {person(kStart_s, {-1.76, 0.0}, {0.9, 0.0})};
   behind.predicted_until_s = kStart_s + 4.5;
   const double horizon_s = kStart_s + 3.5;
-  const Motion cut =
-      with_brake(ahead_, ahead_.clean_cut(kStart_s), horizon_s, robot_.braking_deceleration());
+  const Motion cut = with_brake(ahead_, ahead_.clean_cut(kStart_s), horizon_s, robot_.braking());
   ASSERT_TRUE(violation_of(cut, behind, RequirementName::kPromise, kStart_s))
       << "it would be run into where it stops";
   const auto promise = longest(ahead_, behind, kStart_s, kStart_s + 0.3, horizon_s);
@@ -216,7 +214,7 @@ TEST_F(CertifiedPartTest, AsTheLastResortNothingIsCertified) {
   const LocalScene scene = scene_of(grid);
   const ManeuverStart start = start_of(ahead_, scene, now_s);
   const Motion stop(start.emergency_s,
-                    brake_along(ahead_, start.emergency_s, robot_.hard_braking_deceleration()));
+                    brake_along(ahead_, start.emergency_s, robot_.hard_braking()));
   const Maneuver brakes = whole(stop, start.emergency_s, true, "brakes");
   EXPECT_FALSE(certified_part(start, brakes, RequirementName::kRenewal));
   EXPECT_TRUE(certified_part(start, brakes, RequirementName::kNone));

@@ -13,6 +13,7 @@ namespace mocha {
 namespace {
 
 constexpr double kStart_s = 1.7e9 + 0.5;
+constexpr int kSeeds = 150;
 
 /// Random drives at up to the limits, among obstacles, and what of them is promised.
 class RandomParts : public ManeuverTest, public ::testing::WithParamInterface<const char*> {
@@ -37,33 +38,46 @@ class RandomParts : public ManeuverTest, public ::testing::WithParamInterface<co
   }
   /// Braking in a window, of which the length and the place are random, from a random time on.
   struct Part {
+    Motion committed;
+    LocalScene scene;
     double now_s;
     double join_s;
     std::optional<CertifiedPart> part;
   };
-  Part part(int seed, const Motion& committed, const LocalScene& scene, double deceleration,
-            RequirementName required) const {
+  Part part(int seed, const Braking& braking, RequirementName required) const {
+    Motion committed = this->committed(seed);
+    LocalScene scene = this->scene(seed);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     const double now_s = kStart_s + unit(random) * (committed.end_time() - kStart_s);
     const ManeuverStart start = start_of(committed, scene, now_s);
-    const double earliest_s = start.settled_s;
-    const Maneuver brakes{start.settled_s, rest_of(committed, start.settled_s),
-                          earliest_s,      earliest_s + 4.0 * std::max(0.0, unit(random) - 0.3),
-                          earliest_s,      deceleration,
-                          false,           Follows::kCommitted,
-                          "brakes"};
-    return {now_s, start.settled_s, certified_part(start, brakes, required)};
+    const double join_s = start.settled_s;
+    const double until_s = join_s + 4.0 * std::max(0.0, unit(random) - 0.3);
+    const Maneuver brakes{join_s, rest_of(committed, join_s), join_s,  until_s, join_s, braking,
+                          false,  Follows::kCommitted,        "brakes"};
+    auto part = certified_part(start, brakes, required);
+    return {std::move(committed), std::move(scene), now_s, join_s, std::move(part)};
+  }
+
+  void expect_braking_within(const Braking& braking, RequirementName required,
+                             const MotionLimits& limits) const {
+    int promised = 0;
+    for (int seed = 0; seed < kSeeds; ++seed) {
+      const Part found = part(seed, braking, required);
+      if (!found.part) continue;
+      ++promised;
+      const Violation violation = check_limits(found.part->motion, limits, found.now_s);
+      EXPECT_FALSE(violation) << seed << ": " << describe(violation);
+    }
+    EXPECT_GT(promised, kSeeds / 2);
   }
 };
 
 TEST_P(RandomParts, WhatIsCertifiedIsWhatIsHeard) {
   int promised = 0;
-  for (int seed = 0; seed < 150; ++seed) {
-    const Motion committed = this->committed(seed);
-    const LocalScene scene = this->scene(seed);
-    const auto [now_s, join_s, part] = this->part(
-        seed, committed, scene, robot_.braking_deceleration(), RequirementName::kPromise);
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const auto [committed, scene, now_s, join_s, part] =
+        this->part(seed, robot_.braking(), RequirementName::kPromise);
     if (!part) continue;
     ++promised;
     const Motion& motion = part->motion;
@@ -80,37 +94,16 @@ TEST_P(RandomParts, WhatIsCertifiedIsWhatIsHeard) {
                 requirements_[RequirementName::kPromise].from(now_s).joining_at(join_s));
     EXPECT_FALSE(violation) << seed << ": " << describe(violation);
   }
-  EXPECT_GT(promised, 75);
+  EXPECT_GT(promised, kSeeds / 2);
 }
 
 TEST_P(RandomParts, BrakingKeepsTheLimitsOfDriving) {
-  int promised = 0;
-  for (int seed = 0; seed < 150; ++seed) {
-    const Motion committed = this->committed(seed);
-    const LocalScene scene = this->scene(seed);
-    const auto [now_s, join_s, part] = this->part(
-        seed, committed, scene, robot_.braking_deceleration(), RequirementName::kPromise);
-    if (!part) continue;
-    ++promised;
-    const Violation violation = check_limits(part->motion, robot_.limits, now_s);
-    EXPECT_FALSE(violation) << seed << ": " << describe(violation);
-  }
-  EXPECT_GT(promised, 75);
+  expect_braking_within(robot_.braking(), RequirementName::kPromise, robot_.limits);
 }
 
 TEST_P(RandomParts, HardBrakingKeepsTheLimitsOfAnEmergency) {
-  int promised = 0;
-  for (int seed = 0; seed < 150; ++seed) {
-    const Motion committed = this->committed(seed);
-    const LocalScene scene = this->scene(seed);
-    const auto [now_s, join_s, part] = this->part(
-        seed, committed, scene, robot_.hard_braking_deceleration(), RequirementName::kRenewal);
-    if (!part) continue;
-    ++promised;
-    const Violation violation = check_limits(part->motion, robot_.emergency_limits(), now_s);
-    EXPECT_FALSE(violation) << seed << ": " << describe(violation);
-  }
-  EXPECT_GT(promised, 75);
+  expect_braking_within(robot_.hard_braking(), RequirementName::kRenewal,
+                        robot_.emergency_limits());
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, RandomParts, ::testing::Values("rover", "jackal"));

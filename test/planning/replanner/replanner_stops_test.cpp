@@ -120,7 +120,7 @@ TEST_F(ReplannerStopsTest, WithoutDataItSaysAtOnceThatItBrakes) {
     EXPECT_NEAR(stop.position(t).y(), 0.0, 1e-3);
     EXPECT_LE(stop.position(t).x(), ahead_.position(t).x() + 1e-3);
   }
-  const double brakes_m = 0.9 * 0.9 / (2.0 * robot_.braking_deceleration());
+  const double brakes_m = 0.9 * 0.9 / (2.0 * robot_.braking().deceleration());
   EXPECT_NEAR(stop.length_m(), brakes_m, 0.15 * 0.9);
   EXPECT_FALSE(check_limits(stop, robot_.limits, now_s));
 }

@@ -1,0 +1,33 @@
+#include "trajectory/braking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace mocha {
+namespace {
+
+constexpr double kLeastShare = 0.25;  // of the deceleration, beside what the bend takes
+
+void require(bool holds, const char* name, double value, const char* range) {
+  if (holds) return;
+  throw std::invalid_argument(std::string("braking: ") + name + " = " + std::to_string(value) +
+                              " m/s^2, allowed is " + range);
+}
+
+}  // namespace
+
+Braking::Braking(double deceleration, double max_acceleration)
+    : deceleration_(deceleration), max_acceleration_(max_acceleration) {
+  require(deceleration > 0.0 && std::isfinite(deceleration), "deceleration", deceleration,
+          "a finite value above 0");
+  require(max_acceleration > 0.0, "max_acceleration", max_acceleration, "a value above 0");
+}
+
+double Braking::beside(double lateral) const {
+  const double left = max_acceleration_ * max_acceleration_ - lateral * lateral;
+  return std::clamp(std::sqrt(std::max(0.0, left)), kLeastShare * deceleration_, deceleration_);
+}
+
+}  // namespace mocha

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <limits>
+
+namespace mocha {
+
+/// How hard a robot brakes: at a deceleration, and in a bend at what the friction circle leaves.
+class Braking {
+ public:
+  /// `deceleration` [m/s^2]: along the path, at most. `max_acceleration` [m/s^2]: along and across
+  /// the path together; without it, bends change nothing. Throws std::invalid_argument for a
+  /// deceleration that is not positive and finite, and a limit that is not positive.
+  Braking(double deceleration, double max_acceleration = std::numeric_limits<double>::infinity());
+
+  double deceleration() const { return deceleration_; }
+
+  /// What is left for braking beside `lateral` [m/s^2] across the path; at least a quarter of the
+  /// deceleration, so that the robot slows down in the sharpest bend, too.
+  double beside(double lateral) const;
+
+  /// How the speed changes [m/s^2] where the acceleration along the path was `initial` and the ramp
+  /// to the deceleration is done to the share `ramped`, from 0 to 1.
+  double rate(double initial, double ramped, double lateral) const {
+    return initial + ramped * (-beside(lateral) - initial);
+  }
+
+ private:
+  double deceleration_;
+  double max_acceleration_;
+};
+
+}  // namespace mocha
