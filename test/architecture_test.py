@@ -67,8 +67,7 @@ ROOMS = {
 MOST_FILES = 40  # in a room
 MOST_LINES = 320  # of a source
 
-# Includes between rooms of planning/ that point up or aside, and sources that are too long: each to be removed.
-KNOWN_INCLUDES = {("planning/global/global_planner.cpp", "planning/maneuvers/back_out.h")}
+# Sources that are too long: each to be removed.
 KNOWN_LONG = {"fleet/protocol/commitment_protocol.cpp", "nodes/trajectory_broadcaster_node.cpp"}
 
 # Headers of a library, and the paths below src/ that may include them.
@@ -107,7 +106,7 @@ def room_of(path):
     return path.rpartition("/")[0]
 
 
-def include_faults(root, known=frozenset()):
+def include_faults(root):
     for path, text in sources(root):
         folder = path.split("/")[0]
         if folder not in LEVEL:
@@ -120,7 +119,7 @@ def include_faults(root, known=frozenset()):
             elif quote == '"' and target != folder and LEVEL[target] >= LEVEL[folder]:
                 yield f"{path}: {folder} may not include {target} ({header})"
             own, other = room_of(path), room_of(header)
-            if quote == '"' and own != other and (path, header) not in known and ROOM_LEVEL.get(other, -1) >= ROOM_LEVEL.get(own, 9):
+            if quote == '"' and own != other and ROOM_LEVEL.get(other, -1) >= ROOM_LEVEL.get(own, 9):
                 yield f"{path}: {own} may not include {other} ({header})"
             for library, (headers, places) in LIBRARIES.items():
                 if quote == "<" and re.match(headers, header) and not re.match(places, path):
@@ -192,14 +191,12 @@ def live_faults(root):
 
 
 def stale_exceptions(root):
-    includes = {(path, header) for path, text in sources(root) for _, header in INCLUDE.findall(text)}
-    yield from (f"KNOWN_INCLUDES: {path} does not include {header} any more" for path, header in sorted(KNOWN_INCLUDES - includes))
     long = {name for name in KNOWN_LONG if (root / "src" / name).exists() and len((root / "src" / name).read_text().splitlines()) > MOST_LINES}
     yield from (f"KNOWN_LONG: {name} is not too long any more" for name in sorted(KNOWN_LONG - long))
 
 
-def all_faults(root, known_includes=frozenset(), known_long=frozenset()):
-    return [*include_faults(root, known_includes), *room_faults(root, known_long), *core_faults(root), *parameter_faults(root),
+def all_faults(root, known_long=frozenset()):
+    return [*include_faults(root), *room_faults(root, known_long), *core_faults(root), *parameter_faults(root),
             *live_faults(root)]
 
 
@@ -214,7 +211,7 @@ def plant(root, files):
 
 class Architecture(unittest.TestCase):
     def test_this_package(self):
-        self.assertEqual(all_faults(ROOT, KNOWN_INCLUDES, KNOWN_LONG), [])
+        self.assertEqual(all_faults(ROOT, KNOWN_LONG), [])
 
     def test_exceptions_end_with_their_cause(self):
         self.assertEqual(list(stale_exceptions(ROOT)), [])

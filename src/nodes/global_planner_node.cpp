@@ -41,7 +41,7 @@ class GlobalPlannerNode {
         model_(load_robot_model(config_path(""), values.text("robot_model"))),
         values_(values),
         planner_(std::make_unique<GlobalPlanner>(model_, PlannerOptions::from(values))),
-        executive_(GoalExecutiveOptions::from(values), model_.braking_deceleration(),
+        executive_(GoalExecutiveOptions::from(values), model_,
                    Yielding({false, values.integer("priority"), identity_.name}, model_,
                             PlannerOptions::from(values))),
         stop_(node),
@@ -107,8 +107,8 @@ class GlobalPlannerNode {
     PlannerInterface planner;
     if (map_.available()) {
       planner.plan = [this](const PlanQuery& query) { return plan(query); };
-      planner.back_out = [this](const PlanQuery& query) {
-        return planner_->back_out(query, scene_of(query));
+      planner.leads_on = [this](const PlanQuery& query, const Motion& motion) {
+        return planner_->leads_on(motion, query, scene_of(query));
       };
       planner.scene = [this](const std::vector<Vector2>& places) { return scene(places); };
     }
@@ -184,7 +184,6 @@ class GlobalPlannerNode {
       query.start_time_s = now_.toSec();
       query.committed =
           Motion(now_.toSec(), {StandPhase{{start->position, start->yaw_rad.value_or(0.0)}, 0.1}});
-      query.trail.clear();
     }
     return plan(query);
   }

@@ -77,7 +77,7 @@ FleetRobot::FleetRobot(std::string name, const FleetAgent& agent, const FleetOpt
       agent_(agent),
       options_(options),
       planner_(robot_, PlannerOptions::from(global_values(options))),
-      executive_(GoalExecutiveOptions::from(global_values(options)), robot_.braking_deceleration(),
+      executive_(GoalExecutiveOptions::from(global_values(options)), robot_,
                  Yielding({false, 0, name_}, robot_, PlannerOptions::from(global_values(options)))),
       replanner_(robot_, LocalReplannerOptions::from(local_values(options), robot_),
                  LocalOptions::from(local_values(options))),
@@ -237,7 +237,9 @@ std::vector<FleetRobot::Bytes> FleetRobot::pursue(double now_s) {
   refresh_peers(now_s);
   PlannerInterface planner;
   planner.plan = [this](const PlanQuery& query) { return plan(query); };
-  planner.back_out = [this](const PlanQuery& query) { return planner_.back_out(query, scene()); };
+  planner.leads_on = [this](const PlanQuery& query, const Motion& motion) {
+    return planner_.leads_on(motion, query, scene());
+  };
   planner.scene = [this](const auto&) { return scene(); };
   GoalExecutive::Output output =
       executive_.step(now_s, state(now_s), replanner_.committed(), planner);
