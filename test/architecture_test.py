@@ -68,10 +68,6 @@ ROOMS = {
 MOST_FILES = 40  # in a room
 MOST_LINES = 320  # of a source
 
-# Includes between rooms of planning/ that point up or aside, and sources that are too long: each to be removed.
-KNOWN_INCLUDES = {("planning/global/global_planner.cpp", "planning/maneuvers/back_out.h")}
-KNOWN_LONG = set()
-
 # Headers of a library, and the paths below src/ that may include them.
 LIBRARIES = {
     "ROS": (r"(ros|rosbag|rosconsole|tf2\w*|actionlib|message_filters|dynamic_reconfigure|laser_geometry|diagnostic_\w+"
@@ -109,7 +105,7 @@ def room_of(path):
     return path.rpartition("/")[0]
 
 
-def include_faults(root, known=frozenset()):
+def include_faults(root):
     for path, text in sources(root):
         folder = path.split("/")[0]
         if folder not in LEVEL:
@@ -122,14 +118,14 @@ def include_faults(root, known=frozenset()):
             elif quote == '"' and target != folder and LEVEL[target] >= LEVEL[folder]:
                 yield f"{path}: {folder} may not include {target} ({header})"
             own, other = room_of(path), room_of(header)
-            if quote == '"' and own != other and (path, header) not in known and ROOM_LEVEL.get(other, -1) >= ROOM_LEVEL.get(own, 9):
+            if quote == '"' and own != other and ROOM_LEVEL.get(other, -1) >= ROOM_LEVEL.get(own, 9):
                 yield f"{path}: {own} may not include {other} ({header})"
             for library, (headers, places) in LIBRARIES.items():
                 if quote == "<" and re.match(headers, header) and not re.match(places, path):
                     yield f"{path}: {library} has no business here ({header})"
 
 
-def room_faults(root, known=frozenset()):
+def room_faults(root):
     sizes = collections.Counter()
     for path in (path for path in sorted((root / "src").rglob("*")) if path.is_file()):
         name = path.relative_to(root / "src").as_posix()
@@ -138,7 +134,7 @@ def room_faults(root, known=frozenset()):
         if room not in ROOMS:
             yield f"{name}: no sentence in ROOMS says what belongs into {room}/"
         lines = len(path.read_text().splitlines())
-        if lines > MOST_LINES and name not in known:
+        if lines > MOST_LINES:
             yield f"{name}: has {lines} lines, allowed are {MOST_LINES}"
     for room, files in sorted(sizes.items()):
         if files > MOST_FILES:
@@ -197,15 +193,8 @@ def live_faults(root):
             yield f"nodes/{node.name}: serves live parameters, but config/{path.name} marks none"
 
 
-def stale_exceptions(root):
-    includes = {(path, header) for path, text in sources(root) for _, header in INCLUDE.findall(text)}
-    yield from (f"KNOWN_INCLUDES: {path} does not include {header} any more" for path, header in sorted(KNOWN_INCLUDES - includes))
-    long = {name for name in KNOWN_LONG if (root / "src" / name).exists() and len((root / "src" / name).read_text().splitlines()) > MOST_LINES}
-    yield from (f"KNOWN_LONG: {name} is not too long any more" for name in sorted(KNOWN_LONG - long))
-
-
-def all_faults(root, known_includes=frozenset(), known_long=frozenset()):
-    return [*include_faults(root, known_includes), *room_faults(root, known_long), *core_faults(root), *parameter_faults(root),
+def all_faults(root):
+    return [*include_faults(root), *room_faults(root), *core_faults(root), *parameter_faults(root),
             *live_faults(root)]
 
 
@@ -220,10 +209,7 @@ def plant(root, files):
 
 class Architecture(unittest.TestCase):
     def test_this_package(self):
-        self.assertEqual(all_faults(ROOT, KNOWN_INCLUDES, KNOWN_LONG), [])
-
-    def test_exceptions_end_with_their_cause(self):
-        self.assertEqual(list(stale_exceptions(ROOT)), [])
+        self.assertEqual(all_faults(ROOT), [])
 
     def test_planted_faults_are_found(self):
         plants = [

@@ -166,7 +166,6 @@ class GlobalPlannerNode {
       query.start_time_s = now_.toSec();
       query.committed =
           Motion(now_.toSec(), {StandPhase{{start->position, start->yaw_rad.value_or(0.0)}, 0.1}});
-      query.trail.clear();
     }
     return planning_.plan(query, scenes());
   }

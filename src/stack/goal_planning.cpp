@@ -14,7 +14,7 @@ PlanningScene scene_of(const PlanQuery& query, const SceneSource& scene) {
 GoalPlanning::GoalPlanning(const RobotModel& robot, const ParameterTable& values, const Rank& rank)
     : robot_(robot),
       planner_(std::make_unique<GlobalPlanner>(robot, PlannerOptions::from(values))),
-      executive_(GoalExecutiveOptions::from(values), robot.braking(),
+      executive_(GoalExecutiveOptions::from(values), robot,
                  Yielding(rank, robot, PlannerOptions::from(values))) {}
 
 void GoalPlanning::set_options(const ParameterTable& values) {
@@ -38,8 +38,8 @@ GoalExecutive::Output GoalPlanning::step(double now_s, const RobotState& measure
   PlannerInterface planner;
   if (scene) {
     planner.plan = [&](const PlanQuery& query) { return plan(query, scene); };
-    planner.back_out = [&](const PlanQuery& query) {
-      return planner_->back_out(query, scene_of(query, scene));
+    planner.leads_on = [&](const PlanQuery& query, const Motion& motion) {
+      return planner_->leads_on(motion, query, scene_of(query, scene));
     };
     planner.scene = scene;
   }

@@ -38,7 +38,6 @@ PlannerOptions options() {
   options.max_evaluations = 300;
   options.smooth_start_rad = 1.5;
   options.goal_search_radius_m = 0.4;
-  options.backup_distance_m = 1.0;
   options.roadmap = roadmap_kind("best");
   options.classes = 5;
   options.longest_ratio = 2.0;

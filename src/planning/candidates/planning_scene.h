@@ -24,8 +24,6 @@ struct PlanQuery {
   Motion committed;
   Vector2 goal = Vector2::Zero();
   std::optional<double> goal_yaw_rad;
-  /// Where the robot came from, newest last; used to back out.
-  std::vector<Vector2> trail;
   /// The plan to the same goal that is being driven, for its class; empty if there is none.
   Motion driven;
 };

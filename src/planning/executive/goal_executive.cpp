@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "planning/executive/back_out_instead.h"
 #include "trajectory/stopping.h"
 
 namespace mocha {
@@ -27,10 +28,10 @@ GoalExecutive::Report report(PlanReason reason, const std::string& message,
 
 }  // namespace
 
-GoalExecutive::GoalExecutive(const GoalExecutiveOptions& options, const Braking& braking,
+GoalExecutive::GoalExecutive(const GoalExecutiveOptions& options, RobotModel robot,
                              Yielding yielding)
     : options_(options),
-      braking_(braking),
+      robot_(std::move(robot)),
       yielding_(std::move(yielding), options.goals.tolerance_m),
       goals_(options.goals) {}
 
@@ -95,7 +96,7 @@ Vector2 GoalExecutive::destination() const {
 
 Motion GoalExecutive::brake(const Motion& committed, double now_s) const {
   const double from_s = committed.switch_time(now_s + options_.planning_time_s);
-  return Motion(from_s, brake_along(committed, from_s, braking_));
+  return Motion(from_s, brake_along(committed, from_s, robot_.braking()));
 }
 
 // --- a step ---
@@ -200,7 +201,6 @@ PlanQuery GoalExecutive::query_to(const Goal& goal, const Motion& committed, dou
   query.start_time_s = committed.switch_time(now_s + options_.planning_time_s);
   query.goal = goal.position;
   query.goal_yaw_rad = goal.yaw_rad;
-  query.trail = trail_.points();
   return query;
 }
 
@@ -225,7 +225,10 @@ void GoalExecutive::plan(const Input& input, Output& output) {
   output.planned = Planned{target(), input.planner.plan(query)};
   PlanResult& result = output.planned->result;
   if (state_ == S::kDriving && !much_better(result, input.now_s)) return;
-  if (result.motion.empty()) back_out_instead(query, input.planner, result);
+  if (result.motion.empty()) {
+    back_out_instead(query, trail_.points(), options_.backup_distance_m, robot_.limits,
+                     input.planner, result);
+  }
   if (const auto whose = in_way_of(result.motion, input.now_s)) {
     hold_back(*whose, input, output);
     return;

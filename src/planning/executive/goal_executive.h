@@ -38,8 +38,7 @@ class GoalExecutive {
     Ending ending = Ending::kNone;        ///< of all goals
   };
 
-  /// `braking`: where a goal is given up, or room is to be made.
-  GoalExecutive(const GoalExecutiveOptions& options, const Braking& braking, Yielding yielding);
+  GoalExecutive(const GoalExecutiveOptions& options, RobotModel robot, Yielding yielding);
   /// Counts for the goals that are there, too.
   void set_options(const GoalExecutiveOptions& options, const PlannerOptions& planner);
 
@@ -111,7 +110,7 @@ class GoalExecutive {
   void follow_advice(const YieldAdvice& advice, const Motion& braking, Output& output);
 
   GoalExecutiveOptions options_;
-  const Braking braking_;
+  const RobotModel robot_;
   YieldPolicy yielding_;
   GoalQueue goals_;
   DrivenTrail trail_;

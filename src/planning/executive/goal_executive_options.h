@@ -15,6 +15,7 @@ struct GoalExecutiveOptions {
   double retry_period_s;   ///< after a failure
   double min_improvement;  ///< of the remaining time, for a plan to replace a valid one
   double occupied_goal_timeout_s;
+  double backup_distance_m;  ///< to drive back where nothing else helps
   GoalOptions goals;
 
   /// Time between two plans in this state [s]; none where no plan is needed.

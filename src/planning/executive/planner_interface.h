@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "planning/candidates/plan_result.h"
@@ -16,14 +15,10 @@ using SceneSource = std::function<PlanningScene(const std::vector<Vector2>&)>;
 struct PlannerInterface {
   /// A plan, or the reason why there is none.
   std::function<PlanResult(const PlanQuery&)> plan;
-  /// A motion back along the trail, to a place from where the query's goal can be reached as far as
-  /// the map says; certified. Nothing where there is none.
-  std::function<std::optional<Motion>(const PlanQuery&)> back_out;
+  /// Whether a motion from the query's start is certified, and the query's goal can be reached from
+  /// its end as far as the map says.
+  std::function<bool(const PlanQuery&, const Motion&)> leads_on;
   SceneSource scene;
 };
-
-/// Makes a failure a motion back along the trail: where the robot is at rest, team-mates are not
-/// the reason of the failure, and there is such a motion.
-void back_out_instead(const PlanQuery& query, const PlannerInterface& planner, PlanResult& result);
 
 }  // namespace mocha

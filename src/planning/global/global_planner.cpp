@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "planning/global/global_rules.h"
-#include "planning/maneuvers/back_out.h"
 #include "world/margin_budget.h"
 
 namespace mocha {
@@ -43,11 +42,6 @@ GlobalPlanner::GlobalPlanner(RobotModel robot, const PlannerOptions& options)
       optimizer_(robot_, options_, MarginBudget::of(robot_).static_margin_m()),
       front_end_(robot_, options_) {}
 
-Violation GlobalPlanner::certify(const Motion& motion, const ObstacleField<2>& obstacles,
-                                 double from_s) const {
-  return certify_plan(motion, robot_, obstacles, from_s);
-}
-
 std::optional<Vector2> GlobalPlanner::free_goal(const Vector2& goal,
                                                 const ObstacleField<2>& obstacles) const {
   constexpr double kStep_m = 0.05;
@@ -76,7 +70,7 @@ PlanResult GlobalPlanner::turn_only(const PlanQuery& query, const PlanningScene&
   Motion motion(query.start_time_s, std::move(phases));
   PlanResult result;
   result.goal = query.goal;
-  result.violation = certify(motion, scene.static_map->field(), query.start_time_s);
+  result.violation = certify_plan(motion, robot_, scene.static_map->field(), query.start_time_s);
   if (result.violation) {
     result.reason = PlanReason::kNotCertified;
     result.message = describe(result.violation);
@@ -88,21 +82,15 @@ PlanResult GlobalPlanner::turn_only(const PlanQuery& query, const PlanningScene&
   return result;
 }
 
-std::optional<Motion> GlobalPlanner::back_out(const PlanQuery& query,
-                                              const PlanningScene& scene) const {
-  if (refusal(query, scene)) return std::nullopt;
-  const MotionState start = query.committed.at(query.start_time_s);
-  if (!start.at_rest || is_at_goal(start, query)) return std::nullopt;
+bool GlobalPlanner::leads_on(const Motion& motion, const PlanQuery& query,
+                             const PlanningScene& scene) const {
+  if (refusal(query, scene)) return false;
+  if (is_at_goal(query.committed.at(query.start_time_s), query)) return false;
   const ObstacleField<2>& obstacles = scene.static_map->field();
   const auto goal = free_goal(query.goal, obstacles);
-  if (!goal) return std::nullopt;
-  const auto motion = back_out_along(query.trail, start.pose, query.start_time_s,
-                                     options_.backup_distance_m, robot_.limits);
-  if (!motion || certify(*motion, obstacles, query.start_time_s)) return std::nullopt;
-  // Worth while only if the goal can be reached from there, as far as the map says. Team-mates do
-  // not count: they may go away.
-  const bool onward = front_end_.reaches(motion->end_pose().position, *goal, *scene.static_map);
-  return onward ? motion : std::nullopt;
+  if (!goal || certify_plan(motion, robot_, obstacles, query.start_time_s)) return false;
+  // Team-mates do not count: they may go away.
+  return front_end_.reaches(motion.end_pose().position, *goal, *scene.static_map);
 }
 
 std::optional<PlanResult> GlobalPlanner::refusal(const PlanQuery& query,

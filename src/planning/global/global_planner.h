@@ -22,13 +22,9 @@ class GlobalPlanner {
   PlanResult plan(const PlanQuery& query, const PlanningScene& scene,
                   const std::function<bool()>& should_stop) const;
 
-  /// A slow drive back along the query's trail to a place from where its goal can be reached as far
-  /// as the map says; certified. Nothing where there is none, where the robot does not start from
-  /// rest, or where it is at the goal already.
-  std::optional<Motion> back_out(const PlanQuery& query, const PlanningScene& scene) const;
-
-  /// The first violation of a motion on the map from a time on; no violation if it may be driven.
-  Violation certify(const Motion& motion, const ObstacleField<2>& obstacles, double from_s) const;
+  /// Whether a motion from the query's start is certified, and the query's goal can be reached from
+  /// its end, as far as the map says. Not where the robot is at the goal already.
+  bool leads_on(const Motion& motion, const PlanQuery& query, const PlanningScene& scene) const;
 
  private:
   /// Why there is nothing to plan, if so.

@@ -11,7 +11,6 @@ PlannerOptions PlannerOptions::from(const ParameterTable& values) {
   options.clearance_weight = values.number("clearance_weight");
   options.smooth_start_rad = values.number("smooth_start");
   options.goal_search_radius_m = values.number("goal_search_radius");
-  options.backup_distance_m = values.number("backup_distance");
   options.roadmap = roadmap_kind(values.text("roadmap"));
   options.prm_samples = values.integer("prm_samples");
   options.classes = values.integer("classes");

@@ -13,7 +13,6 @@ struct PlannerOptions : DriveOptions {
   double clearance_weight;
   double smooth_start_rad;
   double goal_search_radius_m;
-  double backup_distance_m;
   RoadmapKind roadmap;
   int prm_samples;
   int classes;

@@ -54,16 +54,6 @@ Seed seed_of(const SpaceTimePath& path, const LocalQuery& query, const MotionLim
           std::move(times_s), path.signature, kLeastCost, path.driven};
 }
 
-LocalRules::LocalRules(const Requirements& requirements, const Footprint& footprint,
-                       const LocalOptions& options, const LocalQuery& query,
-                       const LocalScene& scene, const Return& back)
-    : requirements_(requirements),
-      footprint_(footprint),
-      options_(options),
-      query_(query),
-      scene_(scene),
-      back_(back) {}
-
 EffortLadder LocalRules::ladder() const {
   constexpr int kAttempts = 2;
   constexpr double kFactor = 8.0;

@@ -28,7 +28,13 @@ class LocalRules : public CandidateRules {
   /// All must live longer.
   LocalRules(const Requirements& requirements, const Footprint& footprint,
              const LocalOptions& options, const LocalQuery& query, const LocalScene& scene,
-             const Return& back);
+             const Return& back)
+      : requirements_(requirements),
+        footprint_(footprint),
+        options_(options),
+        query_(query),
+        scene_(scene),
+        back_(back) {}
 
   RequirementName wanted() const override { return query_.wanted; }
   EffortLadder ladder() const override;

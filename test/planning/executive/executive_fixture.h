@@ -25,7 +25,14 @@ inline GoalExecutiveOptions options() {
 /// A robot that stands, or is where its plan says, and a planner that finds what it is told to.
 class ExecutiveFixture : public ::testing::Test {
  protected:
-  ExecutiveFixture() { executive_.take({Goal{{kLength_m, 0.0}, std::nullopt}}, now_s_); }
+  /// It came from two metres behind.
+  ExecutiveFixture() {
+    for (const double x : {-2.0, -1.7, -1.4, -1.1, -0.8, -0.5, -0.2, 0.0}) {
+      state_.pose.position = {x, 0.0};
+      executive_.step(now_s_, state_, committed_, {});
+    }
+    executive_.take({Goal{{kLength_m, 0.0}, std::nullopt}}, now_s_);
+  }
 
   PlanResult answer(const PlanQuery& query) {
     asked_.push_back(query);
@@ -42,19 +49,15 @@ class ExecutiveFixture : public ::testing::Test {
     return result;
   }
 
-  std::optional<Motion> back_out(const PlanQuery& query) {
-    ++asked_to_back_out_;
-    if (!can_back_out_) return std::nullopt;
-    return Motion(query.start_time_s,
-                  {StandPhase{query.committed.at(query.start_time_s).pose, 2.0}});
-  }
-
   GoalExecutive::Output step() {
     now_s_ += kPeriod_s;
     state_.stamp_s = now_s_;
     return executive_.step(now_s_, state_, committed_,
                            {[this](const PlanQuery& query) { return answer(query); },
-                            [this](const PlanQuery& query) { return back_out(query); },
+                            [this](const PlanQuery&, const Motion&) {
+                              ++asked_to_back_out_;
+                              return can_back_out_;
+                            },
                             [this](const std::vector<Vector2>&) { return scene_; }});
   }
 
@@ -72,7 +75,7 @@ class ExecutiveFixture : public ::testing::Test {
   }
 
   double now_s_ = 1.7e9;
-  GoalExecutive executive_{options(), kBraking,
+  GoalExecutive executive_{options(), rover(),
                            Yielding({false, 0, "ugv5"}, rover(), default_options())};
   PlanningScene scene_{static_map_of(free_grid({-5.0, -5.0}, {12.0, 5.0})), {}};
   RobotState state_;

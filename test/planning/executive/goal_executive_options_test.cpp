@@ -9,9 +9,12 @@ using S = ExecutiveState;
 
 TEST(GoalExecutiveOptions, AreThoseOfTheSchema) {
   ParameterTable values = ParameterTable::from_schema("config/global_planner.yaml");
-  values.assign(YAML::Load("{replan_period: 1.5, retry_period: 0.4, planning_time: 0.7}"), "test");
+  values.assign(YAML::Load("{replan_period: 1.5, retry_period: 0.4, planning_time: 0.7, "
+                           "backup_distance: 0.9}"),
+                "test");
   const auto options = GoalExecutiveOptions::from(values);
   EXPECT_EQ(options.planning_time_s, 0.7);
+  EXPECT_EQ(options.backup_distance_m, 0.9);
   EXPECT_EQ(options.planning_period_s(S::kDriving), 1.5);
   for (const S state : {S::kBlocked, S::kGoalOccupied, S::kPullOverBlocked, S::kWaiting})
     EXPECT_EQ(options.planning_period_s(state), 0.4) << to_text(state);

@@ -80,7 +80,7 @@ TEST_F(GoalExecutiveTest, BacksOutWhereThereIsNoPlanAndPlansFromThere) {
   EXPECT_EQ(executive_.state(), ExecutiveState::kBackingOut);
   reason_ = PlanReason::kSolved;
   committed_ = back.plan;
-  run(1.95);  // it ends 2.5 s after it was planned
+  run(back.plan.end_time() - options().planning_time_s - now_s_ - 0.05);
   EXPECT_TRUE(asked_.empty());
   EXPECT_FALSE(run(0.1).plan.empty());
   ASSERT_EQ(asked_.size(), 1u);
@@ -123,7 +123,7 @@ TEST_F(GoalExecutiveTest, PlansAgainAndAgainWhereBackingOutHelpedNothing) {
   can_back_out_ = true;
   committed_ = step().plan;
   can_back_out_ = false;
-  run(2.5);
+  run(committed_.end_time() - now_s_);
   EXPECT_EQ(executive_.state(), ExecutiveState::kBlocked);
   run(2.0);
   EXPECT_EQ(asked_.size(), 4u);  // once a retry period

@@ -161,7 +161,7 @@ TEST_F(MakingRoomTest, BacksOutToItsPullOverPointWhereItCannotGoAhead) {
   EXPECT_EQ(executive_.state(), ExecutiveState::kBackingOutToPullOver);
   committed_ = executive_.plan();
   reason_ = PlanReason::kSolved;
-  run_while_asked(request, 2.0);  // to the end of that
+  run_while_asked(request, committed_.end_time() - now_s_);
   EXPECT_EQ(executive_.state(), ExecutiveState::kPullingOver);
   EXPECT_GT(std::abs(executive_.plan().end_pose().position.y()), 0.8);
 }

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <limits>
 
+#include "planning/maneuvers/back_out.h"
 #include "planning/worlds.h"
 #include "safety/certificate.h"
 #include "trajectory/stopping.h"
@@ -241,33 +242,28 @@ TEST_F(GlobalPlannerTest, BacksOutOfADeadEndTheWayItCame) {
   const GlobalPlanner planner(robot, default_options());
   PlanQuery query = from_standing({3.2, 0.0}, 0.0, {8.0, 0.0});
   const PlanningScene scene{static_map_of(grid), {}};
-  EXPECT_FALSE(planner.back_out(query, scene));  // it does not know where it came from
-  for (double x = -1.0; x < 3.2; x += 0.1) query.trail.push_back({x, 0.01 * std::sin(5.0 * x)});
   const PlanResult stuck = planner.plan(query, scene, kGoOn);
   EXPECT_NE(stuck.reason, PlanReason::kSolved);
   EXPECT_TRUE(stuck.motion.empty());  // that is for the goal executive to decide
-  const auto back = planner.back_out(query, scene);
+  std::vector<Vector2> trail;
+  for (double x = -1.0; x < 3.2; x += 0.1) trail.push_back({x, 0.01 * std::sin(5.0 * x)});
+  const auto back = back_out_along(trail, {{3.2, 0.0}, 0.0}, kStart_s, 1.0, robot.limits);
   ASSERT_TRUE(back);
-  ASSERT_EQ(back->phases().size(), 1u);
-  EXPECT_EQ(std::get<DrivePhase>(back->phases()[0]).direction, -1);
+  EXPECT_TRUE(planner.leads_on(*back, query, scene));
   EXPECT_LT(back->end_pose().position.x(), 3.2 - 0.8);
   EXPECT_LT(std::abs(wrap_angle(back->at(kStart_s).pose.yaw_rad)), 1e-3);
   EXPECT_FALSE(check_limits(*back, robot.limits, kStart_s));
   EXPECT_FALSE(check_clearance(*back, robot.footprint, scene.static_map->field(),
                                MarginBudget::of(robot).static_margin_m(), kStart_s));
-  PlanQuery moving = query;
-  moving.committed = straight_drive(kStart_s - 1.0, {2.0, 0.0}, 0.0, 1.2, 0.5, 0.5);
-  EXPECT_FALSE(planner.back_out(moving, scene));
+  EXPECT_FALSE(
+      planner.leads_on(straight_drive(kStart_s, {3.2, 0.0}, 0.0, 0.6, 0.5, 0.5), query, scene))
+      << "into the wall";
   PlanQuery at_goal = query;
   at_goal.goal = {3.2, 0.0};
-  EXPECT_FALSE(planner.back_out(at_goal, scene));
+  EXPECT_FALSE(planner.leads_on(*back, at_goal, scene));
   PlanQuery nowhere = query;
   nowhere.goal = {4.1, 0.0};  // inside of the wall
-  EXPECT_FALSE(planner.back_out(nowhere, scene));
-  // Not where it came from ahead.
-  query.trail.clear();
-  for (double x = 5.0; x > 3.2; x -= 0.1) query.trail.push_back({x, 0.0});
-  EXPECT_FALSE(planner.back_out(query, scene));
+  EXPECT_FALSE(planner.leads_on(*back, nowhere, scene));
 }
 
 TEST_F(GlobalPlannerTest, GoesRoundAStandingPeer) {
@@ -365,7 +361,6 @@ TEST_F(GlobalPlannerTest, HugeNumbersAreNoWay) {
     query = from_standing({huge, 0.0}, 0.0, {8.0, 0.0});
     EXPECT_TRUE(plan(query, open_).motion.empty()) << huge;
     query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-    query.trail = {{huge, huge}, {-huge, 0.0}};
     query.goal_yaw_rad = huge;
     plan(query, open_);
   }
