@@ -13,8 +13,8 @@ namespace mocha {
 struct Seed {
   /// At least one; what is to be preferred comes first.
   std::vector<StartManeuver> start_maneuvers;
-  std::vector<double>
-      times_s;  ///< when the path is at its points, from 0; empty: as the limits say
+  /// When the path is at its points, from 0, increasing; empty: as early as the limits allow.
+  std::vector<double> times_s;
   Signature signature;
   double least_cost;  ///< of every candidate of this class, proved
   bool driven;        ///< the class of what is being driven
@@ -65,8 +65,7 @@ class CandidatePipeline {
   /// A candidate is stopped (kCannotWin) as soon as its least cost is not below what another one
   /// that meets what is wanted costs; so the cheapest is the same however many threads there are.
   /// The candidate of the class that is driven runs to its end, as the others are measured against
-  /// it. `should_stop` may be called by several
-  /// threads at once.
+  /// it. `should_stop` may be called by several threads at once.
   std::vector<PlanCandidate> race(const std::vector<Seed>& seeds, const SwitchRule& rule,
                                   int threads, const std::function<bool()>& should_stop) const;
 
