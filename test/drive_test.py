@@ -22,7 +22,7 @@ def faults(results):
         if robot["contacts"]:
             yield f"{robot['name']} touched something"
     if not results["robots"]:
-        yield "nobody drove"
+        yield "no robot drove"
     elif results["min_separation_m"] is not None and results["min_separation_m"] < SAFETY_DISTANCE_M:
         yield f"two robots came as close as {results['min_separation_m']:.3f} m"
 

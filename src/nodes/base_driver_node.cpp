@@ -27,8 +27,8 @@ const ros::WallDuration kListenPeriod(0.005);
 
 /// Velocity commands out to the base, its odometry and sensors in.
 ///
-/// The base stands unless somebody has commanded a velocity a short while ago and the base answers.
-/// Who stops commanding has it slowed down by the ramp; who dies with this node, by the firmware's
+/// The base stands unless a velocity was commanded a short while ago and the base answers. When
+/// commands cease, it is slowed down by the ramp; when this node dies, by the firmware's
 /// heartbeat. In an emergency stop the wheels are stopped as hard as they can be, then the firmware
 /// is told to hold them, until the reset.
 class BaseDriverNode {

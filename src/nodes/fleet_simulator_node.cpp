@@ -269,7 +269,7 @@ int main(int argc, char** argv) {
   try {
     const auto values = mocha::read_parameters(ros::NodeHandle("~"), "fleet_simulator");
     if (!ros::Time::isSimTime()) {
-      ROS_WARN("/use_sim_time is not true: on the machine's clock, waiting for nobody");
+      ROS_WARN("/use_sim_time is not true: on the machine's clock, waiting for no node");
     }
     mocha::FleetSimulatorNode(node, values).run();
   } catch (const std::exception& error) {

@@ -33,7 +33,7 @@ constexpr double kPeriod_s = 0.02;
 const char* text_of(CommitmentProtocol::State state) {
   switch (state) {
     case CommitmentProtocol::State::kListening:
-      return "listening for who is there";
+      return "listening for peers";
     case CommitmentProtocol::State::kIdle:
       return "nothing promised";
     case CommitmentProtocol::State::kProposing:
@@ -122,7 +122,7 @@ class TrajectoryBroadcasterNode {
     ROS_WARN_THROTTLE(1.0, "Refused a message on %s: %s", topic.c_str(), why.c_str());
   }
 
-  /// For all team-mates, who make nothing of one in another name.
+  /// For all team-mates, which refuse one in another name.
   void on_yield_request(const mocha_ugv::YieldRequest& message) {
     if (!advance_clock(ros::Time::now())) return;
     try {

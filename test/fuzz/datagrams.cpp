@@ -30,7 +30,7 @@ constexpr std::size_t kBodyAt = 28;
 constexpr std::size_t kEpochAt = kBodyAt + 6;  // where the name has four letters
 constexpr std::size_t kNumberAt = kBodyAt + 10;
 constexpr int kLifetime =
-    2000;  // datagrams, after which a robot that hears nobody any more is replaced
+    2000;  // datagrams, after which a robot that hears no peer any more is replaced
 
 class Fuzzer {
  public:

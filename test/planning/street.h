@@ -12,7 +12,7 @@
 
 namespace mocha {
 
-/// Somebody who goes a way of straight legs and heeds nobody; after the last one, stands.
+/// A person that goes straight legs and heeds no robot; after the last one, stands.
 struct Walker {
   struct Leg {
     double duration_s;
@@ -40,7 +40,7 @@ struct Walker {
   }
 };
 
-/// The closed loop of a rover among people, who are predicted from what they do at each step.
+/// The closed loop of a rover among people, which are predicted from what they do at each step.
 /// Their true discs are watched every 10 ms.
 class Street {
  public:
@@ -94,7 +94,7 @@ class Street {
   std::mt19937 random;  ///< that the noise is drawn from
 
   double least_gap_m = std::numeric_limits<double>::infinity();  ///< between the true discs
-  double contact_speed = 0.0;  ///< [m/s] at which the robot itself runs into somebody, the highest
+  double contact_speed = 0.0;  ///< [m/s] at which the robot itself runs into a person, the highest
   int yaw_swings = 0;          ///< from turning one way to turning the other
   int swerves_tried = 0;
   int swerves = 0;   ///< taken

@@ -54,7 +54,7 @@ TEST(FleetRun, WhoHearsNothingDrivesIntoTheOthersAndThatIsSeen) {
   EXPECT_GT(contacts, 0);
 }
 
-/// Nobody gets through where the way is as wide as one robot but by making room.
+/// Where the way is as wide as one robot, one gets through only if another makes room.
 class NarrowPlaces : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(NarrowPlaces, AllArriveWithoutContact) {

@@ -32,7 +32,7 @@ double least_room_m(const Motion& motion, const std::vector<MovingThing>& moving
                     double until_s, double of_no_use_m) {
   constexpr double kStep_s = 0.1;
   constexpr double kSoon_s = 4.0;
-  constexpr double kLaterStep_s = 0.4;  // mostly, who is looked at has come to rest by then
+  constexpr double kLaterStep_s = 0.4;  // mostly, what is looked at has come to rest by then
   double least_m = std::numeric_limits<double>::infinity();
   for (double t = from_s; t < until_s && least_m >= of_no_use_m;
        t += t < from_s + kSoon_s ? kStep_s : kLaterStep_s) {

@@ -5,13 +5,13 @@
 
 namespace mocha {
 
-/// When a robot asks its team-mates for its way: once it has stood for a while with somebody on it,
-/// and then again and again until nobody is near it any more.
+/// When a robot asks its team-mates for its way: once it has stood for a while with one of them on
+/// it, and then again and again until none is near it any more.
 class YieldAsking {
  public:
   /// Whether to look at the way now; `rests`: the robot stands, though it wants to go on.
   bool due(double now_s, bool rests);
-  /// The look: whether somebody is on the way, or near it. Says whether to ask (again).
+  /// The look: whether a team-mate is on the way, or near it. Says whether to ask (again).
   bool look(double now_s, bool on_it, bool near_it);
   /// Asks no more, and begins anew with another way.
   void stop();
@@ -25,7 +25,7 @@ class YieldAsking {
   bool withdraws_ = false;
   std::optional<double> stands_since_s_;
   double looked_s_ = -std::numeric_limits<double>::infinity();
-  double near_s_ = 0.0;  // when somebody was near the way last
+  double near_s_ = 0.0;  // when a team-mate was near the way last
 };
 
 }  // namespace mocha

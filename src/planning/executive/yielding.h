@@ -12,13 +12,13 @@
 
 namespace mocha {
 
-/// Who of a fleet makes room for whom where two want the same narrow place. The robot of higher
-/// rank says which way it wants; who stands or would drive in that way keeps out of it until the
-/// other has passed, and if somebody stands in the way to where it keeps out, asks him in turn, in
-/// the name of the higher one. Who has no place to keep out outranks all who have one; who is
-/// parked is outranked by all who are on their way.
+/// Which robot makes room where two want the same narrow place. The robot of higher rank says which
+/// way it wants. A robot that stands or would drive in that way keeps out of it until the other has
+/// passed; if a third one stands in the way to where it keeps out, it asks that one in turn, in the
+/// name of the higher rank. A robot without a place to keep out outranks all that have one; a
+/// parked robot is outranked by all that are on their way.
 ///
-/// As ranks are a total order, somebody always goes on; a request ends with its goal, so nobody
+/// As ranks are a total order, one robot always goes on; a request ends with its goal, so no robot
 /// waits for ever.
 class Yielding {
  public:
@@ -33,16 +33,15 @@ class Yielding {
 
   /// Whether a request of higher rank is in force.
   bool yields(double now_s) const { return !above(now_s).empty(); }
-  /// The highest rank whose way it is that who stands here stands in; none: nobody's.
+  /// The highest rank with a way that a robot at `place` stands in; nothing where there is none.
   std::optional<Rank> in_way_of(const Vector2& place, double now_s) const;
-  /// The same for who drives `motion` and then stands: somewhere on such a way at a time when the
+  /// The same for a robot that drives `motion` and then stands: on such a way at a time when the
   /// other may have come there.
   std::optional<Rank> in_way_of(const Motion& motion, double now_s) const;
 
-  /// The nearest place, by way of the map, that is in nobody's way who has the right of it; if
-  /// there is none that is in nobody's, one that leaves the higher ones theirs. Standing team-mates
-  /// are driven around if possible; else they will be asked. Nothing where there is no such place:
-  /// this robot is stuck.
+  /// The nearest place, along the map, that is off all ways of higher ranks; where there is none,
+  /// one off as many of the highest as can be. Standing team-mates are driven around if possible;
+  /// else they will be asked. Nothing where there is no such place: this robot is stuck.
   std::optional<Vector2> pull_over_point(const Vector2& from, const PlanningScene& scene,
                                          double now_s) const;
 

@@ -16,7 +16,7 @@ enum class LocalStage { kFrontEnd, kOptimisation, kDone };
 /// Section V: leaves a plan in order to avoid what moves, and comes back to it.
 class LocalPlanner {
  public:
-  /// Told when a stage begins, for whoever measures; called by several threads at once.
+  /// Told when a stage begins, for measurements; called by several threads at once.
   using Watch = std::function<void(LocalStage)>;
 
   LocalPlanner(

@@ -45,7 +45,7 @@ class EmergencyStopControls {
   bool on_robot_call(Call& call);
   bool on_fleet_call(Call& call);
   bool answer(Call& call);
-  /// Tells everybody what has changed.
+  /// Tells all what has changed.
   void tell();
   void publish();
   /// Writes to the file what has changed.

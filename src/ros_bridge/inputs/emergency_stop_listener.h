@@ -11,13 +11,13 @@
 namespace mocha {
 
 /// A node's ear for emergency stops: `emergency_stop` and `fleet/emergency_stop`, where true stops
-/// at once, whoever else is alive, and `emergency_stop_state`, which alone says of a reset.
+/// at once, whatever else is alive, and `emergency_stop_state`, which alone says of a reset.
 class EmergencyStopListener {
  public:
   explicit EmergencyStopListener(ros::NodeHandle& node);
 
   bool stopped() const { return latch_.stopped(); }
-  /// Whoever knows has said that no stop holds.
+  /// `emergency_stop_state` has said that no stop holds.
   bool released() const { return latch_.released(); }
   /// How often it came to be stopped.
   int stops() const { return stops_; }

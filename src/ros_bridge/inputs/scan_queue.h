@@ -29,7 +29,7 @@ struct Measurement {
 /// Messages that were not used, counted by reason.
 class Refusals {
  public:
-  /// `reason` is counted; `detail`, in the words of whoever refused, is kept until the next one.
+  /// `reason` is counted; `detail`, as it was refused, is kept until the next one.
   void add(const std::string& reason, const std::string& detail = "");
   const std::map<std::string, int>& counts() const { return counts_; }
   const std::string& newest() const { return newest_; }

@@ -36,7 +36,7 @@ std::string why(const CommitmentEvent& event) {
     case Refusal::kNone:
       return "no refusal";
     case Refusal::kListening:
-      return "just started, still listening for who is there";
+      return "just started, still listening for peers";
     case Refusal::kTooLate:
       return "starts before it can be settled";
     case Refusal::kDiscontinuous:

@@ -30,7 +30,7 @@ mocha_ugv::Settlement settlement_of(const Settled& settled, const std::string& f
 /// The same for the proposer.
 Answer answer_from_message(const mocha_ugv::Settlement& settlement);
 
-/// The event in words: what, with whom, where, when and by how much.
+/// The event in words: what, with which peer, where, when and by how much.
 std::string describe(const CommitmentEvent& event);
 
 }  // namespace mocha

@@ -23,9 +23,9 @@ geometry_msgs::PoseWithCovarianceStamped pose_message(const Localization& locali
 geometry_msgs::TransformStamped map_to_odom(const Localization& localization,
                                             const RobotIdentity& robot);
 
-/// What somebody says of the robot's place, as rviz's 2D Pose Estimate does. Deviations below 0.2 m
-/// and 0.1 rad are raised to these: nobody points more exactly. Nothing where the message is not in
-/// `map_frame`, or not finite, or its covariance is none; `fault` then says why.
+/// A place that is given to the robot, as by rviz's 2D Pose Estimate. Deviations below 0.2 m
+/// and 0.1 rad are raised to these: a hand points no more exactly. Nothing where the message is not
+/// in `map_frame`, or not finite, or its covariance is none; `fault` then says why.
 std::optional<PoseEstimate> from_message(const geometry_msgs::PoseWithCovarianceStamped& message,
                                          const std::string& map_frame, std::string& fault);
 

@@ -21,7 +21,7 @@ sensor_msgs::LaserScan scan_message(const SimulatedRobot& robot, const Scan& sca
 geometry_msgs::TransformStamped odom_to_base(const SimulatedRobot& robot, ros::Time stamp);
 /// From the truth: what a perfect localiser would say.
 geometry_msgs::TransformStamped map_to_odom(const SimulatedRobot& robot, ros::Time stamp);
-/// The same where odometry is another's, who said at its stamp that the robot was there.
+/// The same where odometry comes from elsewhere, and was right at its stamp.
 geometry_msgs::TransformStamped map_to_odom(const SimulatedRobot& robot,
                                             const nav_msgs::Odometry& odometry, ros::Time stamp);
 geometry_msgs::TransformStamped base_to_laser(const SimulatedRobot& robot);

@@ -28,8 +28,8 @@ FleetNetwork::FleetNetwork(ros::NodeHandle& node, const RobotIdentity& robot,
     ROS_INFO("%s: hears its fleet on %s", robot.name.c_str(), options.lcm_url.c_str());
     if (!link_.has_key()) {
       ROS_WARN(
-          "%s: without fleet_key, EVERYBODY ON THE NETWORK IS TRUSTED: anybody may stop this "
-          "robot, or make it believe that there is nobody in its way",
+          "%s: without fleet_key, ALL ON THE NETWORK ARE TRUSTED: any computer may stop this "
+          "robot, or make it believe that there is nothing in its way",
           robot.name.c_str());
     }
     return;
@@ -118,8 +118,7 @@ void FleetNetwork::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   const DatagramLink::Counts& counts = link_.counts();
   if (channel_) {
     if (!link_.has_key())
-      status.mergeSummary(DiagnosticStatus::WARN,
-                          "no fleet_key: everybody on the network is trusted");
+      status.mergeSummary(DiagnosticStatus::WARN, "no fleet_key: all on the network are trusted");
     if (counts.unsealed + counts.foreign > 0)
       status.mergeSummary(DiagnosticStatus::WARN,
                           "robots or strangers without this fleet's key are on the network");

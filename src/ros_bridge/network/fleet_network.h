@@ -36,7 +36,7 @@ class FleetNetwork {
   void send(const FleetMessage& message, ros::Time now);
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
-  /// Share of a peer's newest datagrams that did not come; none where nobody counts.
+  /// Share of a peer's newest datagrams that did not come; none where they are not counted.
   std::optional<double> loss(const std::string& peer) const;
   int refused() const { return refused_ + link_.counts().refused(); }
 

@@ -52,9 +52,10 @@ void diagnose_peers(const PeerTable& peers, double now_s, double delta_dc_s,
   }
   if (peers.unlikely_epochs() > 0) {
     status.add("starts of this robot told that cannot be", peers.unlikely_epochs());
-    status.mergeSummary(DiagnosticStatus::WARN,
-                        "peers say that this robot was started oftener than it can have been: "
-                        "somebody spoke in its name, and they do not hear it until started anew");
+    status.mergeSummary(
+        DiagnosticStatus::WARN,
+        "peers say that this robot was started oftener than it can have been: "
+        "another sender spoke in its name, and they do not hear it until started anew");
   }
   status.add("duplicates", peers.duplicates());
   status.add("messages older than known", peers.old_messages());

@@ -9,9 +9,9 @@
 
 namespace mocha {
 
-/// The simulator's clock: publishes /clock and waits until everybody in the roster has acknowledged
-/// the step. While it waits it serves the global callback queue, so that all of this happens in one
-/// thread.
+/// The simulator's clock: publishes /clock and waits until all nodes in the roster have
+/// acknowledged the step. While it waits it serves the global callback queue, so that all of this
+/// happens in one thread.
 class Lockstep {
  public:
   Lockstep(ros::NodeHandle& node, AckRoster roster, ros::WallDuration start_timeout,
@@ -21,7 +21,7 @@ class Lockstep {
   /// passed.
   void await_nodes(ros::Time start);
 
-  /// Shows `now` and waits for the acknowledgements; who does not give one within the ack timeout
+  /// Shows `now` and waits for the acknowledgements; a node without one within the ack timeout
   /// is reported and left out.
   void announce(ros::Time now);
 

@@ -34,7 +34,7 @@ struct Scenery {
   Cuts<2> cuts;
 };
 
-/// Who stands inside may leave.
+/// A path that begins inside may leave.
 double radius_of(const BlockedDisc& disc, const TravelCost& cost) {
   return std::min(disc.radius_m, (cost.start() - disc.centre).norm());
 }

@@ -58,7 +58,7 @@ std::vector<Circle> coarse_to_fine(const std::vector<Circle>& circles) {
   return ordered;
 }
 
-/// All circles and the virtual wall, largest first: nobody is inside of one who comes later.
+/// All circles and the virtual wall, largest first: none is inside of a later one.
 std::vector<Circle> all_circles(const std::vector<ObstacleGroup>& groups, Eigen::AlignedBox2d box,
                                 double required_m) {
   std::vector<Circle> circles;

@@ -112,7 +112,7 @@ class Builder {
   }
 
   /// Leads straight away from the nearest circle until another is as near: clearance grows all the
-  /// way, so that who stands in free space always reaches an arc.
+  /// way, so that from free space it always reaches an arc.
   void add_foot(const Terminal& end) {
     if (!(end.clearance_m > 0.0)) return;
     const Vector2 away = (end.position - skeleton_.sites[end.site].centre).normalized();

@@ -23,7 +23,7 @@ struct Skeleton {
     std::array<int, 2> sites;
     Bisector bisector;
     std::array<double, 2> range;  ///< of the bisector's parameter, ascending
-    std::array<int, 2> ends;      ///< vertices; -1 where nobody goes
+    std::array<int, 2> ends;      ///< vertices; -1 where no arc goes on
   };
 
   std::vector<Circle> sites;  ///< none inside of another

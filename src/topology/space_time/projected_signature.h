@@ -34,9 +34,9 @@ ProjectedSignature projected_signature(const SpaceTime<3>& space,
 /// Whether some entry differs from which neither abstains, of two paths with the same ends.
 bool differ(const ProjectedSignature& a, const ProjectedSignature& b);
 
-/// Of paths that are given shortest first, some that differ pairwise, shortest first. Who abstains
-/// differs from nobody; so of the choices that begin with some path and take on, in order, whatever
-/// differs from all before it, this is the largest.
+/// Of paths that are given shortest first, some that differ pairwise, shortest first. One that
+/// abstains differs from none; so of the choices that begin with some path and take on, in order,
+/// whatever differs from all before it, this is the largest.
 std::vector<ClassPath<4>> pairwise_different(std::vector<ClassPath<4>> paths,
                                              const SpaceTime<3>& space, double clearance_m);
 

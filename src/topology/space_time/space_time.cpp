@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLeastLater_m = 1e-6;
 constexpr double kRounding = 1e-9;
-constexpr double kSlack_m = 0.003;  // as in the proofs of who leaves
+constexpr double kSlack_m = 0.003;  // as in the proofs of leaving
 constexpr double kLeaving = 0.1;    // of max_speed
 
 template <int D>

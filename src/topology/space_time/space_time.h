@@ -34,10 +34,10 @@ struct SpaceTimeEnds {
 /// covered is the same. For a path at speeds v it is, for small v, its duration plus the integral
 /// of v^2 / 2: what is shortest here is what an optimiser of energy likes.
 ///
-/// Obstacles stand, or move in tubes. Whoever starts inside a tube may stay and leave, as
+/// Obstacles stand, or move in tubes. A path that starts inside a tube may stay and leave, as
 /// check_separation_or_leaving() has it: what lacks in distance at the start (and 3 mm) is
-/// forgiven, less and less, by 0.1 max_speed in a second. So he must not come closer in any case,
-/// and gains at that rate at least until he has regained the distance; later on he must keep it.
+/// forgiven, less and less, by 0.1 max_speed in a second. So it must not come closer in any case,
+/// and gains at that rate at least until it has regained the distance; later on it must keep it.
 ///
 /// Classes. Obstacles are the static ones of `cuts` first, then the moving ones in the given order.
 /// D = 2: the entry of a moving one is the winding of the relative path p(t) - o(t) about the

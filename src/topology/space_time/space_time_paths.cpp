@@ -128,7 +128,7 @@ void check(const SpaceTimeOptions& options) {
   require(options.longest_ratio >= 1.0, "longest_ratio", options.longest_ratio, "at least 1");
 }
 
-/// Whoever is there at the goal's time; found out before all that costs more.
+/// Whether something is there at the goal's time; found out before all that costs more.
 bool is_taken(const TimedPoint& goal, const std::vector<Tube<2>>& tubes) {
   const auto holds_goal = [&goal](const TubePiece<2>& piece) {
     return least_gap_m<2>(piece, goal.position, goal.time_s, goal.position, goal.time_s) < 0.0;

@@ -16,7 +16,7 @@ struct TubePiece {
   double end_s;
   Place centre;  ///< at start_s [m]
   Place velocity;
-  double radius_m;     ///< at start_s; below 0 it is in nobody's way
+  double radius_m;     ///< at start_s; below 0 it is in no way
   double radius_rate;  ///< [m/s]
 
   Place centre_at(double t) const { return centre + (t - start_s) * velocity; }

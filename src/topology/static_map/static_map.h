@@ -23,8 +23,8 @@ class StaticMap {
   std::vector<ObstacleGroup> groups(double clearance_m) const {
     return groups_within(bounds(), clearance_m);
   }
-  /// Likewise for who stays inside of `window`, at the cost of what is there: obstacles that only
-  /// meet outside of it are two.
+  /// Likewise for paths that stay inside of `window`, at the cost of what is there: obstacles that
+  /// only meet outside of it are two.
   virtual std::vector<ObstacleGroup> groups_within(const Eigen::AlignedBox2d& window,
                                                    double clearance_m) const = 0;
 };

@@ -23,7 +23,7 @@ double TravelCost::at(const Vector2& p, double distance_m) const {
   if (distance_m < options_.required_clearance_m && !may_escape(p, distance_m)) return kInfinity;
   for (const BlockedDisc& disc : blocked_) {
     const double apart = (p - disc.centre).norm();
-    // Who already stands inside may leave, but not come closer.
+    // A path that begins inside may leave, but not come closer.
     if (apart < disc.radius_m && apart < (start_ - disc.centre).norm() - 1e-6) return kInfinity;
   }
   const double lack = std::max(0.0, 1.0 - distance_m / options_.preferred_clearance_m);
@@ -49,7 +49,7 @@ double TravelCost::of_line(const Vector2& a, const Vector2& b) const {
   double cost = at(a, distance_m);
   Vector2 p = a;
   while (cost < kInfinity && along_m < length_m) {
-    // As far as there is more room than anybody could wish for, a metre costs 1.
+    // As far as there is more room than could be wished for, a metre costs 1.
     const double room_m = std::min(distance_m - roomy_m, blocked_room_m(p));
     const double step_m = std::min(std::max(smallest_m, room_m), length_m - along_m);
     along_m += step_m;

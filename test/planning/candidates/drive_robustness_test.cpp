@@ -10,7 +10,7 @@
 #include "world/margin_budget.h"
 #include "world/primitive_field.h"
 
-// Thousands of queries that nobody would ask: whatever comes in, no exception, no NaN out, and a
+// Thousands of queries that make no sense: whatever comes in, no exception, no NaN out, and a
 // reason.
 
 namespace mocha {

@@ -93,7 +93,7 @@ class ExecutiveFixture : public ::testing::Test {
         name, std::make_shared<const Motion>(standing(now_s_ - 5.0, {1.0, 0.0}, 0.0)), 0.3)};
   }
 
-  /// Somebody asks for a way, now and for the time of a run of `time_s`.
+  /// A team-mate asks for a way, now and for the time of a run of `time_s`.
   GoalExecutive::Output run_while_asked(const YieldRequest& request, double time_s) {
     GoalExecutive::Output last;
     std::vector<PlanQuery> asked;

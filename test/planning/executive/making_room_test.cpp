@@ -111,7 +111,7 @@ TEST_F(MakingRoomTest, LooksForAnotherPullOverPointWhereTheFirstIsOutOfReach) {
   step();
   const YieldRequest request = way_of("ugv2", {{9.0, 0.0}, {-4.0, 0.0}});
   const Vector2 first = run_while_asked(request, 0.5).planned->goal.position;
-  reason_ = PlanReason::kPeerConflict;  // somebody came in between, and stays
+  reason_ = PlanReason::kPeerConflict;  // another robot came in between, and stays
   scene_.peers = {std::make_shared<PeerObstacle>(
       "ugv7", std::make_shared<const Motion>(standing(now_s_ - 5.0, first, 0.0)), 0.3)};
   executive_.request();

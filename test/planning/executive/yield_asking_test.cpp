@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kStep_s = 0.05;
 
-/// A robot that stands or not before somebody, for so long; how often it asked.
+/// A robot that stands or not before a team-mate, for so long; how often it asked.
 struct Scene {
   YieldAsking asking;
   double now_s = 1.7e9;
@@ -27,7 +27,7 @@ TEST(YieldAsking, AsksAfterAWhileOfStandingBeforeSomebodyAndThenAgain) {
   EXPECT_EQ(scene.run(1.4, true, true, true), 0);
   EXPECT_EQ(scene.run(0.3, true, true, true), 1);
   EXPECT_NEAR(scene.run(4.0, true, true, true), 8, 1);
-  EXPECT_NEAR(scene.run(4.0, false, true, true), 8, 1);  // on its way, somebody still on it
+  EXPECT_NEAR(scene.run(4.0, false, true, true), 8, 1);  // on its way, a team-mate still on it
 }
 
 TEST(YieldAsking, AsksNobodyWhoIsNotThere) {

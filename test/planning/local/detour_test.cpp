@@ -29,7 +29,7 @@ class DetourTest : public ::testing::Test {
   Detour::Start on(const Motion& motion, double now_s) const {
     return {now_s, now_s + kSettle_s, motion, motion, true};
   }
-  /// On a detour around somebody who stands ahead.
+  /// On a detour around a person that stands ahead.
   Motion taken_detour() {
     const auto plan = detour_.around(on(ahead_, begin_s_), scene(begin_s_, 0.1));
     EXPECT_TRUE(plan);

@@ -370,7 +370,7 @@ TEST_F(LocalPlannerTest, SeveralAtOnce) {
 }
 
 TEST_F(LocalPlannerTest, SaysWhyThereIsNoWay) {
-  // A row of people from wall to wall, who stand.
+  // A row of people from wall to wall, all standing.
   Things row;
   for (double y = -7.0; y <= 7.0; y += 0.5)
     row.push_back(person(planned(2.5) + Vector2(0.0, y), 0.0, {0.0, 0.0}));
@@ -389,7 +389,7 @@ TEST_F(LocalPlannerTest, SaysWhyThereIsNoWay) {
   ended.progress_s = ahead_.end_time();
   EXPECT_EQ(planner_.plan(ended, scene({})).reason, PlanReason::kNoPath);
 
-  // Somebody steps before it: no path can be certified, and it says what is violated.
+  // A person steps before it: no path can be certified, and it says what is violated.
   const LocalPlan close = planner_.plan(query(), scene({person(planned(0.7), 0.0, {-0.9, 0.0})}));
   EXPECT_NE(close.reason, PlanReason::kSolved);
   EXPECT_TRUE(close.motion.empty());

@@ -147,7 +147,7 @@ TEST_F(LocalReplannerTest, AnOfferThatMeetsSomebodySoonerIsPassedOver) {
   }
 }
 
-/// A robot that stands in the way of somebody had better drive than look for a place to step to.
+/// A robot that stands in the way of a person had better drive than look for a place to step to.
 TEST_F(LocalReplannerTest, SetsOffInTimeBeforeWhatComesFromBehind) {
   replanner_.set_committed(1, standing(kNow_s - 5.0, {0.0, 0.0}, 0.0));
   replanner_.set_plan(straight_drive(kNow_s + 0.4, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5));

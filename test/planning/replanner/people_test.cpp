@@ -98,7 +98,7 @@ TEST(People, OneComesFromBehindBeforeItHasSetOff) {
   }
 }
 
-/// Whoever has walked one way and turns round at once, before a robot at full speed.
+/// A person that has walked one way and turns round at once, before a robot at full speed.
 struct TurnsRound {
   double gap_m;    ///< from body to body when he turns
   double aside_m;  ///< of the robot's way, then
@@ -157,7 +157,7 @@ TEST(People, OneInFrontIsFollowedWhereThereIsNoRoomToOvertake) {
   street.begin_rolling(0.6);
   street.run(20.0);
   EXPECT_GT(street.least_gap_m, 0.0);
-  EXPECT_GT(street.here().x(), 4.0);  // behind one who is at 9 by then
+  EXPECT_GT(street.here().x(), 4.0);  // behind one that is at 9 by then
   EXPECT_LT(street.here().x(), street.walkers[0].place(street.t()).x());
   expect_steady(street, 14);
 }
@@ -205,7 +205,8 @@ TEST(People, OneTurns) {
                   {{{4.5, 3.0}, {{turns_s, {0.0, -0.7}}, {60.0, {-0.7, 0.0}}}}});
     street.begin_rolling();
     EXPECT_TRUE(street.run_to_goal(60.0)) << street.loop.output.message;
-    // Who turns straight towards it a second away may walk into it, but it does not drive.
+    // A person that turns straight towards it a second away may walk into it, but it does not
+    // drive.
     EXPECT_LT(street.contact_speed, 0.05);
   }
 }

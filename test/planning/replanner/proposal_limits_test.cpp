@@ -72,7 +72,7 @@ class RandomSteps {
     replanner_.set_committed(sequence, motion);
   }
 
-  /// People who come nearer, a pillar, and a peer in some of the worlds.
+  /// People that come nearer, a pillar, and a peer in some of the worlds.
   void endanger() {
     const MotionState here = committed_.at(now_s_);
     const double body_m = robot_.footprint.circumscribed_radius_m();

@@ -127,7 +127,7 @@ TEST_F(NewestPredictionsTest, TheNewestMessageIsWhatCounts) {
   ASSERT_EQ(predictions.obstacles().size(), 1u);
   EXPECT_EQ(predictions.obstacles()[0]->name(), "moving thing 3");
   EXPECT_NEAR(predictions.age_s(ros::Time(11.5)), 0.5, 1e-6);
-  predictions.on_predictions(seen({}, 12.0));  // nobody there is news, too
+  predictions.on_predictions(seen({}, 12.0));  // that there is nothing is news, too
   EXPECT_TRUE(predictions.obstacles().empty());
   EXPECT_NEAR(predictions.age_s(ros::Time(12.0)), 0.0, 1e-6);
   EXPECT_EQ(predictions.refused(), 0);

@@ -66,7 +66,7 @@ TEST(ProjectedSignature, AbstainsWhereThePathEntersAShadow) {
   EXPECT_TRUE(corner[0] && corner[1]);
   EXPECT_FALSE(differ(corner, left));
   EXPECT_TRUE(differ(corner, right));
-  // How much room is asked for decides who abstains.
+  // How much room is asked for decides which abstain.
   const std::vector<Vector4d> close = path_via(space, {0.0, 0.6, 0.0});
   EXPECT_TRUE(projected_signature(space, close, 0.05)[0]);
   EXPECT_FALSE(projected_signature(space, close, 0.2)[0]);

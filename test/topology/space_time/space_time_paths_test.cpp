@@ -131,7 +131,7 @@ TEST(SpaceTimePaths, FollowInACorridor) {
   const SpaceTimePaths behind = find_space_time_paths(static_map, query, rules_with());
   expect_sound(behind, static_map, query, rules_with());
   EXPECT_EQ(behind.paths.size(), 1u);
-  query.moving = {person(kNow_s, {2.0, 0.0}, {-0.8, 0.0})};  // who comes towards us blocks all
+  query.moving = {person(kNow_s, {2.0, 0.0}, {-0.8, 0.0})};  // one that comes towards us blocks all
   EXPECT_EQ(find_space_time_paths(static_map, query, rules_with()).outcome, Outcome::kNoPath);
 }
 

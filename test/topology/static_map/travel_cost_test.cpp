@@ -113,7 +113,7 @@ TEST(TravelCost, LetsOneOutOfANarrowPlaceButNotDeeperIn) {
   EXPECT_EQ(cost.at(Vector2(5.0, 5.0) + 1.2 * Vector2(std::sin(angle), std::cos(angle))),
             kInfinity);
   const TravelCost inside(*static_map, {5.0, 5.9}, {}, options);
-  EXPECT_EQ(inside.at({5.0, 5.9}), kInfinity) << "nobody stands in solid matter";
+  EXPECT_EQ(inside.at({5.0, 5.9}), kInfinity) << "no robot stands in solid matter";
 }
 
 TEST(TravelCost, KeepsOffBlockedDiscsButLetsOneLeaveThem) {
