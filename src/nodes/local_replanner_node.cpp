@@ -32,8 +32,8 @@ namespace {
 
 constexpr double kMapBorder_m = 2.0;
 
-/// Promises what the global planner planned and swerves around what moves: plans and predictions
-/// in, proposals and leases out.
+/// Promises what the global planner planned and makes detours around what moves: plans and
+/// predictions in, proposals and leases out.
 class LocalReplannerNode {
  public:
   LocalReplannerNode(ros::NodeHandle& node, const ParameterTable& values)

@@ -95,14 +95,14 @@ Maneuvers LocalReplanner::detours(const Rung& rung, Step& step) {
   const RequirementName wanted = rung.required == RequirementName::kPromise
                                      ? RequirementName::kDetour
                                      : RequirementName::kDetourLikely;
-  return step.output.local->met <= wanted ? detour(step, "swerves") : Maneuvers{};
+  return step.output.local->met <= wanted ? detour(step, "takes a detour") : Maneuvers{};
 }
 
 Maneuvers LocalReplanner::rejoining_sooner(Step& step) {
   auto found = detour_.sooner(detour_start(step), step.start.scene);
   if (!found) return {};
   step.output.local = std::move(found);
-  return detour(step, "swerves less");
+  return detour(step, "shortens its detour");
 }
 
 Maneuvers LocalReplanner::emergency_detours(Step& step) {
@@ -110,9 +110,8 @@ Maneuvers LocalReplanner::emergency_detours(Step& step) {
   if (!local || local->candidates.empty()) return {};
   if (local->met == RequirementName::kNone)
     local = detour_.harder(detour_start(step), step.start.scene, *local);
-  return local->met == RequirementName::kNone
-             ? Maneuvers{}
-             : detour(step, "swerves harder than it would like to");
+  return local->met == RequirementName::kNone ? Maneuvers{}
+                                              : detour(step, "takes an emergency detour");
 }
 
 void LocalReplanner::take_detour(const Rung& rung, Step& step) {
