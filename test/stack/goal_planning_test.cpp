@@ -63,7 +63,7 @@ TEST_F(GoalPlanningTest, TakesNewOptions) {
   values.assign(YAML::Load("{goal_search_radius: 0.0}"), "test");
   OccupancyGrid grid = free_grid({-2.0, -3.0}, {12.0, 3.0});
   fill_box(grid, {5.9, -0.1}, {6.1, 0.1});
-  const PlanQuery query{kNow_s, standing_, {6.4, 0.0}, {}, {}, {}};
+  const PlanQuery query{kNow_s, standing_, {6.4, 0.0}, {}, {}};
   const SceneSource scene = [&](const auto&) { return PlanningScene{static_map_of(grid), {}}; };
   EXPECT_EQ(planning_.plan(query, scene).reason, PlanReason::kSolved);
   planning_.set_options(values);
