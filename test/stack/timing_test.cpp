@@ -60,7 +60,8 @@ const std::vector<Row> kRows = {
      "local_replanner/prediction_horizon = 2.9 s must be at least local_replanner/trigger_horizon "
      "= 3 s"},
     {"perception", "{map_rate: 1.1}", "{map_rate: 1.0}",
-     "local_replanner/max_map_age = 1 s must be longer than a period of perception/map_rate = 1 Hz"},
+     "local_replanner/max_map_age = 1 s must be longer than a period of perception/map_rate = 1 "
+     "Hz"},
     {"local_replanner", "{max_prediction_age: 0.11}", "{max_prediction_age: 0.1}",
      "local_replanner/max_prediction_age = 0.1 s must be longer than a period of robot/lidar_rate "
      "= 10 Hz"},
