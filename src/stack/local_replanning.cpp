@@ -55,23 +55,23 @@ LocalReplanning::Output LocalReplanning::step(double now_s, const LocalKnowledge
 std::optional<LocalReplanning::Missing> LocalReplanning::what_is_missing(
     const LocalKnowledge& known) const {
   if (!known.measured) return Missing{PlanReason::kNoPose, known.no_pose};
-  if (known.map_age_s == LocalKnowledge::kNever_s)
-    return Missing{PlanReason::kNoMap, "map: none on " + names_.map + " yet"};
-  if (known.map_age_s > options_.max_map_age_s) {
-    return Missing{PlanReason::kNoMap,
-                   "map: the newest on " + names_.map + " is " + seconds(known.map_age_s) + " old"};
-  }
-  if (known.fleet_age_s > options_.max_fleet_age_s) {
-    return Missing{PlanReason::kBraking, "fleet: no word from trajectory_broadcaster on " +
-                                             names_.fleet + " for more than " +
-                                             seconds(options_.max_fleet_age_s)};
-  }
-  if (known.prediction_age_s > options_.max_prediction_age_s) {
-    return Missing{PlanReason::kBraking, "people: no usable word from perception on " +
-                                             names_.predictions + " for more than " +
-                                             seconds(options_.max_prediction_age_s)};
-  }
-  return std::nullopt;
+  std::optional<Missing> missing;
+  const auto add = [&](bool lacks, PlanReason reason, const std::string& words) {
+    if (!lacks) return;
+    if (!missing) missing = Missing{reason, ""};
+    missing->words += (missing->words.empty() ? "" : "; ") + words;
+  };
+  const bool has_map = known.map_age_s < LocalKnowledge::kNever_s;
+  add(!has_map, PlanReason::kNoMap, "map: none on " + names_.map + " yet");
+  add(has_map && known.map_age_s > options_.max_map_age_s, PlanReason::kNoMap,
+      "map: the newest on " + names_.map + " is " + seconds(known.map_age_s) + " old");
+  add(known.fleet_age_s > options_.max_fleet_age_s, PlanReason::kBraking,
+      "fleet: no word from trajectory_broadcaster on " + names_.fleet + " for more than " +
+          seconds(options_.max_fleet_age_s));
+  add(known.prediction_age_s > options_.max_prediction_age_s, PlanReason::kBraking,
+      "people: no usable word from perception on " + names_.predictions + " for more than " +
+          seconds(options_.max_prediction_age_s));
+  return missing;
 }
 
 LocalReplanner::Output LocalReplanning::stop_without(const Missing& missing, double now_s) {

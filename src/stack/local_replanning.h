@@ -86,10 +86,10 @@ class LocalReplanning {
 
  private:
   struct Missing {
-    PlanReason reason;
+    PlanReason reason;  ///< of the first
     std::string words;
   };
-  /// Without what nothing can be certified; nothing where all data are there.
+  /// All without what nothing can be certified; nothing where all data are there.
   std::optional<Missing> what_is_missing(const LocalKnowledge& known) const;
   LocalReplanner::Output stop_without(const Missing& missing, double now_s);
   LocalReplanner::Output halt(double now_s, const LocalKnowledge& known);

@@ -70,6 +70,15 @@ TEST_F(LocalReplanningTest, StopsOnAnOldMap) {
   expect_blind_stop(known, PlanReason::kNoMap, "map: the newest on /ugv1/map is 1.25 s old");
 }
 
+/// A dead perception makes neither maps nor predictions: the older lack is not hidden by the newer.
+TEST_F(LocalReplanningTest, NamesAllThatIsMissing) {
+  LocalKnowledge known = all_known();
+  known.map_age_s = known.prediction_age_s = 1.25;
+  expect_blind_stop(known, PlanReason::kNoMap,
+                    "map: the newest on /ugv1/map is 1.25 s old; people: no usable word from "
+                    "perception on /ugv1/predicted_obstacles for more than 0.50 s");
+}
+
 TEST_F(LocalReplanningTest, StopsWithoutWordOfTheFleet) {
   LocalKnowledge known = all_known();
   known.fleet_age_s = 1.21;
