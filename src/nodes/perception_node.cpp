@@ -33,6 +33,7 @@
 #include "ros_bridge/runtime/step_loop.h"
 #include "ros_bridge/runtime/transport.h"
 #include "stack/timing.h"
+#include "world/margin_budget.h"
 #include "world/robot_model.h"
 #include "world/world_file.h"
 
@@ -146,13 +147,15 @@ class PerceptionNode {
     }
   }
 
-  /// Unseen space under the body is free, and nothing else is.
+  /// Unseen space is free under the body and as far around it as its margin reaches, whichever way
+  /// it turns; so it may stand and turn where it is, and go nowhere that was not seen.
   void mark_standing(ros::Time time) {
     standing_known_ = transforms_.canTransform(robot_.map_frame, robot_.base_frame, time);
     if (!standing_known_) return;
     const auto pose = transforms_.lookupTransform(robot_.map_frame, robot_.base_frame, time);
     map_.mark_standing(from_message(pose.transform).translation().head<2>(),
-                       model_.footprint.cover_reach_m() + model_.map_resolution_m);
+                       model_.footprint.cover_reach_m() +
+                           MarginBudget::of(model_).static_margin_m() + model_.map_resolution_m);
   }
 
   void publish_map() {
