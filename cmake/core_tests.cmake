@@ -21,6 +21,9 @@ target_link_libraries(test_planning mocha_stack)
 target_sources(test_stack PRIVATE test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp
   test/benchmarks/one_phase.cpp test/benchmarks/benchmark_world.cpp)
 
+# The map that perception makes where a robot starts.
+target_link_libraries(test_stack mocha_perception)
+
 # Simulated drives for the localiser.
 target_link_libraries(test_perception mocha_simulation)
 

@@ -154,8 +154,7 @@ class PerceptionNode {
     if (!standing_known_) return;
     const auto pose = transforms_.lookupTransform(robot_.map_frame, robot_.base_frame, time);
     map_.mark_standing(from_message(pose.transform).translation().head<2>(),
-                       model_.footprint.cover_reach_m() +
-                           MarginBudget::of(model_).static_margin_m() + model_.map_resolution_m);
+                       standing_radius_m(model_));
   }
 
   void publish_map() {
