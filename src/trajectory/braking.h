@@ -10,7 +10,8 @@ class Braking {
   /// `deceleration` [m/s^2]: along the path, at most. `max_acceleration` [m/s^2]: along and across
   /// the path together; without it, bends change nothing. Throws std::invalid_argument for a
   /// deceleration that is not positive and finite, and a limit that is not positive.
-  Braking(double deceleration, double max_acceleration = std::numeric_limits<double>::infinity());
+  explicit Braking(double deceleration,
+                   double max_acceleration = std::numeric_limits<double>::infinity());
 
   double deceleration() const { return deceleration_; }
 

@@ -76,11 +76,11 @@ void check_lidar(const LidarModel& lidar, const std::string& path) {
 }  // namespace
 
 Braking RobotModel::braking() const {
-  return {kBrakingShare * limits.max_acceleration, limits.max_acceleration};
+  return Braking(kBrakingShare * limits.max_acceleration, limits.max_acceleration);
 }
 
 Braking RobotModel::hard_braking() const {
-  return {emergency_acceleration / kBrakingOvershoot, emergency_acceleration};
+  return Braking(emergency_acceleration / kBrakingOvershoot, emergency_acceleration);
 }
 
 MotionLimits RobotModel::emergency_limits() const {

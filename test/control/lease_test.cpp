@@ -9,7 +9,7 @@
 namespace mocha {
 namespace {
 
-constexpr double kDeceleration = 0.5;
+const Braking kBraking(0.5);
 constexpr MotionId kId{3, 7};
 
 /// From t = 1 on; at full speed from 3 to 5 or so.
@@ -19,7 +19,7 @@ Motion turning() { return Motion(1.0, {TurnPhase{{{2.0, 1.0}, 0.0}, 3.0, 4.0}});
 
 TEST(StopAtLeaseEnd, BrakesAlongThePathFromTheEndOfTheLeaseOn) {
   const Motion motion = winding();
-  const Motion stop = stop_at_lease_end(motion, 3.7, 3.715, kDeceleration);
+  const Motion stop = stop_at_lease_end(motion, 3.7, 3.715, kBraking);
   EXPECT_DOUBLE_EQ(stop.start_time(), 3.7);
   EXPECT_NEAR((stop.position(3.7) - motion.position(3.7)).norm(), 0.0, 1e-9);
   EXPECT_NEAR((stop.velocity(3.7) - motion.velocity(3.7)).norm(), 0.0, 1e-9);
@@ -31,41 +31,41 @@ TEST(StopAtLeaseEnd, BrakesAlongThePathFromTheEndOfTheLeaseOn) {
 }
 
 TEST(StopAtLeaseEnd, BreaksOffATurn) {
-  const Motion stop = stop_at_lease_end(turning(), 2.5, 2.52, kDeceleration);
+  const Motion stop = stop_at_lease_end(turning(), 2.5, 2.52, kBraking);
   EXPECT_EQ(stop.length_m(), 0.0);
   EXPECT_NEAR(stop.end_pose().yaw_rad, turning().at(2.5).pose.yaw_rad, 1e-9);
 }
 
 TEST(StopAtLeaseEnd, DoesNotBeginWhatHasNotBegun) {
-  const Motion stop = stop_at_lease_end(winding(), 0.5, 0.52, kDeceleration);
+  const Motion stop = stop_at_lease_end(winding(), 0.5, 0.52, kBraking);
   EXPECT_EQ(stop.length_m(), 0.0);
   EXPECT_EQ(stop.end_pose().position, Vector2(0.0, 0.0));
 }
 
 TEST(StopAtLeaseEnd, NoticedLateItBeginsHardlyInThePast) {
-  EXPECT_NEAR(stop_at_lease_end(winding(), 2.0, 4.0, kDeceleration).start_time(), 3.9, 1e-9);
+  EXPECT_NEAR(stop_at_lease_end(winding(), 2.0, 4.0, kBraking).start_time(), 3.9, 1e-9);
 }
 
 TEST(LeaseWatch, TellsOnceOfTheStop) {
   LeaseWatch watch;
-  EXPECT_FALSE(watch.expire(9.0, kDeceleration));
+  EXPECT_FALSE(watch.expire(9.0, kBraking));
   watch.commit(kId, winding(), 2.0);
   watch.renew(kId, 3.0);
   watch.renew({3, 6}, 9.0);  // of a former motion
   EXPECT_EQ(watch.end_s(), 3.0);
-  EXPECT_FALSE(watch.expire(3.0, kDeceleration));
-  const auto stop = watch.expire(3.01, kDeceleration);
+  EXPECT_FALSE(watch.expire(3.0, kBraking));
+  const auto stop = watch.expire(3.01, kBraking);
   ASSERT_TRUE(stop);
   EXPECT_DOUBLE_EQ(stop->start_time(), 3.0);
-  EXPECT_FALSE(watch.expire(3.02, kDeceleration));
+  EXPECT_FALSE(watch.expire(3.02, kBraking));
 }
 
 TEST(LeaseWatch, AMotionThatBrakesByItselfNeedsNoOtherStop) {
   LeaseWatch watch;
-  const Motion stop = stop_at_lease_end(winding(), 3.7, 3.7, kDeceleration);
+  const Motion stop = stop_at_lease_end(winding(), 3.7, 3.7, kBraking);
   for (double t = stop.start_time(); t < stop.end_time() + 1.0; t += 0.05) {
     watch.commit(kId, stop, t);
-    EXPECT_FALSE(watch.expire(t + 0.02, kDeceleration)) << t;
+    EXPECT_FALSE(watch.expire(t + 0.02, kBraking)) << t;
   }
 }
 
@@ -73,7 +73,7 @@ TEST(LeaseWatch, ARobotThatIsYetToDriveOrTurnIsSaidToStand) {
   for (const Motion& motion : {winding(), turning()}) {
     LeaseWatch watch;
     watch.commit(kId, motion, 0.5);
-    const auto stop = watch.expire(0.51, kDeceleration);
+    const auto stop = watch.expire(0.51, kBraking);
     ASSERT_TRUE(stop);
     EXPECT_EQ(stop->length_m(), 0.0);
   }

@@ -13,7 +13,7 @@ using Kind = CommitmentEvent::Kind;
 
 constexpr double kNow_s = 20.0;
 constexpr double kRadius_m = 0.3;
-const StopOptions kOptions{0.5, 0.3};
+const StopOptions kOptions{Braking(0.5), 0.3};
 
 CommitmentOptions with_stops(const std::string& agent) {
   CommitmentOptions options = test::options(agent);
@@ -125,7 +125,7 @@ TEST(StopConflict, FollowsARobotFromWhatIsBindingIntoItsProposal) {
                          test::drive(kNow_s - 1.0, {{0.9, 0.0}, {6.5, 0.0}}, 0.5)));
   const CommittedTrajectory follows = trajectory(
       "m", 2, TrajectoryState::kProposed, test::drive(kNow_s + 1.2, {{0.0, 0.0}, {5.8, 0.0}}, 0.6));
-  const StopDemand demand{{0.5, 2.0}, 0.0, 10.0};  // hears late
+  const StopDemand demand{{Braking(0.5), 2.0}, 0.0, 10.0};  // hears late
   EXPECT_FALSE(first_stop_conflict({mine, nullptr}, {theirs, nullptr}, demand, kNow_s + 0.9));
   const auto conflict =
       first_stop_conflict({mine, &follows}, {theirs, nullptr}, demand, kNow_s + 0.9);

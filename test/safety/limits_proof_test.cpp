@@ -288,7 +288,7 @@ TEST(LimitsProof, AcceptsBrakingWithinFifteenPercent) {
   for (int seed = 0; seed < 20; ++seed) {
     const Motion motion = within(random_drive(seed, 8), kPeaks, 0.0);
     for (double share = 0.03; share < 1.0; share += 0.06) {
-      const Motion braking = with_brake(motion, 0.0, share * motion.end_time(), 0.7 * 1.2);
+      const Motion braking = with_brake(motion, 0.0, share * motion.end_time(), Braking(0.7 * 1.2));
       const Violation violation = check_limits(braking, scaled(1.15), 0.0);
       EXPECT_FALSE(violation) << seed << " " << share << " " << describe(violation);
     }

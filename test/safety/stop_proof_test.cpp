@@ -7,7 +7,7 @@
 namespace mocha {
 namespace {
 
-const StopOptions kOptions{0.5, 0.3};
+const StopOptions kOptions{Braking(0.5), 0.3};
 constexpr double kRadius_m = 0.3;
 
 PeerObstacle peer_on(Motion motion) {

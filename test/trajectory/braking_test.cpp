@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace mocha {
@@ -30,6 +31,7 @@ TEST(Braking, RefusesValuesOutOfRange) {
     EXPECT_THROW(Braking(bad, 1.0), std::invalid_argument);
     EXPECT_THROW(Braking(1.0, bad), std::invalid_argument);
   }
+  EXPECT_THROW(Braking(std::numeric_limits<double>::infinity()), std::invalid_argument);
 }
 
 }  // namespace

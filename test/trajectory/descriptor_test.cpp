@@ -42,7 +42,7 @@ TEST(Descriptor, RebuildsSlices) {
 
 TEST(Descriptor, RebuildsBraking) {
   const Motion motion(0.0, {random_drive(3, 8)});
-  const Motion braking = with_brake(motion, 1.0, 3.0, 1.0);
+  const Motion braking = with_brake(motion, 1.0, 3.0, Braking(1.0));
   expect_same(braking, rebuild(describe(braking)));
 }
 

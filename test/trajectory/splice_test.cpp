@@ -50,7 +50,7 @@ TEST(Splice, IsTheFirstUntilItJoinsAndThenTheSecond) {
     const Motion first =
         within(random_drive(seed, 8, seed % 2 == 0 ? 1 : -1), {1.0, 0.8, 1.5}, kNow_s);
     const double join_s = kNow_s + (0.1 + 0.04 * seed) * (first.end_time() - kNow_s);
-    const Motion second(join_s, brake_along(first, join_s, 0.5));
+    const Motion second(join_s, brake_along(first, join_s, Braking(0.5)));
     const double from_s = kNow_s + 0.05 * seed;
     const auto whole = splice(first, from_s, join_s, second);
     ASSERT_TRUE(whole) << seed << ": " << describe(whole.fault);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kApart_m = 0.6;
 constexpr double kTolerance_m = 0.02;
-const StopOptions kOptions{0.5, 0.3};
+const StopOptions kOptions{Braking(0.5), 0.3};
 
 /// How close they come if a brakes at t and b after the reaction time, along real braking motions.
 double closest_where_first_brakes(const Motion& a, const Motion& b, double t,
@@ -145,7 +145,7 @@ TEST(StopSeparation, AgreesWithRealBrakingAtEveryMoment) {
 
 TEST(StopSeparation, KnowsThatBrakingIsGentlerInABend) {
   constexpr double kRadius_m = 4.0;
-  const StopOptions gently_in_bends{{0.6, 1.0}, 0.3};
+  const StopOptions gently_in_bends{Braking(0.6, 1.0), 0.3};
   const Motion circling = round_a_circle(kRadius_m, 1.97);  // takes 97 % of the limit
   const double arrives_s = 0.5 * circling.end_time();
   const Vector2 crossing = circling.position(arrives_s);
@@ -170,7 +170,7 @@ TEST(StopSeparation, KnowsThatBrakingIsGentlerInABend) {
 
 TEST(StopSeparation, FindsMeetingsBetweenItsMoments) {
   constexpr double kNear_m = 0.1;
-  const StopOptions kFast{3.0, 0.3};
+  const StopOptions kFast{Braking(3.0), 0.3};
   std::mt19937 random(12);
   std::uniform_real_distribution<double> angle(0.5, 2.6);
   std::uniform_real_distribution<double> late_s(-0.3, 0.3);
@@ -205,9 +205,8 @@ TEST(StopSeparation, LooksOnlyAsLongAsItIsAsked) {
 TEST(StopSeparation, RefusesWhatIsNoRule) {
   const Motion a = test::stand(0.0, {0.0, 0.0});
   EXPECT_THROW(first_stop_meeting(a, Motion(), 0.6, kOptions, 0.0), std::invalid_argument);
-  EXPECT_THROW(first_stop_meeting(a, a, 0.6, {0.0, 0.3}, 0.0), std::invalid_argument);
-  EXPECT_THROW(first_stop_meeting(a, a, 0.6, {0.5, -0.1}, 0.0), std::invalid_argument);
-  EXPECT_THROW(first_stop_meeting(a, a, 0.6, {0.5, 11.0}, 0.0), std::invalid_argument);
+  EXPECT_THROW(first_stop_meeting(a, a, 0.6, {Braking(0.5), -0.1}, 0.0), std::invalid_argument);
+  EXPECT_THROW(first_stop_meeting(a, a, 0.6, {Braking(0.5), 11.0}, 0.0), std::invalid_argument);
 }
 
 }  // namespace

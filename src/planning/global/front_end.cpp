@@ -120,7 +120,7 @@ GlobalSeeds FrontEnd::after_braking(const PlanQuery& query, const PlanningScene&
                                     const Vector2& goal) const {
   if (query.committed.at(query.start_time_s).at_rest) return {};
   const std::vector<Phase> brake =
-      brake_along(query.committed, query.start_time_s, rest_acceleration(robot_.limits));
+      brake_along(query.committed, query.start_time_s, Braking(rest_acceleration(robot_.limits)));
   const Motion stop(query.start_time_s, brake);
   HomotopyPaths found =
       paths(path_of(stop, query.start_time_s, robot_.limits.max_speed), query, scene, goal);

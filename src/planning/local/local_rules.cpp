@@ -25,7 +25,7 @@ std::vector<StartManeuver> start_maneuvers_on(std::vector<Vector2> path, const L
   std::vector<StartManeuver> rolling = start_maneuvers.rolling(start, path);
   if (!rolling.empty()) return rolling;
   const std::vector<Phase> brake =
-      brake_along(query.committed, query.start_time_s, rest_acceleration(limits));
+      brake_along(query.committed, query.start_time_s, Braking(rest_acceleration(limits)));
   const Pose stop = Motion(query.start_time_s, brake).end_pose();
   path.front() = stop.position;
   return start_maneuvers.from_rest(brake, stop, path);

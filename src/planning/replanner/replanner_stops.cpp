@@ -98,7 +98,7 @@ LocalReplanner::Output LocalReplanner::halt(double now_s, const RobotState& stat
   offered_.reset();
   replace_plan(Motion());
   const Motion stop(now_s, brake_from(here, state.twist.speed, state.twist.yaw_rate,
-                                      stop_deceleration(state.twist, robot_)));
+                                      Braking(stop_deceleration(state.twist, robot_))));
   if (!announced_stop(now_s) && !is_promised(stop, now_s))
     announce(now_s, stop, true, Row::kEmergencyStop, output);
   return counted(output);

@@ -75,7 +75,7 @@ TEST(Conversions, MotionsThatWereCutOnTheWayStillJoin) {
       EXPECT_LT((before.pose.position - after.pose.position).norm(), 1e-5);
       EXPECT_LT((before.velocity - after.velocity).norm(), 1e-4);
       EXPECT_LT(std::abs(wrap_angle(before.pose.yaw_rad - after.pose.yaw_rad)), 1e-3);
-      const Motion braking = over_the_wire(with_brake(motion, cut_s, cut_s + 0.2, 0.5));
+      const Motion braking = over_the_wire(with_brake(motion, cut_s, cut_s + 0.2, Braking(0.5)));
       EXPECT_LT(
           (braking.at(cut_s + 0.1).pose.position - original.at(cut_s + 0.1).pose.position).norm(),
           1e-5);
