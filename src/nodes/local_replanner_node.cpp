@@ -147,6 +147,7 @@ class LocalReplannerNode {
     message.agent = identity_.name;
     message.sequence = proposal.sequence;
     message.footprint_radius = model_.footprint.circumscribed_radius_m();
+    to_message(model_.braking(), message);
     to_message(proposal.motion, message);
     proposals_.publish(message);
   }

@@ -88,7 +88,7 @@ Requirements::Requirements(const RobotModel& robot) {
 
   Requirement promise = detour;
   promise.unseen_margin_m = margins.static_margin_m();
-  promise.stops = robot.stop_options();
+  if (robot.stops_checked) promise.stops = StopOptions{robot.braking(), robot.peer_reaction_s};
   promise.stop_clearance_m = margins.peer_margin_m() + kPeerSlack_m;
   at(Name::kPromise) = at(Name::kPromiseLikely) = promise;
 

@@ -8,7 +8,7 @@
 
 #include "safety/leaving.h"
 #include "safety/scene.h"
-#include "trajectory/stop_separation.h"
+#include "safety/stop_proof.h"
 #include "world/robot_model.h"
 
 namespace mocha {

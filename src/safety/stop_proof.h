@@ -6,6 +6,12 @@
 
 namespace mocha {
 
+/// How a robot and its peers stop for each other.
+struct StopOptions {
+  Braking braking;    ///< of the robot; every peer says how it brakes itself
+  double reaction_s;  ///< from the moment at which the one brakes until the other does
+};
+
 /// From `from_s` (absolute) on, either robot may brake along its path at any moment, and the other
 /// after the reaction time: their discs keep `clearance_m`, as first_stop_meeting() proves it. A
 /// robot that is closer at `from_s` may move as long as its stops come no closer. The violation's

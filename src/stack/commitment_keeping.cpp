@@ -21,7 +21,7 @@ CommitmentNews CommitmentKeeping::propose(std::uint32_t sequence, const Committe
   if (!emergency && heard.state != TrajectoryState::kProposed)
     throw std::invalid_argument("is neither PROPOSED nor EMERGENCY");
   if (!emergency && !stop.empty()) throw std::invalid_argument(stop);
-  const Proposal proposal{sequence, heard.footprint_radius_m, heard.motion};
+  const Proposal proposal{sequence, heard.footprint_radius_m, heard.braking, heard.motion};
   CommitmentNews news;
   add(emergency ? protocol_.brake(proposal, now_s) : protocol_.propose(proposal, now_s), now_s,
       news);
@@ -58,7 +58,7 @@ void CommitmentKeeping::stop_where_the_lease_ended(double now_s, CommitmentNews&
   try {
     const auto motion = std::make_shared<const Motion>(quantised(*stop));
     const double radius_m = robot_.footprint.circumscribed_radius_m();
-    add(protocol_.brake({stop_sequence_, radius_m, motion}, now_s), now_s, news);
+    add(protocol_.brake({stop_sequence_, radius_m, robot_.braking(), motion}, now_s), now_s, news);
   } catch (const std::invalid_argument& error) {
     news.unsaid = error.what();
   }

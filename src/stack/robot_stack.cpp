@@ -8,12 +8,13 @@ namespace mocha {
 namespace {
 
 CommittedTrajectory wish_of(const ProposedMotion& proposal, const std::string& agent,
-                            double radius_m) {
+                            double radius_m, const Braking& braking) {
   CommittedTrajectory wish;
   wish.agent = agent;
   wish.id.sequence = proposal.sequence;
   wish.state = proposal.emergency ? TrajectoryState::kEmergency : TrajectoryState::kProposed;
   wish.footprint_radius_m = radius_m;
+  wish.braking = braking;
   wish.motion = std::make_shared<const Motion>(proposal.motion);
   return wish;
 }
@@ -33,6 +34,7 @@ RobotStack::RobotStack(std::string name, const RobotModel& robot, const Paramete
                        SettlingProtocol& protocol)
     : name_(std::move(name)),
       radius_m_(robot.footprint.circumscribed_radius_m()),
+      braking_(robot.braking()),
       protocol_(protocol),
       planning_(robot, parameters.global_planner, {false, 0, name_}),
       replanning_(robot, parameters.local_replanner),
@@ -74,7 +76,8 @@ RobotStack::Messages RobotStack::replan(double now_s, const RobotState& measured
 
 RobotStack::Messages RobotStack::propose(const ProposedMotion& proposal, double now_s) {
   try {
-    return apply(keeping_.propose(proposal.sequence, wish_of(proposal, name_, radius_m_), now_s));
+    return apply(
+        keeping_.propose(proposal.sequence, wish_of(proposal, name_, radius_m_, braking_), now_s));
   } catch (const std::invalid_argument& error) {
     replanning_.hear({Answer::Kind::kRefused, proposal.sequence, error.what()});
     return {};
@@ -109,8 +112,8 @@ void RobotStack::refresh_peers(double now_s) {
   if (!news) return;
   peers_.clear();
   for (const CommittedTrajectory& promise : *news) {
-    peers_.push_back(
-        std::make_shared<PeerObstacle>(promise.agent, promise.motion, promise.footprint_radius_m));
+    peers_.push_back(std::make_shared<PeerObstacle>(
+        promise.agent, promise.motion, promise.footprint_radius_m, promise.braking.value()));
   }
 }
 

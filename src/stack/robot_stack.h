@@ -57,6 +57,7 @@ class RobotStack {
 
   const std::string name_;
   const double radius_m_;
+  const Braking braking_;
   SettlingProtocol& protocol_;
   GoalPlanning planning_;
   LocalReplanning replanning_;

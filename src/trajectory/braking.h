@@ -14,6 +14,7 @@ class Braking {
                    double max_acceleration = std::numeric_limits<double>::infinity());
 
   double deceleration() const { return deceleration_; }
+  double max_acceleration() const { return max_acceleration_; }
 
   /// What is left for braking beside `lateral` [m/s^2] across the path; at least a quarter of the
   /// deceleration, so that the robot slows down in the sharpest bend, too.

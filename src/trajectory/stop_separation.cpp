@@ -20,8 +20,9 @@ constexpr double kLongestReaction_s = 10.0;
 class SteppedMotion {
  public:
   /// Steps are counted from `first` on, that is from first * kStep_s.
-  SteppedMotion(const Motion& motion, long first, const Braking& braking)
-      : first_(first), braking_(braking) {
+  SteppedMotion(const BrakableMotion& brakable, long first)
+      : first_(first), braking_(brakable.braking) {
+    const Motion& motion = brakable.motion;
     const double end_s = motion.end_time();
     const long last = std::max(first, static_cast<long>(std::ceil(end_s / kStep_s)));
     for (long i = first; i <= last; ++i) {
@@ -168,23 +169,23 @@ class Stops {
   Offsets former_;
 };
 
-void check(const Motion& a, const Motion& b, const StopOptions& options) {
+void check(const Motion& a, const Motion& b, double reaction_s) {
   if (a.empty() || b.empty()) throw std::invalid_argument("first_stop_meeting: a motion is empty");
-  if (!(options.reaction_s >= 0.0) || options.reaction_s > kLongestReaction_s)
+  if (!(reaction_s >= 0.0) || reaction_s > kLongestReaction_s)
     throw std::invalid_argument("first_stop_meeting: needs a reaction time up to 10 s");
 }
 
 }  // namespace
 
-std::optional<StopMeeting> first_stop_meeting(const Motion& a, const Motion& b, double distance_m,
-                                              const StopOptions& options, double from_s,
+std::optional<StopMeeting> first_stop_meeting(const BrakableMotion& a, const BrakableMotion& b,
+                                              double distance_m, double reaction_s, double from_s,
                                               double until_s) {
-  check(a, b, options);
-  if (far_apart(a, b, distance_m)) return std::nullopt;
+  check(a.motion, b.motion, reaction_s);
+  if (far_apart(a.motion, b.motion, distance_m)) return std::nullopt;
   const long first = static_cast<long>(std::ceil(from_s / kStep_s));
-  const long reaction = static_cast<long>(std::ceil(options.reaction_s / kStep_s - 1e-6));
-  SteppedMotion one(a, first, options.braking);
-  SteppedMotion other(b, first, options.braking);
+  const long reaction = static_cast<long>(std::ceil(reaction_s / kStep_s - 1e-6));
+  SteppedMotion one(a, first);
+  SteppedMotion other(b, first);
   const double step_m = (one.max_speed() + other.max_speed()) * kStep_s;
   // From one moment of braking to the next a stop moves by no more than three steps.
   const double far_m = std::max(0.0, distance_m) + 3.0 * step_m;

@@ -48,8 +48,13 @@ Eigen::AlignedBox2d MovingObstacle::box() const {
   return {-everywhere, everywhere};
 }
 
-PeerObstacle::PeerObstacle(std::string name, std::shared_ptr<const Motion> motion, double radius_m)
-    : name_(std::move(name)), motion_(std::move(motion)), radius_m_(radius_m), max_speed_(0.0) {
+PeerObstacle::PeerObstacle(std::string name, std::shared_ptr<const Motion> motion, double radius_m,
+                           const Braking& braking)
+    : name_(std::move(name)),
+      motion_(std::move(motion)),
+      radius_m_(radius_m),
+      braking_(braking),
+      max_speed_(0.0) {
   require(motion_ != nullptr && !motion_->empty(), name_, "has no motion");
   require(std::isfinite(radius_m_) && radius_m_ >= 0.0, name_,
           "the radius is not finite and >= 0 m");

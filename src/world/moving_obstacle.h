@@ -3,10 +3,11 @@
 #include <Eigen/Geometry>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "trajectory/motion.h"
+#include "trajectory/stop_separation.h"
 
 namespace mocha {
 
@@ -34,8 +35,8 @@ class MovingObstacle {
   /// Holds all that the disc ever covers [m]: the whole plane where nothing less is known.
   virtual Eigen::AlignedBox2d box() const;
   virtual const std::string& name() const = 0;
-  /// The motion that it has promised; none where it promises nothing.
-  virtual const Motion* promised() const { return nullptr; }
+  /// The motion that it has promised, and how it brakes along it; none where it promises nothing.
+  virtual std::optional<BrakableMotion> promised() const { return std::nullopt; }
 };
 
 /// Something that moves, and how far the centre of a base has to stay from it.
@@ -49,19 +50,23 @@ struct MovingThing {
 class PeerObstacle : public MovingObstacle {
  public:
   /// Throws std::invalid_argument without a motion or for a radius that is negative or not finite.
-  PeerObstacle(std::string name, std::shared_ptr<const Motion> motion, double radius_m);
+  PeerObstacle(std::string name, std::shared_ptr<const Motion> motion, double radius_m,
+               const Braking& braking);
   Disc at(double t) const override;
   double max_closing_speed(double t) const override;
   double chord_error_m(double from_s, double until_s) const override;
   double rest_time() const override;
   Eigen::AlignedBox2d box() const override;
   const std::string& name() const override { return name_; }
-  const Motion* promised() const override { return motion_.get(); }
+  std::optional<BrakableMotion> promised() const override {
+    return BrakableMotion{*motion_, braking_};
+  }
 
  private:
   std::string name_;
   std::shared_ptr<const Motion> motion_;
   double radius_m_;
+  Braking braking_;
   double max_speed_;
   std::vector<double> max_accelerations_;  // of the motion's phases
 };

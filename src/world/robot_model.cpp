@@ -1,6 +1,7 @@
 #include "world/robot_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "config/parameter_table.h"
@@ -10,6 +11,7 @@ namespace {
 
 // Of an acceleration limit, where there is time: a comfortable stop.
 constexpr double kBrakingShare = 0.6;
+constexpr double kTold = 1e3;               // counts in 1 m/s^2 of a braking that peers are told
 constexpr double kBrakingOvershoot = 1.15;  // of a braking curve over its deceleration
 
 LidarModel read_lidar(const ParameterTable& values) {
@@ -73,10 +75,16 @@ void check_lidar(const LidarModel& lidar, const std::string& path) {
   }
 }
 
+/// The highest number that peers can be told, and is not above the acceleration.
+double told(double acceleration) {
+  constexpr double kRounding = 1e-6;
+  return std::floor(acceleration * kTold + kRounding) / kTold;
+}
+
 }  // namespace
 
 Braking RobotModel::braking() const {
-  return Braking(kBrakingShare * limits.max_acceleration, limits.max_acceleration);
+  return Braking(told(kBrakingShare * limits.max_acceleration), told(limits.max_acceleration));
 }
 
 Braking RobotModel::hard_braking() const {
@@ -87,11 +95,6 @@ MotionLimits RobotModel::emergency_limits() const {
   MotionLimits harder = limits;
   harder.max_acceleration = emergency_acceleration;
   return harder;
-}
-
-std::optional<StopOptions> RobotModel::stop_options() const {
-  if (!stops_checked) return std::nullopt;
-  return StopOptions{braking(), peer_reaction_s};
 }
 
 RobotModel load_robot_model(const std::string& config_directory, const std::string& model) {

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <limits>
-#include <optional>
 #include <string>
 
-#include "trajectory/stop_separation.h"
+#include "trajectory/braking.h"
 #include "world/footprint.h"
 
 namespace mocha {
@@ -66,16 +65,14 @@ struct RobotModel {
   double odometry_noise_distance;  ///< [m/sqrt(m)]
   double odometry_noise_yaw;       ///< [rad/sqrt(rad)]
 
-  /// Braking in good time: the braking motion stays within the limits.
+  /// Braking in good time: the braking motion stays within the limits. Whole mm/s^2, so that peers
+  /// are told exactly what is driven.
   Braking braking() const;
   /// Braking where that comes too late: within emergency_limits(), for what a braking curve adds
   /// between its knots.
   Braking hard_braking() const;
   /// What an emergency motion may ask of the robot.
   MotionLimits emergency_limits() const;
-  /// How this robot and its peers, which are taken to brake like it, are to be able to stop for
-  /// each other; nothing where that is not asked.
-  std::optional<StopOptions> stop_options() const;
 };
 
 /// Loads `<config_directory>/robots/<model>.yaml` under the schema `<config_directory>/robot.yaml`.

@@ -45,7 +45,8 @@ CommitmentActions OnePhase::receive(const CommittedTrajectory& promise, double n
   CommitmentActions actions = tick(now);
   if (!news || !is_binding(promise.state) || binding_.empty()) return actions;
   const CommittedTrajectory& mine = binding_.newest();
-  if (auto found = conflict({0, mine.footprint_radius_m, mine.motion}, promise.agent, now)) {
+  if (auto found =
+          conflict({0, mine.footprint_radius_m, mine.braking, mine.motion}, promise.agent, now)) {
     CommitmentEvent event;
     event.kind = CommitmentEvent::Kind::kBreached;
     event.trajectory = mine;
@@ -76,6 +77,7 @@ CommitmentEvent OnePhase::bind(const Proposal& proposal, TrajectoryState state,
   promise.id = {options_.epoch, ++sequence_};
   promise.state = state;
   promise.footprint_radius_m = proposal.footprint_radius_m;
+  promise.braking = proposal.braking;
   promise.motion = proposal.motion;
   binding_.bind(promise);
   actions.trajectories.push_back(promise);
@@ -97,9 +99,13 @@ Refusal OnePhase::refusal_by_itself(const Motion& motion, double now) const {
 
 std::optional<Conflict> OnePhase::conflict(const Proposal& proposal, const std::string& name,
                                            double now) const {
-  const CommittedTrajectory mine{
-      options_.agent, {}, TrajectoryState::kProposed, 0, proposal.footprint_radius_m,
-      proposal.motion};
+  const CommittedTrajectory mine{options_.agent,
+                                 {},
+                                 TrajectoryState::kProposed,
+                                 0,
+                                 proposal.footprint_radius_m,
+                                 proposal.braking,
+                                 proposal.motion};
   const Vector2 here = binding_.empty() ? proposal.motion->position(now) : binding_.position(now);
   const Peer& peer = peers_.peers().at(name);
   for (const Reservation& theirs : peer.binding.reservations()) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "fleet/protocol/network.h"
+#include "trajectory/rover_braking.h"
+#include "trajectory/stop_separation.h"
 
 namespace mocha {
 namespace {
@@ -13,22 +15,24 @@ using Kind = CommitmentEvent::Kind;
 
 constexpr double kNow_s = 20.0;
 constexpr double kRadius_m = 0.3;
-const StopOptions kOptions{Braking(0.5), 0.3};
+constexpr double kReaction_s = 0.3;
 
 CommitmentOptions with_stops(const std::string& agent) {
   CommitmentOptions options = test::options(agent);
   options.peer_clearance_m = 0.0;
-  options.stops = kOptions;
+  options.stop_reaction_s = kReaction_s;
   return options;
 }
 
 CommittedTrajectory trajectory(const std::string& agent, std::uint32_t sequence,
-                               TrajectoryState state, Motion motion) {
+                               TrajectoryState state, Motion motion,
+                               const Braking& braking = test::kRoverBraking) {
   CommittedTrajectory trajectory;
   trajectory.agent = agent;
   trajectory.id = {1, sequence};
   trajectory.state = state;
   trajectory.footprint_radius_m = kRadius_m;
+  trajectory.braking = braking;
   trajectory.motion = test::shared(std::move(motion));
   return trajectory;
 }
@@ -43,7 +47,7 @@ CommitmentProtocol robot_beside_a_promise(const CommitmentOptions& options) {
   robot.tick(kNow_s - 2.0);
   robot.tick(kNow_s);
   const auto stand = test::shared(test::stand(kNow_s, {-4.0, 0.0}));
-  robot.brake({1, kRadius_m, stand}, kNow_s);
+  robot.brake({1, kRadius_m, test::kRoverBraking, stand}, kNow_s);
   robot.receive(
       trajectory("z", 1, TrajectoryState::kEmergency, test::stand(kNow_s - 1.0, {0.0, -4.0})),
       kNow_s);
@@ -52,8 +56,10 @@ CommitmentProtocol robot_beside_a_promise(const CommitmentOptions& options) {
 }
 
 /// What becomes of the motion; nothing while that is open.
-std::vector<CommitmentEvent> proposed(CommitmentProtocol& robot, Motion motion) {
-  auto events = robot.propose({2, kRadius_m, test::shared(std::move(motion))}, kNow_s).events;
+std::vector<CommitmentEvent> proposed(CommitmentProtocol& robot, Motion motion,
+                                      const Braking& braking = test::kRoverBraking) {
+  auto events =
+      robot.propose({2, kRadius_m, braking, test::shared(std::move(motion))}, kNow_s).events;
   const auto later = robot.tick(kNow_s + 0.1).events;
   events.insert(events.end(), later.begin(), later.end());
   return events;
@@ -75,7 +81,7 @@ TEST(StopConflict, ARobotThatWouldStopInTheWayIsRefused) {
   ASSERT_EQ(settled.size(), 1u);
   EXPECT_EQ(settled[0].kind, Kind::kSettled);
 
-  options.stops.reset();
+  options.stop_reaction_s.reset();
   CommitmentProtocol careless = robot_beside_a_promise(options);
   const auto taken = proposed(careless, along_x(kNow_s + 1.0 + kLater_s));
   ASSERT_EQ(taken.size(), 1u);
@@ -85,15 +91,61 @@ TEST(StopConflict, ARobotThatWouldStopInTheWayIsRefused) {
 TEST(StopConflict, ARobotInTheWayOfAStopDoesNotAgree) {
   for (const bool checks : {true, false}) {
     CommitmentOptions options = with_stops("m");
-    if (!checks) options.stops.reset();
+    if (!checks) options.stop_reaction_s.reset();
     CommitmentProtocol robot(options);
     robot.tick(kNow_s - 2.0);
     robot.tick(kNow_s);
-    robot.brake({1, kRadius_m, test::shared(along_x(kNow_s + 1.0))}, kNow_s);
+    robot.brake({1, kRadius_m, test::kRoverBraking, test::shared(along_x(kNow_s + 1.0))}, kNow_s);
     robot.receive(Heartbeat{"z", 1, kNow_s, {}, {{"m", kNow_s, 0.0}}}, kNow_s);
     robot.receive(trajectory("z", 1, TrajectoryState::kProposed, along_y(kNow_s + 1.85)), kNow_s);
     const bool agrees = robot.peers().peers().at("z").endorsed == TrajectoryId{1, 1};
     EXPECT_EQ(agrees, !checks);
+  }
+}
+
+const Braking kGentle(0.2, 0.8);
+
+/// Two on one lane, at the same times.
+Motion leads() { return test::drive(kNow_s + 1.0, {{0.0, 0.0}, {8.0, 0.0}}, 0.6); }
+Motion follows() { return test::drive(kNow_s + 1.0, {{-1.4, 0.0}, {6.6, 0.0}}, 0.6); }
+
+/// Whether "m" may promise the one motion beside "z", which has promised the other.
+bool may_promise(const BrakableMotion& mine, const BrakableMotion& theirs) {
+  CommitmentProtocol robot(with_stops("m"));
+  robot.tick(kNow_s - 2.0);
+  robot.receive(trajectory("z", 1, TrajectoryState::kCommitted, theirs.motion, theirs.braking),
+                kNow_s);
+  const auto events = proposed(robot, mine.motion, mine.braking);
+  EXPECT_EQ(events.size(), 1u);
+  return events.at(0).kind == Kind::kSettled;
+}
+
+/// Whether "m", which has promised the one motion, agrees where "z" proposes the other.
+bool agrees(const BrakableMotion& mine, const BrakableMotion& theirs) {
+  CommitmentProtocol robot(with_stops("m"));
+  robot.tick(kNow_s - 2.0);
+  robot.tick(kNow_s);
+  robot.brake({1, kRadius_m, mine.braking, test::shared(mine.motion)}, kNow_s);
+  robot.receive(Heartbeat{"z", 1, kNow_s, {}, {{"m", kNow_s, 0.0}}}, kNow_s);
+  robot.receive(trajectory("z", 1, TrajectoryState::kProposed, theirs.motion, theirs.braking),
+                kNow_s);
+  return robot.peers().peers().at("z").endorsed == TrajectoryId{1, 1};
+}
+
+TEST(StopConflict, EitherRobotIsTakenToBrakeAsItSays) {
+  for (const Braking& first : {test::kRoverBraking, kGentle}) {
+    for (const Braking& second : {test::kRoverBraking, kGentle}) {
+      const Motion ahead = leads();
+      const Motion behind = follows();
+      const BrakableMotion leader{ahead, first};
+      const BrakableMotion follower{behind, second};
+      // One that brakes gently runs into one that brakes hard ahead of it, and no other does.
+      const bool compatible = first.deceleration() <= second.deceleration();
+      EXPECT_EQ(may_promise(leader, follower), compatible);
+      EXPECT_EQ(may_promise(follower, leader), compatible);
+      EXPECT_EQ(agrees(leader, follower), compatible);
+      EXPECT_EQ(agrees(follower, leader), compatible);
+    }
   }
 }
 
@@ -104,7 +156,8 @@ TEST(StopConflict, RobotsSetDownTooCloseMayLeaveButComeNoCloser) {
     CommitmentProtocol robot(options);
     robot.tick(kNow_s - 2.0);
     robot.tick(kNow_s);
-    robot.brake({1, kRadius_m, test::shared(test::stand(kNow_s, {0.0, 0.0}))}, kNow_s);
+    robot.brake({1, kRadius_m, test::kRoverBraking, test::shared(test::stand(kNow_s, {0.0, 0.0}))},
+                kNow_s);
     robot.receive(trajectory("z", 1, TrajectoryState::kEmergency, test::stand(kNow_s, {0.7, 0.0})),
                   kNow_s);
     const double goal_m = leaves ? -3.0 : 0.05;
@@ -125,7 +178,7 @@ TEST(StopConflict, FollowsARobotFromWhatIsBindingIntoItsProposal) {
                          test::drive(kNow_s - 1.0, {{0.9, 0.0}, {6.5, 0.0}}, 0.5)));
   const CommittedTrajectory follows = trajectory(
       "m", 2, TrajectoryState::kProposed, test::drive(kNow_s + 1.2, {{0.0, 0.0}, {5.8, 0.0}}, 0.6));
-  const StopDemand demand{{Braking(0.5), 2.0}, 0.0, 10.0};  // hears late
+  const StopDemand demand{2.0, 0.0, 10.0};  // hears late
   EXPECT_FALSE(first_stop_conflict({mine, nullptr}, {theirs, nullptr}, demand, kNow_s + 0.9));
   const auto conflict =
       first_stop_conflict({mine, &follows}, {theirs, nullptr}, demand, kNow_s + 0.9);
@@ -133,7 +186,7 @@ TEST(StopConflict, FollowsARobotFromWhatIsBindingIntoItsProposal) {
   EXPECT_EQ(conflict->peer, "z");
 }
 
-TEST(StopConflict, RacesOverABadNetworkEndWithRoomToBrake) {
+TEST(StopConflict, RacesOfDifferentRobotsOverABadNetworkEndWithRoomToBrake) {
   test::Network::Link link;
   link.max_delay_s = 0.2;
   link.loss = 0.2;
@@ -141,7 +194,9 @@ TEST(StopConflict, RacesOverABadNetworkEndWithRoomToBrake) {
   int refused = 0;
   for (int seed = 0; seed < 150; ++seed) {
     test::Network network(seed, link);
-    for (const char* name : {"ugv1", "ugv2", "ugv3"}) network.add(with_stops(name));
+    network.add(with_stops("ugv1"), kGentle);
+    network.add(with_stops("ugv2"));
+    network.add(with_stops("ugv3"), Braking(1.2, 2.0));
     for (int i = 0; i < network.size(); ++i)
       network.brake(i, test::stand(network.now(), {3.0 * i, -3.0}));
     network.run(1.2);
@@ -154,7 +209,7 @@ TEST(StopConflict, RacesOverABadNetworkEndWithRoomToBrake) {
       network.run(0.05);
     }
     network.run(1.5);
-    const StopDemand demand{kOptions, -0.02, 10.0};
+    const StopDemand demand{kReaction_s, -0.02, 10.0};
     for (int i = 0; i < network.size(); ++i) {
       settled += network.settled(i) - 1;
       refused += static_cast<int>(network.events(i, Kind::kRejected).size());

@@ -17,6 +17,7 @@
 #include "fleet/protocol/shipped_options.h"
 #include "fleet/wire/datagram_link.h"
 #include "fuzz/oddities.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -40,7 +41,8 @@ class Fuzzer {
         keyed_(keyed),
         robot_(test::shipped_options("ugv1")),
         link_("ugv1", keyed ? std::optional<FleetKey>(key_) : std::nullopt) {
-    robot_.brake({1, 0.3, test::shared(test::stand(now_s_, {0.0, 0.0}))}, now_s_);
+    robot_.brake({1, 0.3, test::kRoverBraking, test::shared(test::stand(now_s_, {0.0, 0.0}))},
+                 now_s_);
     for (int i = 0; i < 40; ++i) corpus_.push_back(sound());
   }
 
@@ -86,9 +88,13 @@ class Fuzzer {
       }
       return stops;
     }
-    CommittedTrajectory trajectory{
-        agent,  {epoch, 1U + below(9)}, static_cast<TrajectoryState>(1 + below(4)), below(3), 0.3,
-        nullptr};
+    CommittedTrajectory trajectory{agent,
+                                   {epoch, 1U + below(9)},
+                                   static_cast<TrajectoryState>(1 + below(4)),
+                                   below(3),
+                                   0.3,
+                                   Braking(0.5 * (1 + below(4))),
+                                   nullptr};
     if (trajectory.state != TrajectoryState::kWithdrawn)
       trajectory.motion =
           test::shared(test::random_drive(random_, now_s_ + 0.1 * below(20), 2 + below(8), 4.0));
@@ -202,8 +208,9 @@ class Fuzzer {
     const Vector2 here = robot_.binding().position(now_s_ + 0.5);
     const Vector2 there = 0.01 * Vector2(below(400) - 200, below(400) - 200);
     if ((there - here).norm() < 0.1) return;
-    answer(robot_.propose(
-        {2, 0.3, test::shared(quantised(test::drive(now_s_ + 0.5, {here, there}, 1.0)))}, now_s_));
+    answer(robot_.propose({2, 0.3, test::kRoverBraking,
+                           test::shared(quantised(test::drive(now_s_ + 0.5, {here, there}, 1.0)))},
+                          now_s_));
   }
 
   std::mt19937 random_;

@@ -15,6 +15,7 @@
 #include "perception/sensor/point_cloud.h"
 #include "perception/shipped_options.h"
 #include "perception/tracking/peer_tracks.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -54,7 +55,8 @@ class Fuzzer {
     const double x = odd_.one_in(4) ? odd_.number() : odd_.between(-3.0, 3.0);
     if (!(std::abs(x) < 1e12)) return;  // no motion
     const auto motion = test::shared(test::stand(time_s_, {x, 1.0}));
-    peers_.update(time_s_, {{"ugv2", {1, ++promises_}, motion, odd_.between(0.1, 1.0)}});
+    const double radius_m = odd_.between(0.1, 1.0);
+    peers_.update(time_s_, {{"ugv2", {1, ++promises_}, motion, radius_m, test::kRoverBraking}});
   }
 
   void see_scan() {

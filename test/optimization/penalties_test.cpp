@@ -13,6 +13,7 @@
 #include "optimization/turning_penalty.h"
 #include "optimization/wheel_penalty.h"
 #include "safety/circle_field.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -254,7 +255,7 @@ TEST(MovingPenalty, HasTheValuesOfHandWhileTheRadiusGrows) {  // paper (33)
 
 TEST(MovingPenalty, PassesOverNoPeerThatIsNear) {
   const auto motion = test::shared(test::drive(100.0, {{0.0, 0.0}, {3.0, 2.0}, {4.0, 0.0}}, 1.0));
-  const auto peer = std::make_shared<PeerObstacle>("peer", motion, 0.3);
+  const auto peer = std::make_shared<PeerObstacle>("peer", motion, 0.3, test::kRoverBraking);
   const MovingPenalty penalty(10.0, 100.0, {{peer, 0.7, kForever}});
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-3.0, 7.0);

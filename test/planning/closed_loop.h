@@ -64,7 +64,9 @@ class ClosedLoop {
 
   /// Under way on a promise that is in force, before the first step.
   void begin_with(const Motion& promised) {
-    answers_.bind({0, footprint_radius_m(), std::make_shared<const Motion>(promised)}, now_s);
+    answers_.bind(
+        {0, footprint_radius_m(), robot_.braking(), std::make_shared<const Motion>(promised)},
+        now_s);
     pose_ = promised.at(now_s).pose;
     replanning_.set_committed({}, *answers_.binding().composed(now_s));
   }
@@ -158,6 +160,7 @@ class ClosedLoop {
     wish.id.sequence = proposal.sequence;
     wish.state = proposal.emergency ? TrajectoryState::kEmergency : TrajectoryState::kProposed;
     wish.footprint_radius_m = footprint_radius_m();
+    wish.braking = robot_.braking();
     wish.motion = std::make_shared<const Motion>(proposal.motion);
     keeping_.propose(proposal.sequence, wish, now_s);
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "topology/shipped_options.h"
+#include "trajectory/rover_braking.h"
 #include "world/margin_budget.h"
 
 namespace mocha {
@@ -151,7 +152,7 @@ TEST_F(ReplannerLoop, LetsAPeerCross) {
   loop.run(2.0);
   const auto crossing = std::make_shared<const Motion>(
       straight_drive(loop.now_s + 1.0, {4.5, -2.5}, M_PI / 2.0, 5.0, 0.9, 0.5));
-  loop.others = {std::make_shared<PeerObstacle>("ugv2", crossing, 0.3)};
+  loop.others = {std::make_shared<PeerObstacle>("ugv2", crossing, 0.3, test::kRoverBraking)};
   double least_m = 1e9;
   for (int i = 0; i < 400; ++i) {
     loop.step();

@@ -56,6 +56,7 @@ class LateAnswers : public SettlingProtocol {
     CommittedTrajectory promise;
     promise.agent = kAgent;
     promise.footprint_radius_m = proposal.footprint_radius_m;
+    promise.braking = proposal.braking;
     promise.motion = proposal.motion;
     binding_.bind(promise);
     binding_.prune(now);

@@ -10,6 +10,7 @@
 #include "planning/replanner/certified_part.h"
 #include "planning/worlds.h"
 #include "safety/certifier.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 
@@ -61,7 +62,8 @@ class ManeuverTest : public ::testing::Test {
     return std::make_shared<PredictedDisc>("person", t0, centre, velocity, kPerson_m, 0.0);
   }
   static std::shared_ptr<const MovingObstacle> peer(const Motion& motion) {
-    return std::make_shared<PeerObstacle>("ugv2", std::make_shared<const Motion>(motion), 0.3);
+    return std::make_shared<PeerObstacle>("ugv2", std::make_shared<const Motion>(motion), 0.3,
+                                          test::kRoverBraking);
   }
 
   const RobotModel robot_;

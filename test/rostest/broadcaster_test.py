@@ -134,6 +134,7 @@ def drive(clock, start, end):
     message.header.stamp = clock.stamp()
     message.header.frame_id = "map"
     message.footprint_radius = RADIUS_M
+    message.deceleration, message.max_acceleration = 0.48, 0.8
     message.start = clock.stamp() + rospy.Duration(LEAD_S)
     message.s = 3
     phase = MotionPhase()
@@ -214,7 +215,8 @@ class BroadcasterTest(unittest.TestCase):
         self.first.set_down(here)
         before = self.first.diagnosed_refusals()
         count = len(self.first.committed)
-        for changes in ({"footprint_radius": -1.0}, {"footprint_radius": float("nan")}, {"agent": "race2"},
+        for changes in ({"footprint_radius": -1.0}, {"footprint_radius": float("nan")}, {"deceleration": 0.0},
+                        {"deceleration": float("inf")}, {"max_acceleration": float("nan")}, {"agent": "race2"},
                         {"phases": []}, {"state": Trajectory.PLANNED}, {"s": 2}):
             status = self.first.settlement(self.first.propose(here, (72.0, 70.0), **changes))
             self.assertEqual(status.result, Settlement.INVALID, status.message)
@@ -227,8 +229,8 @@ class BroadcasterTest(unittest.TestCase):
         impostor.agent = "race3"
         impostor.phases[0].x = [70.0, float("nan")]
         self.promises.publish(impostor)
-        self.clock.run_until(lambda: self.first.refused() >= before + 8, 10.0, lambda: "all are counted: %s" % self.first.diagnosis)
-        self.assertEqual(self.first.refused(), before + 8)
+        self.clock.run_until(lambda: self.first.refused() >= before + 11, 10.0, lambda: "all are counted: %s" % self.first.diagnosis)
+        self.assertEqual(self.first.refused(), before + 11)
         self.assertEqual(len(self.first.committed), count)
 
     def test_yield_requests_reach_the_others_in_the_own_name_only(self):

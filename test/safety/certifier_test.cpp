@@ -8,6 +8,7 @@
 
 #include "safety/circle_field.h"
 #include "trajectory/random_motion.h"
+#include "trajectory/rover_braking.h"
 #include "trajectory/simple_motions.h"
 #include "world/margin_budget.h"
 
@@ -39,7 +40,7 @@ std::shared_ptr<const MovingObstacle> person(const Vector2& place, double radius
 
 std::shared_ptr<const MovingObstacle> peer(const Vector2& place) {
   const auto stands = std::make_shared<const Motion>(standing(kNow_s - 9.0, place, 0.0));
-  return std::make_shared<PeerObstacle>("ugv2", stands, 0.3);
+  return std::make_shared<PeerObstacle>("ugv2", stands, 0.3, test::kRoverBraking);
 }
 
 class CertifierTest : public ::testing::Test {
@@ -101,8 +102,8 @@ std::vector<OneField> one_by_one(const Scene& open) {
   add("stops", ahead(), ViolatedTerm::kSeparation, [](Requirement& r) { r.stops.reset(); })
       .peers = {std::make_shared<PeerObstacle>(
       "ugv2",
-      std::make_shared<const Motion>(straight_drive(kNow_s, {-1.0, 0.0}, 0.0, 8.0, 0.9, 0.5)),
-      0.3)};
+      std::make_shared<const Motion>(straight_drive(kNow_s, {-1.0, 0.0}, 0.0, 8.0, 0.9, 0.5)), 0.3,
+      test::kRoverBraking)};
   add("predicted_distance_m", ahead(), ViolatedTerm::kSeparation, [](Requirement& r) {
     r.predicted_distance_m.reset();
   }).confident = {person({4.0, 0.7})};
@@ -256,7 +257,7 @@ TEST_F(CertifierTest, APromiseIsRenewedOnAllOfItsWay) {
                                       "ugv3",
                                       std::make_shared<const Motion>(straight_drive(
                                           kNow_s, place(), 3.0 * unit(random), 4.0, 0.9, 0.5)),
-                                      0.3)};
+                                      0.3, test::kRoverBraking)};
     for (int i = 0; i < 2; ++i) {
       const Vector2 centre = place();
       const Vector2 velocity = 0.2 * place();

@@ -6,6 +6,7 @@
 
 #include "safety/circle_field.h"
 #include "trajectory/random_motion.h"
+#include "trajectory/rover_braking.h"
 #include "trajectory/simple_motions.h"
 
 namespace mocha {
@@ -252,7 +253,7 @@ INSTANTIATE_TEST_SUITE_P(Robots, LeavingDrives, ::testing::Values("rover", "jack
 TEST(Leaving, SeparationLikewise) {
   const auto check = [](const Motion& motion, double y) {
     const PeerObstacle peer("ugv2", std::make_shared<const Motion>(standing(0.0, {0.0, y}, 0.0)),
-                            0.3);
+                            0.3, test::kRoverBraking);
     return check_separation_or_leaving(motion, 0.3, peer, 0.4, 0.0, 30.0);
   };
   EXPECT_FALSE(check(drive(0.0), 1.1));
@@ -266,7 +267,7 @@ TEST(Leaving, SeparationLikewise) {
 TEST(Leaving, APeerThatComesIsNoLeaving) {
   const auto comes =
       std::make_shared<const Motion>(straight_drive(0.0, {0.8, 0.0}, M_PI, 1.5, 0.8, 0.5));
-  const PeerObstacle peer("ugv2", comes, 0.3);
+  const PeerObstacle peer("ugv2", comes, 0.3, test::kRoverBraking);
   EXPECT_TRUE(
       check_separation_or_leaving(standing(0.0, {0.0, 0.0}, 0.0), 0.3, peer, 0.4, 0.0, 30.0));
 }

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "trajectory/rover_braking.h"
 #include "trajectory/simple_motions.h"
 #include "world/margin_budget.h"
 
@@ -149,7 +150,8 @@ TEST_P(RequirementsTest, AStretchOfTimeLeavesTheRestAsItIs) {
 TEST_P(RequirementsTest, WhatMovesIsKeptAsFarAsIsAskedFor) {
   Scene scene;
   scene.peers = {std::make_shared<PeerObstacle>(
-      "ugv2", std::make_shared<const Motion>(standing(kNow_s, {5.0, 0.0}, 0.0)), 0.3)};
+      "ugv2", std::make_shared<const Motion>(standing(kNow_s, {5.0, 0.0}, 0.0)), 0.3,
+      test::kRoverBraking)};
   scene.confident = {person(0.5)};
   scene.likely = {person(0.25)};
   scene.predicted_until_s = kNow_s + 5.0;

@@ -4,6 +4,7 @@
 
 #include "safety/certificate.h"
 #include "trajectory/random_motion.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -27,7 +28,8 @@ Motion straight(double start_s, const Vector2& from, const Vector2& to, double d
 }
 
 PeerObstacle peer_on(const Motion& motion, double radius_m = 0.3) {
-  return PeerObstacle("ugv2", std::make_shared<const Motion>(motion), radius_m);
+  return PeerObstacle("ugv2", std::make_shared<const Motion>(motion), radius_m,
+                      test::kRoverBraking);
 }
 
 void expect_agreement(const Motion& motion, const MovingObstacle& obstacle, double from,

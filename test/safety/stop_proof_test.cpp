@@ -10,8 +10,8 @@ namespace {
 const StopOptions kOptions{Braking(0.5), 0.3};
 constexpr double kRadius_m = 0.3;
 
-PeerObstacle peer_on(Motion motion) {
-  return PeerObstacle("ugv2", test::shared(std::move(motion)), kRadius_m);
+PeerObstacle peer_on(Motion motion, const Braking& braking = kOptions.braking) {
+  return PeerObstacle("ugv2", test::shared(std::move(motion)), kRadius_m, braking);
 }
 
 TEST(StopProof, SaysWhenWhereAndByHowMuch) {
@@ -36,6 +36,17 @@ TEST(StopProof, ARobotThatIsTooCloseMayLeaveButComeNoCloser) {
   const Motion comes = test::drive(0.0, {{0.0, 0.0}, {0.1, 0.0}}, 0.5);
   EXPECT_FALSE(check_stops(leaves, kRadius_m, stands, 0.1, kOptions, 0.0));
   EXPECT_TRUE(check_stops(comes, kRadius_m, stands, 0.1, kOptions, 0.0));
+}
+
+TEST(StopProof, APeerIsTakenToBrakeAsItSays) {
+  const Motion ahead = test::drive(0.0, {{0.0, 0.0}, {12.0, 0.0}}, 0.8);
+  const Motion behind = test::drive(0.0, {{-1.6, 0.0}, {10.4, 0.0}}, 0.8);
+  const Braking gentle(0.2);
+  EXPECT_FALSE(check_stops(ahead, kRadius_m, peer_on(behind), 0.0, kOptions, 0.0));
+  EXPECT_TRUE(check_stops(ahead, kRadius_m, peer_on(behind, gentle), 0.0, kOptions, 0.0));
+  const StopOptions gently{gentle, kOptions.reaction_s};
+  EXPECT_FALSE(check_stops(behind, kRadius_m, peer_on(ahead, gentle), 0.0, gently, 0.0));
+  EXPECT_TRUE(check_stops(behind, kRadius_m, peer_on(ahead), 0.0, gently, 0.0));
 }
 
 TEST(StopProof, WhatPromisesNothingViolatesNothing) {

@@ -5,6 +5,7 @@
 #include "fleet/protocol/motions.h"
 #include "planning/late_answers.h"
 #include "planning/worlds.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -19,6 +20,7 @@ CommittedTrajectory wish(const Motion& motion, TrajectoryState state = Trajector
   trajectory.id = {1, 1};
   trajectory.state = state;
   trajectory.footprint_radius_m = 0.3;
+  trajectory.braking = test::kRoverBraking;
   trajectory.motion = std::make_shared<const Motion>(motion);
   return trajectory;
 }
@@ -49,6 +51,17 @@ TEST_F(CommitmentKeepingTest, WhatIsBindingHasTheProposersNumberAndAFirstLease) 
             0.01);
 }
 
+TEST_F(CommitmentKeepingTest, BrakingIsPromisedAsTheOthersHearIt) {
+  CommittedTrajectory promised = wish(drive_);
+  promised.braking = Braking(0.48012, 0.7999);
+  keeping_.propose(7, promised, kNow_s);
+  const CommitmentNews news = keeping_.tick(kNow_s);
+  ASSERT_EQ(news.settled.size(), 1u);
+  const Braking braking = news.settled[0].event.trajectory.braking.value();
+  EXPECT_DOUBLE_EQ(braking.deceleration(), 0.48);
+  EXPECT_DOUBLE_EQ(braking.max_acceleration(), 0.8);
+}
+
 TEST_F(CommitmentKeepingTest, ARefusalIsToldWithItsNumberAndCounted) {
   protocol_.refused_share = 1.0;
   const Settled settled = commit(8, kNow_s);
@@ -70,6 +83,8 @@ TEST_F(CommitmentKeepingTest, WhereTheLeaseEndsTheStopIsPromised) {
   ASSERT_EQ(news.settled.size(), 1u);
   ASSERT_TRUE(news.settled[0].in_force);
   EXPECT_GT(news.settled[0].sequence, 7u);
+  EXPECT_EQ(news.settled[0].event.trajectory.braking->deceleration(),
+            rover().braking().deceleration());
   const Motion& stop = *news.settled[0].in_force->trajectory.motion;
   EXPECT_LT(stop.end_time(), drive_.end_time() - 1.0);
   EXPECT_EQ(keeping_.counts().lease_stops, 1);

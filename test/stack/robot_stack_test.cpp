@@ -5,6 +5,7 @@
 #include "fleet/protocol/motions.h"
 #include "planning/late_answers.h"
 #include "planning/worlds.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -75,6 +76,7 @@ TEST_F(RobotStackTest, ABreachLeadsToAStepAtOnceWhichKnowsOfIt) {
   across.id = {1, 1};
   across.state = TrajectoryState::kEmergency;
   across.footprint_radius_m = 0.3;
+  across.braking = test::kRoverBraking;
   const double x = state().pose.position.x() + 1.2;
   across.motion = test::shared(test::stand(now_s_, {x, 0.0}));
   stack_.hear(across, now_s_);

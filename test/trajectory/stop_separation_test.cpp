@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -18,23 +19,32 @@ namespace {
 
 constexpr double kApart_m = 0.6;
 constexpr double kTolerance_m = 0.02;
-const StopOptions kOptions{Braking(0.5), 0.3};
+const Braking kBraking(0.5);
+constexpr double kReaction_s = 0.3;
 
 /// How close they come if a brakes at t and b after the reaction time, along real braking motions.
-double closest_where_first_brakes(const Motion& a, const Motion& b, double t,
-                                  const StopOptions& options) {
-  const auto braking = [&](const Motion& motion, double when) {
+double closest_where_first_brakes(const BrakableMotion& a, const BrakableMotion& b, double t) {
+  const auto stop = [](const BrakableMotion& brakable, double when) {
+    const Motion& motion = brakable.motion;
     return with_brake(motion, motion.start_time(), std::max(when, motion.start_time()),
-                      options.braking);
+                      brakable.braking);
   };
-  return closest_approach(braking(a, t), braking(b, t + options.reaction_s), t, t + 30.0)
-      .distance_m;
+  return closest_approach(stop(a, t), stop(b, t + kReaction_s), t, t + 30.0).distance_m;
 }
 
-double closest_stop(const Motion& a, const Motion& b, double t,
-                    const StopOptions& options = kOptions) {
-  return std::min(closest_where_first_brakes(a, b, t, options),
-                  closest_where_first_brakes(b, a, t, options));
+double closest_stop(const BrakableMotion& a, const BrakableMotion& b, double t) {
+  return std::min(closest_where_first_brakes(a, b, t), closest_where_first_brakes(b, a, t));
+}
+
+/// Of two robots that brake alike.
+std::optional<StopMeeting> meeting_of(const Motion& a, const Motion& b, double from_s = 0.0,
+                                      const Braking& braking = kBraking,
+                                      double distance_m = kApart_m) {
+  return first_stop_meeting({a, braking}, {b, braking}, distance_m, kReaction_s, from_s);
+}
+
+double closest_stop(const Motion& a, const Motion& b, double t, const Braking& braking = kBraking) {
+  return closest_stop({a, braking}, {b, braking}, t);
 }
 
 /// From rest to rest, at `speed` [m/s] but for the first metre and the last.
@@ -62,8 +72,8 @@ TEST(StopSeparation, AFollowerKeepsWhatTheReactionTakes) {
   const auto follower = [](double behind_m) {
     return along(0.0, {-behind_m, 0.0}, {12.0 - behind_m, 0.0}, 1.0);
   };
-  EXPECT_FALSE(first_stop_meeting(leader, follower(1.1), kApart_m, kOptions, 0.0));
-  const auto meeting = first_stop_meeting(leader, follower(0.8), kApart_m, kOptions, 0.0);
+  EXPECT_FALSE(meeting_of(leader, follower(1.1)));
+  const auto meeting = meeting_of(leader, follower(0.8));
   ASSERT_TRUE(meeting);
   EXPECT_NEAR(closest_approach(leader, follower(0.8), 0.0, 1e3).distance_m, 0.8, 1e-3);
   EXPECT_LT(meeting->distance_m, kApart_m);
@@ -75,24 +85,39 @@ TEST(StopSeparation, TheFirstToCrossMustNotStopInTheWay) {
   const auto second = [](double later_s) { return along(later_s, {0.0, -4.0}, {0.0, 4.0}, 1.0); };
   ASSERT_GT(closest_approach(first, second(0.9), 0.0, 1e3).distance_m, kApart_m)
       << "they never meet while both drive on";
-  const auto meeting = first_stop_meeting(first, second(0.9), kApart_m, kOptions, 0.0);
+  const auto meeting = meeting_of(first, second(0.9));
   ASSERT_TRUE(meeting);
   EXPECT_LT(closest_stop(first, second(0.9), meeting->brakes_s), kApart_m + kTolerance_m);
   EXPECT_LT(meeting->place.norm(), 1.5);
-  EXPECT_FALSE(first_stop_meeting(first, second(1.5), kApart_m, kOptions, 0.0));
+  EXPECT_FALSE(meeting_of(first, second(1.5)));
 }
 
 TEST(StopSeparation, TwoHeadOnMustBothBeAbleToStop) {
   const Motion one = along(0.0, {-4.0, 0.0}, {-0.5, 0.0}, 1.0);
   const Motion other = along(0.0, {4.0, 0.0}, {0.5, 0.0}, 1.0);
-  EXPECT_FALSE(first_stop_meeting(one, other, kApart_m, kOptions, 0.0));
+  EXPECT_FALSE(meeting_of(one, other));
   // One leaves the lane of the other in time, if it does not brake in it.
   const Motion aside = test::drive(0.0, {{3.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.0, 3.0}}, 1.0);
   const Motion comes = along(-1.4, {-4.0, 0.0}, {4.0, 0.0}, 1.0);
   ASSERT_GT(closest_approach(aside, comes, 0.0, 1e3).distance_m, kApart_m + 0.1);
-  EXPECT_FALSE(first_stop_meeting(aside, comes, kApart_m, kOptions, 0.0));
-  EXPECT_TRUE(first_stop_meeting(aside, comes, kApart_m, {kOptions.braking, 1.2}, 0.0))
+  EXPECT_FALSE(meeting_of(aside, comes));
+  EXPECT_TRUE(first_stop_meeting({aside, kBraking}, {comes, kBraking}, kApart_m, 1.2, 0.0))
       << "hears of it late";
+}
+
+TEST(StopSeparation, AGentleBrakerKeepsMoreBehindOneThatBrakesHard) {
+  const Braking gentle(0.2);
+  const Motion ahead = along(0.0, {0.0, 0.0}, {12.0, 0.0}, 1.0);
+  const Motion behind = along(0.0, {-2.0, 0.0}, {10.0, 0.0}, 1.0);
+  const auto meeting = [&](const Braking& leads, const Braking& follows) {
+    return first_stop_meeting({ahead, leads}, {behind, follows}, kApart_m, kReaction_s, 0.0);
+  };
+  EXPECT_FALSE(meeting(kBraking, kBraking));
+  EXPECT_FALSE(meeting(gentle, gentle));
+  EXPECT_FALSE(meeting(gentle, kBraking)) << "the follower brakes harder";
+  const auto found = meeting(kBraking, gentle);
+  ASSERT_TRUE(found);
+  EXPECT_LT(closest_stop({ahead, kBraking}, {behind, gentle}, found->brakes_s), kApart_m);
 }
 
 TEST(StopSeparation, IsTheSameForBoth) {
@@ -101,8 +126,10 @@ TEST(StopSeparation, IsTheSameForBoth) {
   for (int trial = 0; trial < 200; ++trial) {
     const Motion a = test::random_drive(random, 0.0, 4, 3.0);
     const Motion b = test::random_drive(random, 0.4, 4, 3.0);
-    const auto one = first_stop_meeting(a, b, kApart_m, kOptions, 0.0);
-    const auto other = first_stop_meeting(b, a, kApart_m, kOptions, 0.0);
+    const BrakableMotion gently{a, Braking(0.3)};
+    const BrakableMotion firmly{b, Braking(1.1, 1.4)};
+    const auto one = first_stop_meeting(gently, firmly, kApart_m, kReaction_s, 0.0);
+    const auto other = first_stop_meeting(firmly, gently, kApart_m, kReaction_s, 0.0);
     ASSERT_EQ(one.has_value(), other.has_value());
     if (!one) continue;
     ++meetings;
@@ -113,6 +140,7 @@ TEST(StopSeparation, IsTheSameForBoth) {
 }
 
 TEST(StopSeparation, AgreesWithRealBrakingAtEveryMoment) {
+  const std::vector<Braking> brakings = {kBraking, Braking(0.25), Braking(1.2)};
   std::mt19937 random(7);
   std::uniform_real_distribution<double> angle(-3.0, 3.0);
   std::uniform_real_distribution<double> late_s(-1.5, 1.5);
@@ -127,17 +155,20 @@ TEST(StopSeparation, AgreesWithRealBrakingAtEveryMoment) {
                                     : along(start_s + late_s(random), -way, way, 0.9);
     const double until_s = std::max(a.end_time(), b.end_time());
     if (bounds(b).acceleration > 2.0) continue;
-    const auto meeting = first_stop_meeting(a, b, kApart_m, kOptions, start_s);
+    const BrakableMotion one{a, kBraking};
+    const BrakableMotion other{b, brakings[trial % brakings.size()]};
+    const auto meeting = first_stop_meeting(one, other, kApart_m, kReaction_s, start_s);
     if (meeting) {
       ++meetings;
-      EXPECT_LT(closest_stop(a, b, meeting->brakes_s), kApart_m + 0.06);
+      EXPECT_LT(closest_stop(one, other, meeting->brakes_s), kApart_m + 0.06);
     } else {
       ++apart;
     }
     const double until_meeting_s = meeting ? meeting->brakes_s - 0.1 : until_s;
     const double begin_s = std::ceil(start_s / 0.1) * 0.1;
     for (double t = begin_s; t < until_meeting_s; t += 0.07)
-      EXPECT_GT(closest_stop(a, b, t), kApart_m - kTolerance_m) << trial << " at " << t - start_s;
+      EXPECT_GT(closest_stop(one, other, t), kApart_m - kTolerance_m)
+          << trial << " at " << t - start_s;
   }
   EXPECT_GT(apart, 15);
   EXPECT_GT(meetings, 30);
@@ -145,7 +176,7 @@ TEST(StopSeparation, AgreesWithRealBrakingAtEveryMoment) {
 
 TEST(StopSeparation, KnowsThatBrakingIsGentlerInABend) {
   constexpr double kRadius_m = 4.0;
-  const StopOptions gently_in_bends{Braking(0.6, 1.0), 0.3};
+  const Braking gently_in_bends(0.6, 1.0);
   const Motion circling = round_a_circle(kRadius_m, 1.97);  // takes 97 % of the limit
   const double arrives_s = 0.5 * circling.end_time();
   const Vector2 crossing = circling.position(arrives_s);
@@ -155,7 +186,7 @@ TEST(StopSeparation, KnowsThatBrakingIsGentlerInABend) {
   for (double before_s = 1.0; before_s < 4.0; before_s += 0.05) {
     const Motion crosses = test::drive(
         arrives_s - before_s, {crossing - outward, crossing, crossing + 3.0 * outward}, 1.0);
-    if (first_stop_meeting(circling, crosses, kApart_m, gently_in_bends, 0.0)) {
+    if (meeting_of(circling, crosses, 0.0, gently_in_bends)) {
       ++meetings;
       continue;
     }
@@ -170,7 +201,7 @@ TEST(StopSeparation, KnowsThatBrakingIsGentlerInABend) {
 
 TEST(StopSeparation, FindsMeetingsBetweenItsMoments) {
   constexpr double kNear_m = 0.1;
-  const StopOptions kFast{Braking(3.0), 0.3};
+  const Braking kHard(3.0);
   std::mt19937 random(12);
   std::uniform_real_distribution<double> angle(0.5, 2.6);
   std::uniform_real_distribution<double> late_s(-0.3, 0.3);
@@ -184,8 +215,8 @@ TEST(StopSeparation, FindsMeetingsBetweenItsMoments) {
     for (double shift_s = 0.0; shift_s < 0.095; shift_s += 0.01) {
       const Motion a = along(1.0 + shift_s, {-6.0, 0.0}, {6.0, 0.0}, 3.0);
       const Motion b = along(1.0 + shift_s + start_s, -way, way, 3.0);
-      found |= first_stop_meeting(a, b, kNear_m, kFast, 0.0).has_value();
-      missed |= !first_stop_meeting(a, b, kNear_m + 0.03, kFast, 0.0).has_value();
+      found |= meeting_of(a, b, 0.0, kHard, kNear_m).has_value();
+      missed |= !meeting_of(a, b, 0.0, kHard, kNear_m + 0.03).has_value();
     }
     EXPECT_FALSE(found && missed) << trial;
     meetings += found;
@@ -196,17 +227,20 @@ TEST(StopSeparation, FindsMeetingsBetweenItsMoments) {
 TEST(StopSeparation, LooksOnlyAsLongAsItIsAsked) {
   const Motion first = along(0.0, {-4.0, 0.0}, {4.0, 0.0}, 1.0);
   const Motion second = along(0.9, {0.0, -4.0}, {0.0, 4.0}, 1.0);
-  const auto meeting = first_stop_meeting(first, second, kApart_m, kOptions, 0.0);
+  const auto meeting = meeting_of(first, second);
   ASSERT_TRUE(meeting);
-  EXPECT_FALSE(first_stop_meeting(first, second, kApart_m, kOptions, 0.0, meeting->brakes_s - 0.2));
-  EXPECT_FALSE(first_stop_meeting(first, second, kApart_m, kOptions, 60.0));
+  EXPECT_FALSE(first_stop_meeting({first, kBraking}, {second, kBraking}, kApart_m, kReaction_s, 0.0,
+                                  meeting->brakes_s - 0.2));
+  EXPECT_FALSE(meeting_of(first, second, 60.0));
 }
 
 TEST(StopSeparation, RefusesWhatIsNoRule) {
-  const Motion a = test::stand(0.0, {0.0, 0.0});
-  EXPECT_THROW(first_stop_meeting(a, Motion(), 0.6, kOptions, 0.0), std::invalid_argument);
-  EXPECT_THROW(first_stop_meeting(a, a, 0.6, {Braking(0.5), -0.1}, 0.0), std::invalid_argument);
-  EXPECT_THROW(first_stop_meeting(a, a, 0.6, {Braking(0.5), 11.0}, 0.0), std::invalid_argument);
+  const Motion stand = test::stand(0.0, {0.0, 0.0});
+  const Motion none;
+  const BrakableMotion a{stand, kBraking};
+  EXPECT_THROW(first_stop_meeting(a, {none, kBraking}, 0.6, 0.3, 0.0), std::invalid_argument);
+  EXPECT_THROW(first_stop_meeting(a, a, 0.6, -0.1, 0.0), std::invalid_argument);
+  EXPECT_THROW(first_stop_meeting(a, a, 0.6, 11.0, 0.0), std::invalid_argument);
 }
 
 }  // namespace

@@ -6,13 +6,14 @@
 #include <limits>
 
 #include "trajectory/random_motion.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
 
 TEST(PeerObstacle, FollowsItsMotion) {
   const auto motion = std::make_shared<const Motion>(10.0, std::vector<Phase>{random_drive(1, 6)});
-  const PeerObstacle peer("ugv2", motion, 0.3);
+  const PeerObstacle peer("ugv2", motion, 0.3, test::kRoverBraking);
   EXPECT_EQ(peer.name(), "ugv2");
   EXPECT_EQ(peer.rest_time(), motion->end_time());
   for (double t = 9.0; t < motion->end_time() + 2.0; t += 0.1) {
@@ -28,7 +29,7 @@ TEST(PeerObstacle, ClosingSpeedIsABoundAndNotALooseOne) {
   for (int seed = 0; seed < 20; ++seed) {
     const auto motion =
         std::make_shared<const Motion>(0.0, std::vector<Phase>{random_drive(seed, 9)});
-    const PeerObstacle peer("peer", motion, 0.3);
+    const PeerObstacle peer("peer", motion, 0.3, test::kRoverBraking);
     const double fastest = sampled_peaks(*motion, 0.0).speed;
     EXPECT_GE(peer.max_closing_speed(0.0), fastest);
     EXPECT_LE(peer.max_closing_speed(0.0), 1.5 * fastest);
@@ -49,10 +50,11 @@ TEST(MovingObstacle, RefusesWhatIsNone) {
   const auto motion = std::make_shared<const Motion>(0.0, std::vector<Phase>{random_drive(1, 2)});
   const double nan = std::nan("");
   const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(PeerObstacle("a", nullptr, 0.3), std::invalid_argument);
-  EXPECT_THROW(PeerObstacle("a", std::make_shared<const Motion>(), 0.3), std::invalid_argument);
-  EXPECT_THROW(PeerObstacle("a", motion, -0.1), std::invalid_argument);
-  EXPECT_THROW(PeerObstacle("a", motion, nan), std::invalid_argument);
+  EXPECT_THROW(PeerObstacle("a", nullptr, 0.3, test::kRoverBraking), std::invalid_argument);
+  EXPECT_THROW(PeerObstacle("a", std::make_shared<const Motion>(), 0.3, test::kRoverBraking),
+               std::invalid_argument);
+  EXPECT_THROW(PeerObstacle("a", motion, -0.1, test::kRoverBraking), std::invalid_argument);
+  EXPECT_THROW(PeerObstacle("a", motion, nan, test::kRoverBraking), std::invalid_argument);
   EXPECT_THROW(PredictedDisc("a", nan, {0, 0}, {0, 0}, 0.1, 0.0), std::invalid_argument);
   EXPECT_THROW(PredictedDisc("a", 0.0, {nan, 0}, {0, 0}, 0.1, 0.0), std::invalid_argument);
   EXPECT_THROW(PredictedDisc("a", 0.0, {0, 0}, {infinity, 0}, 0.1, 0.0), std::invalid_argument);

@@ -78,6 +78,10 @@ TEST_F(RobotModelTest, BrakesWithinItsLimitsAndHardWithinThoseOfAnEmergency) {
   EXPECT_LT(robot.braking().beside(0.99 * all), 0.99 * robot.braking().deceleration());
   EXPECT_EQ(robot.hard_braking().beside(0.0), robot.hard_braking().deceleration());
   EXPECT_LT(robot.hard_braking().beside(0.99 * robot.emergency_acceleration), all);
+  // Never harder than told.
+  robot.limits.max_acceleration = 0.77777;
+  EXPECT_DOUBLE_EQ(robot.braking().deceleration(), 0.466);
+  EXPECT_DOUBLE_EQ(robot.braking().max_acceleration(), 0.777);
 }
 
 TEST_F(RobotModelTest, ValuesThatAreNotGivenAreTheSchemasDefaults) {

@@ -14,6 +14,7 @@ namespace mocha {
 struct Proposal {
   std::uint32_t tag = 0;  ///< the proposer's own number; comes back in the events
   double footprint_radius_m = 0.0;
+  std::optional<Braking> braking;
   std::shared_ptr<const Motion> motion;
 };
 

@@ -25,7 +25,7 @@ CommitmentOptions CommitmentOptions::from(const ParameterTable& values, const Ro
   options.delta_dc_s = values.number("delta_dc");
   options.reach_timeout_s = values.number("reach_timeout");
   options.peer_clearance_m = robot.peer_clearance_m + margins.peer_margin_m();
-  options.stops = robot.stop_options();
+  if (robot.stops_checked) options.stop_reaction_s = robot.peer_reaction_s;
   options.stop_clearance_m = margins.peer_margin_m();
   options.heartbeat_period_s = 1.0 / values.number("heartbeat_rate");
   options.resend_period_s = 1.0 / values.number("resend_rate");

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "config/parameter_table.h"
-#include "trajectory/stop_separation.h"
 #include "world/robot_model.h"
 
 namespace mocha {
@@ -23,9 +22,10 @@ struct CommitmentOptions {
   double delta_dc_s;
   double reach_timeout_s;
   double peer_clearance_m;
-  /// How robots are to be able to stop for each other, and what their discs keep then [m].
-  std::optional<StopOptions> stops;
-  double stop_clearance_m;
+  /// Robots are to be able to stop for each other, the one this time after the other; none: that is
+  /// not asked.
+  std::optional<double> stop_reaction_s;
+  double stop_clearance_m;  ///< what their discs keep then
   double heartbeat_period_s;
   double resend_period_s;
   ClockOptions clocks;

@@ -111,6 +111,7 @@ CommittedTrajectory CommitmentProtocol::trajectory_of(const Proposal& proposal,
   trajectory.state = state;
   trajectory.priority = options_.priority;
   trajectory.footprint_radius_m = proposal.footprint_radius_m;
+  trajectory.braking = proposal.braking;
   trajectory.motion = proposal.motion;
   validate(trajectory);
   return trajectory;
@@ -197,6 +198,7 @@ void CommitmentProtocol::drop_pending(CommitmentEvent::Kind kind, Refusal refusa
   actions.events.push_back(std::move(event));
   CommittedTrajectory withdrawal = pending_->trajectory;
   withdrawal.state = TrajectoryState::kWithdrawn;
+  withdrawal.braking.reset();
   withdrawal.motion.reset();
   last_sent_.state = withdrawal.state;
   actions.trajectories.push_back(std::move(withdrawal));

@@ -44,11 +44,11 @@ namespace mocha {
 /// What a robot may assume: while two robots keep their binding promises, their centres stay radii
 /// plus clearance apart, less the tracking errors of both. So a robot that keeps its promise is not
 /// hit by another that does. With stops, it is not hit either by a robot that brakes along its
-/// promised path as `stops` says, if it hears of that and brakes likewise within the reaction time:
-/// every robot is taken to brake like this one. Assumed are: one map frame (its errors belong into
-/// the margins), clocks that agree as ClockOptions say or were measured (PeerTable; nothing is
-/// endorsed or settled with a peer in reach whose clock is not known), unique names, true radii,
-/// and robots that are in reach of each other while they settle, or messages faster than delta_dc.
+/// promised path, if it hears of that and brakes within the reaction time, each as it promised to
+/// brake. Assumed are: one map frame (its errors belong into the margins), clocks that agree as
+/// ClockOptions say or were measured (PeerTable; nothing is endorsed or settled with a peer in reach
+/// whose clock is not known), unique names, true radii and braking, and robots that are in reach of
+/// each other while they settle, or messages faster than delta_dc.
 /// An emergency motion breaks a promise. It is sent to all at once, and a robot whose own promise
 /// meets it is told (kBreached) and has to brake in turn; until it stands, those two have only
 /// their planners' margins. Robots that already are closer than demanded (after braking, or set

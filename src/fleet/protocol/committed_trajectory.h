@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "trajectory/braking.h"
 #include "trajectory/motion.h"
 
 namespace mocha {
@@ -43,6 +45,7 @@ struct CommittedTrajectory {
   TrajectoryState state = TrajectoryState::kProposed;
   int priority = 0;
   double footprint_radius_m = 0.0;       ///< circumscribed, about the position of the motion
+  std::optional<Braking> braking;        ///< along the motion, in good time; none where withdrawn
   std::shared_ptr<const Motion> motion;  ///< none where withdrawn
 };
 
@@ -53,9 +56,14 @@ inline bool takes_precedence(const CommittedTrajectory& a, const CommittedTrajec
 }
 
 /// Throws std::invalid_argument, saying what is wrong, for a promise that no robot can have meant:
-/// no name, a sequence of 0, a radius outside (0, 10] m, and unless withdrawn no motion, one longer
-/// than an hour, or one that may exceed 50 m/s or 500 m/s^2.
+/// no name, a sequence of 0, a radius outside (0, 10] m, and unless withdrawn no braking or motion,
+/// a motion longer than an hour, one that may exceed 50 m/s or 500 m/s^2, or from which the robot
+/// may take more than two minutes to stop.
 void validate(const CommittedTrajectory& trajectory);
+
+/// The same for braking that no robot can have: a deceleration, or a finite limit of the
+/// acceleration, outside [0.02, 50] m/s^2.
+void validate(const Braking& braking);
 
 /// The promise by a clock that shows `later_s` more and is less sure of it by `less_sure_s`: the
 /// radius grows by what the robot drives in that time.

@@ -75,8 +75,8 @@ std::optional<Conflict> Meetings::by_stopping(const CommittedTrajectory* my_prop
   const CommittedTrajectory* mine = binding_.empty() ? my_proposal : &binding_.newest();
   const CommittedTrajectory* theirs =
       peer.binding.empty() ? their_proposal : &peer.binding.newest();
-  if (!options_.stops || mine == nullptr || theirs == nullptr) return std::nullopt;
-  const StopDemand demand{*options_.stops, options_.stop_clearance_m,
+  if (!options_.stop_reaction_s || mine == nullptr || theirs == nullptr) return std::nullopt;
+  const StopDemand demand{*options_.stop_reaction_s, options_.stop_clearance_m,
                           closest_m(*mine->motion, peer, *theirs->motion)};
   return first_stop_conflict({binding_, my_proposal}, {peer.binding, their_proposal}, demand, now_);
 }

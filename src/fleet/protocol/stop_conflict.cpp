@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "trajectory/separation.h"
+#include "trajectory/stop_separation.h"
 
 namespace mocha {
 namespace {
@@ -32,6 +33,10 @@ bool all_far_apart(const Future& mine, const Future& theirs, double clearance_m)
   return true;
 }
 
+BrakableMotion brakable(const CommittedTrajectory& trajectory) {
+  return {*trajectory.motion, trajectory.braking.value()};
+}
+
 std::vector<Reservation> parts_of(const Future& future, double now) {
   ReservationChain chain = future.binding;
   if (future.proposal != nullptr) chain.bind(*future.proposal);
@@ -45,8 +50,8 @@ std::optional<Conflict> first_conflict_of(const Reservation& mine, const Reserva
   if (from >= until) return std::nullopt;
   const double required_m =
       std::min(demand.apart_m, distance_m(mine.trajectory, theirs.trajectory, demand.clearance_m));
-  const auto meeting = first_stop_meeting(*mine.trajectory.motion, *theirs.trajectory.motion,
-                                          required_m, demand.options, from, until);
+  const auto meeting = first_stop_meeting(brakable(mine.trajectory), brakable(theirs.trajectory),
+                                          required_m, demand.reaction_s, from, until);
   if (!meeting) return std::nullopt;
   return Conflict{theirs.trajectory.agent, meeting->time_s,
                   meeting->distance_m,     required_m,

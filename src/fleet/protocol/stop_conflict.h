@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "fleet/protocol/reservation_chain.h"
-#include "trajectory/stop_separation.h"
 
 namespace mocha {
 
@@ -15,13 +14,13 @@ struct Future {
 
 /// What robots keep where one of them brakes.
 struct StopDemand {
-  StopOptions options;
+  double reaction_s;   ///< from the moment at which the one brakes until the other does
   double clearance_m;  ///< between the discs
   double apart_m;      ///< the centres now: too close already, they may come no closer
 };
 
-/// The first moment from `now` on at which either robot must not brake along its path, as
-/// first_stop_meeting() tells it. Far robots cost a comparison of boxes.
+/// The first moment from `now` on at which either robot must not brake along its path, each as it
+/// promises to brake: see first_stop_meeting(). Far robots cost a comparison of boxes.
 std::optional<Conflict> first_stop_conflict(const Future& mine, const Future& theirs,
                                             const StopDemand& demand, double now);
 

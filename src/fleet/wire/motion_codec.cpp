@@ -8,6 +8,8 @@
 namespace mocha {
 namespace {
 
+constexpr std::uint16_t kNoLimit = 0xffff;  // of the acceleration, while a robot brakes
+
 /// Counted from the beginning of the motion, which may be far from the origin of the map.
 struct Counts {
   std::int64_t x = 0;
@@ -79,6 +81,19 @@ PhaseDescriptor get_phase(ByteReader& in, const Counts& origin) {
 }
 
 }  // namespace
+
+void put_braking(ByteWriter& out, const Braking& braking) {
+  put_number<std::uint16_t>(out, braking.deceleration(), kBrakings, "deceleration");
+  if (std::isinf(braking.max_acceleration())) return out.put(kNoLimit);
+  put_number<std::uint16_t>(out, braking.max_acceleration(), kBrakings, "max_acceleration");
+}
+
+Braking get_braking(ByteReader& in) {
+  const double deceleration = get_number<std::uint16_t>(in, kBrakings);
+  const auto limit = in.get<std::uint16_t>();
+  return limit == kNoLimit ? Braking(deceleration)
+                           : Braking(deceleration, static_cast<double>(limit) / kBrakings);
+}
 
 void put_motion(ByteWriter& out, const Motion& motion) {
   require_said(!motion.empty(), "there is no motion");

@@ -53,7 +53,9 @@ void put_trajectory(ByteWriter& out, const CommittedTrajectory& trajectory, std:
   // Rounded up: a robot must not be taken for smaller than it is.
   const double radius_mm = std::ceil(trajectory.footprint_radius_m * kRadii - 1e-6);
   put_number<std::uint16_t>(out, radius_mm, 1.0, "footprint_radius");
-  if (trajectory.state != TrajectoryState::kWithdrawn) put_motion(out, *trajectory.motion);
+  if (trajectory.state == TrajectoryState::kWithdrawn) return;
+  put_braking(out, trajectory.braking.value());
+  put_motion(out, *trajectory.motion);
 }
 
 CommittedTrajectory get_trajectory(ByteReader& in, std::string agent, std::uint32_t epoch) {
@@ -64,7 +66,10 @@ CommittedTrajectory get_trajectory(ByteReader& in, std::string agent, std::uint3
   trajectory.state = get_state(in);
   trajectory.priority = in.get<std::int32_t>();
   trajectory.footprint_radius_m = get_number<std::uint16_t>(in, kRadii);
-  if (trajectory.state != TrajectoryState::kWithdrawn) trajectory.motion = get_motion(in);
+  if (trajectory.state != TrajectoryState::kWithdrawn) {
+    trajectory.braking = get_braking(in);
+    trajectory.motion = get_motion(in);
+  }
   validate(trajectory);
   return trajectory;
 }
@@ -294,6 +299,7 @@ Motion quantised(const Motion& motion) {
 bool fits(const Motion& motion) {
   CommittedTrajectory trajectory;
   trajectory.agent = std::string(kMostName, 'x');
+  trajectory.braking = Braking(1.0);  // all take equally many bytes
   trajectory.motion = std::make_shared<const Motion>(motion);
   ByteWriter body;
   try {

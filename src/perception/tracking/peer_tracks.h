@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "perception/sensor/beam.h"
+#include "trajectory/braking.h"
 #include "trajectory/motion.h"
 
 namespace mocha {
@@ -18,6 +19,7 @@ struct PeerMotion {
   std::pair<std::uint32_t, std::uint32_t> id;  ///< epoch and sequence: one motion
   std::shared_ptr<const Motion> motion;        ///< map frame
   double radius_m;                             ///< circumscribed
+  Braking braking;
 };
 
 /// Where the team-mates are according to their promises, so that the lidar does not take them for

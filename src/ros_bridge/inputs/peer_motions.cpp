@@ -21,10 +21,13 @@ PeerMotion peer_of(const mocha_ugv::Trajectory& trajectory) {
     throw std::invalid_argument("footprint_radius = " + std::to_string(radius_m) +
                                 " m, allowed is above 0 and below 100 m");
   }
+  const Braking braking = braking_from_message(trajectory);
+  validate(braking);
   return {trajectory.agent,
           {trajectory.epoch, trajectory.sequence},
           std::make_shared<const Motion>(from_message(trajectory)),
-          radius_m};
+          radius_m,
+          braking};
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ struct PeerReading {
 };
 
 /// The binding motions in the message, but for those of `own_name`. A motion without a name, that
-/// binds nothing, is no motion, or has a radius outside (0, 100) m is refused. Throws
-/// std::invalid_argument for a message in another frame than `frame`.
+/// binds nothing, is no motion, or has a radius outside (0, 100) m or braking that no robot can
+/// have is refused. Throws std::invalid_argument for a message in another frame than `frame`.
 PeerReading peers_of(const mocha_ugv::FleetTrajectories& message, const std::string& own_name,
                      const std::string& frame);
 

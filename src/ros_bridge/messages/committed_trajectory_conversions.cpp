@@ -86,6 +86,7 @@ mocha_ugv::Trajectory to_message(const CommittedTrajectory& trajectory, const st
   message.sequence = trajectory.id.sequence;
   message.priority = trajectory.priority;
   message.footprint_radius = trajectory.footprint_radius_m;
+  if (trajectory.braking) to_message(*trajectory.braking, message);
   if (trajectory.motion) to_message(*trajectory.motion, message);
   return message;
 }
@@ -128,6 +129,7 @@ CommittedTrajectory trajectory_from_message(const mocha_ugv::Trajectory& message
   trajectory.priority = message.priority;
   trajectory.footprint_radius_m = message.footprint_radius;
   if (trajectory.state != TrajectoryState::kWithdrawn) {
+    trajectory.braking = braking_from_message(message);
     trajectory.motion = std::make_shared<const Motion>(from_message(message));
   }
   validate(trajectory);

@@ -73,6 +73,15 @@ void to_message(const Motion& motion, mocha_ugv::Trajectory& message) {
     message.phases.push_back(to_message(phase));
 }
 
+void to_message(const Braking& braking, mocha_ugv::Trajectory& message) {
+  message.deceleration = braking.deceleration();
+  message.max_acceleration = braking.max_acceleration();
+}
+
+Braking braking_from_message(const mocha_ugv::Trajectory& message) {
+  return Braking(message.deceleration, message.max_acceleration);
+}
+
 Motion from_message(const mocha_ugv::Trajectory& message) {
   if (message.s != kOrder) throw std::invalid_argument("Trajectory: s is not 3");
   MotionDescriptor descriptor;

@@ -8,6 +8,7 @@
 
 #include <string>
 
+#include "trajectory/braking.h"
 #include "trajectory/motion.h"
 #include "world/occupancy_grid.h"
 
@@ -19,6 +20,11 @@ void to_message(const Motion& motion, mocha_ugv::Trajectory& message);
 /// Rebuilds the motion. Throws std::invalid_argument for a message that does not describe a valid
 /// motion.
 Motion from_message(const mocha_ugv::Trajectory& message);
+
+/// Fills how the robot brakes.
+void to_message(const Braking& braking, mocha_ugv::Trajectory& message);
+/// Throws std::invalid_argument for numbers that are none of a braking.
+Braking braking_from_message(const mocha_ugv::Trajectory& message);
 
 geometry_msgs::Quaternion quaternion_of(double yaw_rad);
 geometry_msgs::Pose to_message(const Pose& pose);

@@ -22,6 +22,7 @@ LocalOutputs::LocalOutputs(ros::NodeHandle& node, const RobotIdentity& identity,
                            const RobotModel& model, double horizon_s)
     : identity_(identity),
       radius_m_(model.footprint.circumscribed_radius_m()),
+      braking_(model.braking()),
       horizon_s_(horizon_s),
       plans_(node.advertise<mocha_ugv::Trajectory>("local_trajectory", 2, true)),
       drawings_(node.advertise<visualization_msgs::MarkerArray>("local_markers", 2, true)) {}
@@ -50,6 +51,7 @@ void LocalOutputs::publish(const Motion& plan, ros::Time now) {
   message.agent = identity_.name;
   message.sequence = static_cast<std::uint32_t>(counts_.followed);
   message.footprint_radius = radius_m_;
+  to_message(braking_, message);
   to_message(plan, message);
   plans_.publish(message);
 }

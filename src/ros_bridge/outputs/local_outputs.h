@@ -46,6 +46,7 @@ class LocalOutputs {
 
   const RobotIdentity identity_;
   const double radius_m_;
+  const Braking braking_;
   const double horizon_s_;
   ros::Publisher plans_;
   ros::Publisher drawings_;

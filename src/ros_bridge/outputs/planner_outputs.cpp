@@ -20,6 +20,7 @@ PlannerOutputs::PlannerOutputs(ros::NodeHandle& node, const RobotIdentity& ident
                                const RobotModel& model)
     : identity_(identity),
       radius_m_(model.footprint.circumscribed_radius_m()),
+      braking_(model.braking()),
       plans_(node.advertise<mocha_ugv::Trajectory>("global_trajectory", 2, true)),
       candidates_(node.advertise<mocha_ugv::Candidates>("candidates", 2, true)),
       statuses_(node.advertise<mocha_ugv::PlannerStatus>("planner_status", 10, true)),
@@ -34,6 +35,7 @@ mocha_ugv::Trajectory PlannerOutputs::planned(const Motion& motion, ros::Time no
   message.agent = identity_.name;
   message.sequence = adopted_;
   message.footprint_radius = radius_m_;
+  to_message(braking_, message);
   to_message(motion, message);
   return message;
 }

@@ -38,6 +38,7 @@ class PlannerOutputs {
  private:
   const RobotIdentity identity_;
   const double radius_m_;
+  const Braking braking_;
   ros::Publisher plans_;
   ros::Publisher candidates_;
   ros::Publisher statuses_;

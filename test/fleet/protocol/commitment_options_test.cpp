@@ -26,9 +26,9 @@ TEST(CommitmentOptions, TakeClearancesFromTheRobotAndTimesFromTheTable) {
   EXPECT_EQ(options.stop_clearance_m, margin_m);
   EXPECT_EQ(options.peer_clearance_m, robot.peer_clearance_m + margin_m);
   EXPECT_EQ(options.clocks.tolerance_s, 2.0 * robot.margins.clock_s);
-  EXPECT_TRUE(options.stops);
+  EXPECT_EQ(options.stop_reaction_s, robot.peer_reaction_s);
   robot.stops_checked = false;
-  EXPECT_FALSE(CommitmentOptions::from(values, robot, "ugv7", 4).stops);
+  EXPECT_FALSE(CommitmentOptions::from(values, robot, "ugv7", 4).stop_reaction_s);
 }
 
 TEST(CommitmentOptions, NameWhatIsOutOfRange) {

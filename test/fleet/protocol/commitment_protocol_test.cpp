@@ -7,6 +7,7 @@
 
 #include "fleet/protocol/motions.h"
 #include "fleet/protocol/network.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -22,7 +23,7 @@ Motion along_x(double start_s) { return test::drive(start_s, {{-3.0, 0.0}, {3.0,
 Motion along_y(double start_s) { return test::drive(start_s, {{0.0, -3.0}, {0.0, 3.0}}, 1.0); }
 
 Proposal proposal(Motion motion, std::uint32_t tag = 7) {
-  return {tag, kRadius_m, test::shared(std::move(motion))};
+  return {tag, kRadius_m, test::kRoverBraking, test::shared(std::move(motion))};
 }
 
 CommittedTrajectory of_peer(const std::string& name, TrajectoryId id, TrajectoryState state,
@@ -32,6 +33,7 @@ CommittedTrajectory of_peer(const std::string& name, TrajectoryId id, Trajectory
   trajectory.id = id;
   trajectory.state = state;
   trajectory.footprint_radius_m = kRadius_m;
+  trajectory.braking = test::kRoverBraking;
   trajectory.motion = test::shared(std::move(motion));
   return trajectory;
 }
@@ -408,13 +410,20 @@ TEST(CommitmentProtocol, IgnoresItsOwnNameAndRefusesNonsense) {
   EXPECT_TRUE(robot.peers().peers().empty());
   EXPECT_EQ(robot.state(), State::kProposing);
 
-  EXPECT_THROW(robot.propose({1, kRadius_m, nullptr}, kNow_s), std::invalid_argument);
-  EXPECT_THROW(robot.propose({1, -0.1, test::shared(along_x(kNow_s + 1.0))}, kNow_s),
+  EXPECT_THROW(robot.propose({1, kRadius_m, test::kRoverBraking, nullptr}, kNow_s),
                std::invalid_argument);
-  EXPECT_THROW(robot.brake({1, 11.0, test::shared(along_x(kNow_s + 1.0))}, kNow_s),
-               std::invalid_argument);
+  const auto stand = test::shared(test::stand(kNow_s + 1.0, {-3.0, 0.0}));
+  EXPECT_THROW(robot.propose({1, kRadius_m, std::nullopt, stand}, kNow_s), std::invalid_argument);
+  EXPECT_THROW(robot.propose({1, kRadius_m, Braking(0.001), stand}, kNow_s), std::invalid_argument);
+  EXPECT_THROW(
+      robot.propose({1, -0.1, test::kRoverBraking, test::shared(along_x(kNow_s + 1.0))}, kNow_s),
+      std::invalid_argument);
+  EXPECT_THROW(
+      robot.brake({1, 11.0, test::kRoverBraking, test::shared(along_x(kNow_s + 1.0))}, kNow_s),
+      std::invalid_argument);
   const Motion fast = test::drive(kNow_s + 1.0, {{0.0, 0.0}, {500.0, 0.0}}, 100.0);
-  EXPECT_THROW(robot.propose({1, kRadius_m, test::shared(fast)}, kNow_s), std::invalid_argument);
+  EXPECT_THROW(robot.propose({1, kRadius_m, test::kRoverBraking, test::shared(fast)}, kNow_s),
+               std::invalid_argument);
   EXPECT_EQ(robot.state(), State::kProposing);  // without any effect
 
   CommitmentOptions options = test::options("m");

@@ -10,6 +10,7 @@
 #include "fleet/protocol/motions.h"
 #include "fleet/protocol/shipped_options.h"
 #include "simulation/lossy_network.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha::test {
 
@@ -25,17 +26,21 @@ class Network {
   Network(int seed, const Link& link)
       : network_(seed, link), sends_heartbeats_(link.heartbeats), random_(seed) {}
 
-  void add(const CommitmentOptions& options) { robots_.emplace_back(options); }
+  void add(const CommitmentOptions& options, const Braking& braking = kRoverBraking) {
+    robots_.emplace_back(options);
+    brakings_.push_back(braking);
+  }
   CommitmentProtocol& robot(int i) { return robots_[i]; }
   int size() const { return static_cast<int>(robots_.size()); }
   double now() const { return now_; }
   std::mt19937& random() { return random_; }
 
   void propose(int i, Motion motion) {
-    apply(i, robots_[i].propose({++tag_, kRadius_m, shared(std::move(motion))}, now_));
+    apply(i,
+          robots_[i].propose({++tag_, kRadius_m, brakings_[i], shared(std::move(motion))}, now_));
   }
   void brake(int i, Motion motion) {
-    apply(i, robots_[i].brake({++tag_, kRadius_m, shared(std::move(motion))}, now_));
+    apply(i, robots_[i].brake({++tag_, kRadius_m, brakings_[i], shared(std::move(motion))}, now_));
   }
   /// A robot that is cut off neither sends nor receives.
   void cut_off(int i, bool off) { network_.cut_off(i, off); }
@@ -105,6 +110,7 @@ class Network {
   double now_ = 100.0;
   std::uint32_t tag_ = 0;
   std::vector<CommitmentProtocol> robots_;
+  std::vector<Braking> brakings_;
   std::vector<std::pair<int, CommitmentEvent>> events_;
   int broken_ = 0;
   int heartbeats_ = 0;
@@ -114,7 +120,7 @@ class Network {
 inline CommitmentOptions options(const std::string& agent, std::uint32_t epoch = 1) {
   CommitmentOptions options = shipped_options(agent, epoch);
   options.peer_clearance_m = 0.2;
-  options.stops.reset();
+  options.stop_reaction_s.reset();
   options.stop_clearance_m = 0.0;
   return options;
 }

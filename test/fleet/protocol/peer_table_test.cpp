@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fleet/protocol/motions.h"
+#include "trajectory/rover_braking.h"
 #include "trajectory/separation.h"
 
 namespace mocha {
@@ -18,6 +19,7 @@ CommittedTrajectory trajectory(TrajectoryId id, TrajectoryState state, double st
   trajectory.id = id;
   trajectory.state = state;
   trajectory.footprint_radius_m = 0.3;
+  trajectory.braking = test::kRoverBraking;
   if (state != TrajectoryState::kWithdrawn) {
     trajectory.motion = test::shared(test::drive(start_s, {{0.0, 0.0}, {4.0, 0.0}}, 1.0));
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fleet/protocol/motions.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -13,6 +14,7 @@ CommittedTrajectory trajectory(std::uint32_t sequence, Motion motion) {
   trajectory.id = {1, sequence};
   trajectory.state = TrajectoryState::kCommitted;
   trajectory.footprint_radius_m = 0.3;
+  trajectory.braking = test::kRoverBraking;
   trajectory.motion = test::shared(std::move(motion));
   return trajectory;
 }

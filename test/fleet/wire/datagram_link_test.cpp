@@ -6,6 +6,7 @@
 
 #include "fleet/protocol/motions.h"
 #include "fleet/protocol/peer_table.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -45,7 +46,8 @@ TEST(DatagramLink, ARecordingOfAFormerStartIsOver) {
   DatagramLink before("a", kKey);
   DatagramLink after("a", kKey);
   DatagramLink b("b", kKey);
-  CommittedTrajectory stands{"a", {1, 1}, TrajectoryState::kCommitted, 0, 0.3, nullptr};
+  CommittedTrajectory stands{
+      "a", {1, 1}, TrajectoryState::kCommitted, 0, 0.3, test::kRoverBraking, nullptr};
   stands.motion = test::shared(test::stand(kNow_s, {1.0, 2.0}));
   const auto old = before.pack(stands).at(0);
   EXPECT_TRUE(unpacked(b, after.pack(heartbeat_of("a", 2)).at(0)));
@@ -124,7 +126,8 @@ TEST(DatagramLink, InventedNamesTakeNoMoreMemoryThanAFleet) {
 TEST(DatagramLink, WhatCannotBeSentTakesNoNumber) {
   DatagramLink a("a", std::nullopt);
   DatagramLink b("b", std::nullopt);
-  CommittedTrajectory trajectory{"a", {1, 1}, TrajectoryState::kProposed, 0, 0.3, nullptr};
+  CommittedTrajectory trajectory{
+      "a", {1, 1}, TrajectoryState::kProposed, 0, 0.3, test::kRoverBraking, nullptr};
   trajectory.motion = test::shared(test::drive(kNow_s, {{0.0, 0.0}, {3e4, 0.0}}, 20.0));
   EXPECT_THROW(a.pack(trajectory), std::invalid_argument);
   unpacked(b, a.pack(heartbeat_of("a")).at(0));

@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
+#include <optional>
 #include <random>
 #include <sstream>
 
 #include "fleet/protocol/motions.h"
+#include "trajectory/rover_braking.h"
+#include "world/robot_model.h"
 
 namespace mocha {
 namespace {
@@ -22,8 +26,8 @@ Bytes encoded(const FleetMessage& message) { return encode({17, message}); }
 FleetMessage decoded(const Bytes& bytes) { return decode(bytes.data(), bytes.size()).message; }
 
 CommittedTrajectory trajectory_of(Motion motion) {
-  CommittedTrajectory trajectory{"ugv1", {7, 4000000000U}, TrajectoryState::kProposed, -3,
-                                 0.3,    nullptr};
+  CommittedTrajectory trajectory{
+      "ugv1", {7, 4000000000U}, TrajectoryState::kProposed, -3, 0.3, test::kRoverBraking, nullptr};
   trajectory.motion = test::shared(std::move(motion));
   return trajectory;
 }
@@ -88,6 +92,8 @@ TEST(WireFormat, GivesBackPromisesButForTheQuantisation) {
     EXPECT_EQ(heard.priority, sent.priority);
     EXPECT_GE(heard.footprint_radius_m, sent.footprint_radius_m - 1e-9);
     EXPECT_LT(heard.footprint_radius_m, sent.footprint_radius_m + 0.001);
+    EXPECT_EQ(heard.braking->deceleration(), sent.braking->deceleration());
+    EXPECT_EQ(heard.braking->max_acceleration(), sent.braking->max_acceleration());
     EXPECT_NEAR(heard.motion->end_time(), sent.motion->end_time(), 1e-5);
     const double begin_s = sent.motion->start_time() + 1e-5;  // which is rounded, too
     for (double t = begin_s; t < sent.motion->end_time(); t += 0.02) {
@@ -113,6 +119,59 @@ TEST(WireFormat, WhatWasDecodedIsTheSameForEverybodyAndForEver) {
     EXPECT_EQ(alone.start_time(), driven.motion->start_time());
     EXPECT_EQ(alone.position(kNow_s + 5.0), driven.motion->position(kNow_s + 5.0));
   }
+}
+
+CommittedTrajectory braking_so(const std::optional<Braking>& braking) {
+  CommittedTrajectory trajectory = trajectory_of(test::stand(kNow_s, {1.0, 2.0}));
+  trajectory.braking = braking;
+  return trajectory;
+}
+
+Braking told(const Braking& braking) {
+  return std::get<CommittedTrajectory>(decoded(encoded(braking_so(braking)))).braking.value();
+}
+
+TEST(WireFormat, SaysExactlyHowARobotBrakes) {
+  for (const char* model : {"rover", "jackal", "waveshare_rover"}) {
+    RobotModel robot = load_robot_model("config", model);
+    for (const double share : {1.0, 0.93, 0.777777}) {
+      robot.limits.max_acceleration *= share;
+      EXPECT_EQ(told(robot.braking()).deceleration(), robot.braking().deceleration());
+      EXPECT_EQ(told(robot.braking()).max_acceleration(), robot.braking().max_acceleration());
+    }
+  }
+  const Braking rounded = told(Braking(0.61849, 1.00051));
+  EXPECT_DOUBLE_EQ(rounded.deceleration(), 0.618);
+  EXPECT_DOUBLE_EQ(rounded.max_acceleration(), 1.001);
+  EXPECT_EQ(told(Braking(0.5)).max_acceleration(), std::numeric_limits<double>::infinity());
+}
+
+TEST(WireFormat, RefusesBrakingThatNoRobotCanHave) {
+  EXPECT_THROW(encoded(braking_so(std::nullopt)), std::invalid_argument);
+  for (const double odd : {1e-9, 0.019, 50.1, 1e9}) {
+    EXPECT_THROW(encoded(braking_so(Braking(odd))), std::invalid_argument) << odd;
+    EXPECT_THROW(encoded(braking_so(Braking(1.0, odd))), std::invalid_argument) << odd;
+  }
+  CommittedTrajectory fast = trajectory_of(test::drive(kNow_s, {{0.0, 0.0}, {50.0, 0.0}}, 5.0));
+  EXPECT_NO_THROW(encoded(fast));
+  fast.braking = Braking(0.03);  // would stop for minutes
+  EXPECT_THROW(encoded(fast), std::invalid_argument);
+  const Bytes good = encoded(braking_so(Braking(0.5, 0.8)));
+  constexpr std::size_t kDecelerationAt = 53;
+  constexpr std::size_t kLimitAt = kDecelerationAt + 2;
+  const auto with = [&](std::size_t at, std::uint16_t counts) {
+    Bytes bytes = good;
+    bytes[at] = static_cast<std::uint8_t>(counts);
+    bytes[at + 1] = static_cast<std::uint8_t>(counts >> 8);
+    return bytes;
+  };
+  EXPECT_EQ(with(kDecelerationAt, 500), good);
+  EXPECT_EQ(with(kLimitAt, 800), good);
+  for (const std::uint16_t odd : {0, 1, 19, 50001, 0xfffe}) {
+    EXPECT_THROW(decoded(with(kDecelerationAt, odd)), std::invalid_argument) << odd;
+    EXPECT_THROW(decoded(with(kLimitAt, odd)), std::invalid_argument) << odd;
+  }
+  EXPECT_THROW(decoded(with(kDecelerationAt, 0xffff)), std::invalid_argument);
 }
 
 /// As where the map has the coordinates of a country.
@@ -141,7 +200,7 @@ TEST(WireFormat, GivesBackHeartbeatsAndWithdrawals) {
   EXPECT_EQ(heard.echoes[0].agent, "ugv2");
   EXPECT_NEAR(heard.echoes[0].stamp_s, kNow_s - 70.25, 1e-6);
   EXPECT_NEAR(heard.echoes[0].held_s, 0.015, 1e-6);
-  CommittedTrajectory void_one{"ugv1", {3, 9}, TrajectoryState::kWithdrawn, 0, 0.3, nullptr};
+  CommittedTrajectory void_one{"ugv1", {3, 9}, TrajectoryState::kWithdrawn, 0, 0.3, {}, nullptr};
   EXPECT_EQ(std::get<CommittedTrajectory>(decoded(encoded(void_one))).motion, nullptr);
 }
 
@@ -361,7 +420,7 @@ TEST(WireFormat, DISABLED_WriteVectors) {
   file << "# A promise a line: its datagram in hexadecimal, then x and y [m] of its motion 0.35 s "
           "after its start and every 0.7 s on.\n"
           "# Written by test_fleet --gtest_also_run_disabled_tests --gtest_filter=*WriteVectors; "
-          "format version 1.\n";
+          "format version 2.\n";
   for (int i = 0; i < 6; ++i) {
     const CommittedTrajectory trajectory =
         quantised(trajectory_of(any(i, random, kNow_s + 0.1234567 * i)));

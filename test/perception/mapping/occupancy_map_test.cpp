@@ -5,6 +5,7 @@
 #include "perception/room.h"
 #include "perception/shipped_options.h"
 #include "perception/tracking/peer_tracks.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -260,7 +261,7 @@ TEST(OccupancyMap, TeamMatesDoNotBecomeWalls) {
       10.0, std::vector<Phase>{DrivePhase{1, PlanarPath({piece}, {duration})}});
   Room room;
   for (double t = 10.0; t < 15.0; t += 0.1) {
-    peers.update(t, {{"ugv2", {1, 7}, motion, 0.3}});
+    peers.update(t, {{"ugv2", {1, 7}, motion, 0.3, test::kRoverBraking}});
     room.circles = {{motion->at(t).pose.position, 0.25}};
     auto beams = beams_at(room, {});
     for (Beam& beam : beams) beam.time_s = t;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "trajectory/rover_braking.h"
+
 namespace mocha {
 namespace {
 
@@ -10,7 +12,8 @@ PeerMotion standing(const Vector2& at, double start_s, std::uint32_t sequence,
   return {name,
           {1, sequence},
           std::make_shared<Motion>(start_s, std::vector<Phase>{StandPhase{{at, 0.0}, 5.0}}),
-          0.3};
+          0.3,
+          test::kRoverBraking};
 }
 
 std::vector<Beam> hit(const Vector2& at, double t) {

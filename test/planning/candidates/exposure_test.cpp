@@ -6,6 +6,7 @@
 
 #include "planning/maneuver_test.h"
 #include "trajectory/random_motion.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -131,7 +132,7 @@ TEST(Foreseen, WhatNeverRestsCountsForGood) {
                                                     Vector2(0.5, 0.0), 0.25, 0.0);
   const auto drives = std::make_shared<PeerObstacle>(
       "ugv2", std::make_shared<const Motion>(straight_drive(0.0, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5)),
-      0.3);
+      0.3, test::kRoverBraking);
   const auto things = foreseen({{goes, 0.5, 4.0}, {drives, 0.6, 10.0}});
   ASSERT_EQ(things.size(), 2u);
   EXPECT_EQ(things[0].until_s, kForever_s);

@@ -5,6 +5,7 @@
 #include "planning/worlds.h"
 #include "safety/certificate.h"
 #include "safety/requirement.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -12,7 +13,8 @@ namespace {
 constexpr double kRadius_m = 0.25;
 
 PeerObstacle peer(Motion motion) {
-  return {"ugv2", std::make_shared<const Motion>(std::move(motion)), kRadius_m};
+  return {"ugv2", std::make_shared<const Motion>(std::move(motion)), kRadius_m,
+          test::kRoverBraking};
 }
 
 TEST(PeerDiscs, WhoIsAboutToRestStands) {

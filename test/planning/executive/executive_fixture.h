@@ -11,6 +11,7 @@
 
 #include "planning/executive/goal_executive.h"
 #include "planning/worlds.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 
@@ -90,7 +91,8 @@ class ExecutiveFixture : public ::testing::Test {
 
   void stand_ahead(const std::string& name) {
     scene_.peers = {std::make_shared<PeerObstacle>(
-        name, std::make_shared<const Motion>(standing(now_s_ - 5.0, {1.0, 0.0}, 0.0)), 0.3)};
+        name, std::make_shared<const Motion>(standing(now_s_ - 5.0, {1.0, 0.0}, 0.0)), 0.3,
+        test::kRoverBraking)};
   }
 
   /// A team-mate asks for a way, now and for the time of a run of `time_s`.

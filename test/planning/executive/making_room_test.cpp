@@ -2,6 +2,7 @@
 
 #include "planning/executive/executive_fixture.h"
 #include "planning/executive/goal_executive.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -98,7 +99,8 @@ TEST_F(MakingRoomTest, AsksInTheNameOfWhomItMakesRoomFor) {
     for (const double y : {-1.0, 0.0, 1.0}) {
       if (x == 0.0 && y == 0.0) continue;
       scene_.peers.push_back(std::make_shared<PeerObstacle>(
-          "ugv7", std::make_shared<const Motion>(standing(now_s_ - 5.0, {x, y}, 0.0)), 0.3));
+          "ugv7", std::make_shared<const Motion>(standing(now_s_ - 5.0, {x, y}, 0.0)), 0.3,
+          test::kRoverBraking));
     }
   }
   run_while_asked(way_of("ugv2", {{9.0, 0.0}, {-4.0, 0.0}}), 4.0);
@@ -113,7 +115,8 @@ TEST_F(MakingRoomTest, LooksForAnotherPullOverPointWhereTheFirstIsOutOfReach) {
   const Vector2 first = run_while_asked(request, 0.5).planned->goal.position;
   reason_ = PlanReason::kPeerConflict;  // another robot came in between, and stays
   scene_.peers = {std::make_shared<PeerObstacle>(
-      "ugv7", std::make_shared<const Motion>(standing(now_s_ - 5.0, first, 0.0)), 0.3)};
+      "ugv7", std::make_shared<const Motion>(standing(now_s_ - 5.0, first, 0.0)), 0.3,
+      test::kRoverBraking)};
   executive_.request();
   const Vector2 next = run_while_asked(request, 1.5).planned->goal.position;
   EXPECT_GT((next - first).norm(), 0.5);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planning/worlds.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -20,7 +21,8 @@ class YieldPolicyTest : public ::testing::Test {
   }
   void stand(const std::string& agent, const Vector2& place) {
     scene_.peers = {std::make_shared<PeerObstacle>(
-        agent, std::make_shared<const Motion>(standing(kNow_s - 5.0, place, 0.0)), 0.3)};
+        agent, std::make_shared<const Motion>(standing(kNow_s - 5.0, place, 0.0)), 0.3,
+        test::kRoverBraking)};
   }
   std::optional<YieldAdvice> advise(const RobotIntent& intent, const Vector2& stop) {
     return policy_.advise(

@@ -4,6 +4,7 @@
 
 #include "planning/candidates/peer_discs.h"
 #include "planning/worlds.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -30,7 +31,8 @@ class YieldingTest : public ::testing::Test {
 
   void stand(const std::string& name, const Vector2& place) {
     scene_.peers.push_back(std::make_shared<PeerObstacle>(
-        name, std::make_shared<const Motion>(standing(kNow_s - 5.0, place, 0.0)), 0.3));
+        name, std::make_shared<const Motion>(standing(kNow_s - 5.0, place, 0.0)), 0.3,
+        test::kRoverBraking));
   }
 
   const double keep_m_ = 0.3 + distance_to_peers_m(rover());

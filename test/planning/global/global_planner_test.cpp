@@ -9,6 +9,7 @@
 #include "planning/maneuvers/back_out.h"
 #include "planning/worlds.h"
 #include "safety/certificate.h"
+#include "trajectory/rover_braking.h"
 #include "trajectory/stopping.h"
 #include "world/margin_budget.h"
 
@@ -269,7 +270,7 @@ TEST_F(GlobalPlannerTest, BacksOutOfADeadEndTheWayItCame) {
 TEST_F(GlobalPlannerTest, GoesRoundAStandingPeer) {
   const PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
   const auto stand = std::make_shared<const Motion>(standing(kStart_s - 5.0, {4.0, 0.0}, 0.0));
-  const auto peer = std::make_shared<PeerObstacle>("ugv2", stand, 0.3);
+  const auto peer = std::make_shared<PeerObstacle>("ugv2", stand, 0.3, test::kRoverBraking);
   const PlanResult result = planner_.plan(query, {static_map_of(open_), {peer}}, kGoOn);
   expect_certified(result, query, open_);
   const double apart_m = robot_.peer_clearance_m + MarginBudget::of(robot_).peer_margin_m();
@@ -281,7 +282,7 @@ TEST_F(GlobalPlannerTest, KeepsApartFromAPeerThatCrosses) {
   const PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
   const auto crossing = std::make_shared<const Motion>(
       straight_drive(kStart_s + 1.5, {4.0, -3.0}, M_PI / 2.0, 6.0, 0.9, 0.5));
-  const auto peer = std::make_shared<PeerObstacle>("ugv2", crossing, 0.3);
+  const auto peer = std::make_shared<PeerObstacle>("ugv2", crossing, 0.3, test::kRoverBraking);
   const double apart_m = robot_.peer_clearance_m + MarginBudget::of(robot_).peer_margin_m();
   ASSERT_TRUE(check_separation(plan(query, open_).motion, 0.3, *peer, apart_m, kStart_s));
   const PlanResult result = planner_.plan(query, {static_map_of(open_), {peer}}, kGoOn);

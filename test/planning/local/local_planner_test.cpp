@@ -6,6 +6,7 @@
 
 #include "planning/worlds.h"
 #include "safety/certificate.h"
+#include "trajectory/rover_braking.h"
 #include "world/margin_budget.h"
 
 namespace mocha {
@@ -347,7 +348,7 @@ TEST_F(LocalPlannerTest, AvoidsPeersOnTheirPromises) {
   const Vector2 meets = ahead_.at(meets_s).pose.position;
   const auto crossing = std::make_shared<const Motion>(
       straight_drive(meets_s - 4.5, meets - Vector2(0.0, 3.0), M_PI / 2.0, 6.0, 0.9, 0.5));
-  const auto peer = std::make_shared<PeerObstacle>("ugv2", crossing, 0.3);
+  const auto peer = std::make_shared<PeerObstacle>("ugv2", crossing, 0.3, test::kRoverBraking);
   LocalScene around = scene({});
   around.peers = {peer};
   ASSERT_LT(sampled_gap_m(ahead_, *peer, meets_s + 3.0), distance_to_peers_m(robot_));

@@ -2,6 +2,7 @@
 
 #include "planning/replanner/local_replanner.h"
 #include "planning/worlds.h"
+#include "trajectory/rover_braking.h"
 #include "trajectory/splice.h"
 
 namespace mocha {
@@ -40,7 +41,7 @@ TEST(FirstPromise, IsToStandAndBindsAtOnce) {
   LocalScene scene = scene_of(open);
   const auto through_it = std::make_shared<const Motion>(
       straight_drive(kNow_s, {1.0, -3.0}, M_PI / 2.0, 6.0, 0.9, 0.5));
-  scene.peers = {std::make_shared<PeerObstacle>("ugv2", through_it, 0.3)};
+  scene.peers = {std::make_shared<PeerObstacle>("ugv2", through_it, 0.3, test::kRoverBraking)};
   LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.5, 3.0},
                            default_local_options());
   const RobotState here{kNow_s, {{1.0, 0.0}, 0.3}, {0.0, 0.0}};

@@ -2,6 +2,7 @@
 
 #include "fleet/wire/wire_format.h"
 #include "planning/replanner/replanner_test.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -91,7 +92,7 @@ TEST_F(LocalReplannerTest, WaitsForAPeerAndSaysWhom) {
   replanner_.set_committed(1, standing(kNow_s - 5.0, {0.0, 0.0}, 0.0));
   replanner_.set_plan(plan_from(kNow_s + 0.5));
   const auto stand = std::make_shared<const Motion>(standing(kNow_s - 9.0, {2.5, 0.0}, 0.0));
-  scene_.peers = {std::make_shared<PeerObstacle>("ugv2", stand, 0.3)};
+  scene_.peers = {std::make_shared<PeerObstacle>("ugv2", stand, 0.3, test::kRoverBraking)};
   const auto output = step_on_track(kNow_s);
   EXPECT_EQ(output.reason, PlanReason::kPeerConflict);
   EXPECT_EQ(output.violation.peer, "ugv2");

@@ -8,6 +8,7 @@
 #include "planning/closed_loop.h"
 #include "safety/certificate.h"
 #include "trajectory/random_motion.h"
+#include "trajectory/rover_braking.h"
 #include "trajectory/splice.h"
 
 namespace mocha {
@@ -96,7 +97,7 @@ class RandomSteps {
     if (with_peer) {
       const auto stands =
           std::make_shared<const Motion>(standing(now_s_ - 9.0, around(1.0, 4.0), 0.0));
-      scene_.peers = {std::make_shared<PeerObstacle>("ugv2", stands, 0.3)};
+      scene_.peers = {std::make_shared<PeerObstacle>("ugv2", stands, 0.3, test::kRoverBraking)};
     }
     scene_.predicted_until_s = now_s_ + 5.0;
   }

@@ -6,6 +6,7 @@
 
 #include "fleet/protocol/motions.h"
 #include "ros_bridge/messages/committed_trajectory_conversions.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -16,6 +17,7 @@ mocha_ugv::Trajectory trajectory(const std::string& agent, std::uint32_t sequenc
   promise.id = {4, sequence};
   promise.state = TrajectoryState::kCommitted;
   promise.footprint_radius_m = 0.3;
+  promise.braking = test::kRoverBraking;
   promise.motion = test::shared(test::drive(12.0, {{0.0, 0.0}, {2.0, 0.0}}, 1.0));
   return to_message(promise, "map", ros::Time(12.0));
 }
@@ -34,6 +36,8 @@ TEST(PeerMotions, AreThoseOfAllOthers) {
   EXPECT_EQ(reading.motions[0].name, "ugv2");
   EXPECT_EQ(reading.motions[1].id, std::make_pair(4u, 2u));
   EXPECT_EQ(reading.motions[1].radius_m, 0.3);
+  EXPECT_EQ(reading.motions[1].braking.deceleration(), test::kRoverBraking.deceleration());
+  EXPECT_EQ(reading.motions[1].braking.max_acceleration(), test::kRoverBraking.max_acceleration());
   EXPECT_EQ(reading.motions[1].motion->start_time(), 12.0);
   EXPECT_TRUE(reading.refused.empty());
 }
@@ -54,6 +58,9 @@ TEST(PeerMotions, WhatIsNotValidIsRefusedAloneAndByName) {
   refused([](auto& m) { m.footprint_radius = 0.0; });
   refused([](auto& m) { m.footprint_radius = 100.0; });
   refused([](auto& m) { m.footprint_radius = std::numeric_limits<double>::quiet_NaN(); });
+  refused([](auto& m) { m.deceleration = 0.0; });
+  refused([](auto& m) { m.deceleration = 60.0; });
+  refused([](auto& m) { m.max_acceleration = std::numeric_limits<double>::quiet_NaN(); });
   refused([](auto& m) { m.phases.clear(); });
   refused([](auto& m) { m.phases[0].x[1] = std::numeric_limits<double>::quiet_NaN(); });
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fleet/protocol/motions.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -16,6 +17,7 @@ CommittedTrajectory trajectory() {
   trajectory.state = TrajectoryState::kCommitted;
   trajectory.priority = -2;
   trajectory.footprint_radius_m = 0.3;
+  trajectory.braking = test::kRoverBraking;
   trajectory.motion = test::shared(test::drive(12.5, {{0.0, 1.0}, {2.0, 1.5}, {4.0, 0.0}}, 1.0));
   return trajectory;
 }
@@ -28,6 +30,8 @@ TEST(PromiseConversions, GoThereAndBack) {
   EXPECT_EQ(back.state, TrajectoryState::kCommitted);
   EXPECT_EQ(back.priority, -2);
   EXPECT_DOUBLE_EQ(back.footprint_radius_m, 0.3);
+  EXPECT_EQ(back.braking->deceleration(), test::kRoverBraking.deceleration());
+  EXPECT_EQ(back.braking->max_acceleration(), test::kRoverBraking.max_acceleration());
   for (double t = 12.0; t < 18.0; t += 0.1) {
     const Vector2 expected = trajectory().motion->at(t).pose.position;
     EXPECT_NEAR((back.motion->at(t).pose.position - expected).norm(), 0.0, 1e-9);
@@ -48,9 +52,18 @@ TEST(PromiseConversions, GoThereAndBack) {
   EXPECT_EQ(heard.echoes[0].held_s, 0.25);
 }
 
+TEST(PromiseConversions, BrakingMayBeTheSameInBends) {
+  CommittedTrajectory anywhere = trajectory();
+  anywhere.braking = Braking(0.5);
+  const auto message = to_message(anywhere, "map", ros::Time(12.0));
+  EXPECT_EQ(trajectory_from_message(message, "map").braking->max_acceleration(),
+            std::numeric_limits<double>::infinity());
+}
+
 TEST(PromiseConversions, AWithdrawalNeedsNoMotion) {
   CommittedTrajectory withdrawn = trajectory();
   withdrawn.state = TrajectoryState::kWithdrawn;
+  withdrawn.braking.reset();
   withdrawn.motion.reset();
   const auto message = to_message(withdrawn, "map", ros::Time(12.0));
   EXPECT_EQ(trajectory_from_message(message, "map").state, TrajectoryState::kWithdrawn);
@@ -71,6 +84,11 @@ TEST(PromiseConversions, RefuseWhatNobodyCanHaveMeant) {
   refused([](auto& m) { m.footprint_radius = 0.0; });
   refused([](auto& m) { m.footprint_radius = std::numeric_limits<double>::quiet_NaN(); });
   refused([](auto& m) { m.footprint_radius = 11.0; });
+  for (const double odd : {0.0, -0.5, 0.01, 51.0, std::numeric_limits<double>::quiet_NaN()}) {
+    refused([odd](auto& m) { m.deceleration = odd; });
+    refused([odd](auto& m) { m.max_acceleration = odd; });
+  }
+  refused([](auto& m) { m.deceleration = std::numeric_limits<double>::infinity(); });
   refused([](auto& m) { m.phases.clear(); });
   refused([](auto& m) { m.phases[0].x[1] = std::numeric_limits<double>::quiet_NaN(); });
   refused([](auto& m) { m.phases[0].durations[0] = 1e-3; });  // far too fast

@@ -6,6 +6,7 @@
 
 #include "topology/signatures/signature_sums.h"
 #include "trajectory/random_motion.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -54,7 +55,8 @@ TEST(SpaceTimeTube, HoldsTheDiscsOfATeamMate) {
     phases.emplace_back(StandPhase{end, 0.7});
     phases.emplace_back(TurnPhase{end, 1.0, 2.0});
     phases.emplace_back(StandPhase{{end.position + Vector2(5e-4, 5e-4), end.yaw_rad + 1.0}, 1.0});
-    const PeerObstacle peer("ugv2", std::make_shared<const Motion>(100.0, phases), 0.3);
+    const PeerObstacle peer("ugv2", std::make_shared<const Motion>(100.0, phases), 0.3,
+                            test::kRoverBraking);
     for (const double from_s : {98.5, 100.0, 102.3}) {
       const Tube<2> tube = tube_of(peer, from_s, from_s + 6.0, 0.2);
       EXPECT_LE(check_tube(tube, peer, from_s, from_s + 6.0, 0.2), 0.0301);
@@ -70,7 +72,7 @@ TEST(SpaceTimeTube, HoldsWhatStartsAtSpeed) {
   const double cut_s = 0.5 * (drive.start_time() + drive.end_time());
   const PeerObstacle peer(
       "ugv2", std::make_shared<const Motion>(cut_s, drive.phases_between(cut_s, drive.end_time())),
-      0.3);
+      0.3, test::kRoverBraking);
   ASSERT_GT(peer.at(cut_s).velocity.norm(), 0.3);
   check_tube(tube_of(peer, cut_s - 0.63, cut_s + 3.0, 0.2), peer, cut_s - 0.63, cut_s + 3.0, 0.2);
 }
