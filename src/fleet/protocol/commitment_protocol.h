@@ -46,13 +46,13 @@ namespace mocha {
 /// hit by another that does. With stops, it is not hit either by a robot that brakes along its
 /// promised path, if it hears of that and brakes within the reaction time, each as it promised to
 /// brake. Assumed are: one map frame (its errors belong into the margins), clocks that agree as
-/// ClockOptions say or were measured (PeerTable; nothing is endorsed or settled with a peer in reach
-/// whose clock is not known), unique names, true radii and braking, and robots that are in reach of
-/// each other while they settle, or messages faster than delta_dc.
-/// An emergency motion breaks a promise. It is sent to all at once, and a robot whose own promise
-/// meets it is told (kBreached) and has to brake in turn; until it stands, those two have only
-/// their planners' margins. Robots that already are closer than demanded (after braking, or set
-/// down so) may move as long as they come no closer.
+/// ClockOptions say or were measured (PeerTable; nothing is endorsed or settled with a peer in
+/// reach whose clock is not known), unique names, true radii and braking, and robots that are in
+/// reach of each other while they settle, or messages faster than delta_dc. An emergency motion
+/// breaks a promise. It is sent to all at once, and a robot whose own promise meets it is told
+/// (kBreached) and has to brake in turn; until it stands, those two have only their planners'
+/// margins. Robots that already are closer than demanded (after braking, or set down so) may move
+/// as long as they come no closer.
 class CommitmentProtocol : public SettlingProtocol {
  public:
   enum class State {
