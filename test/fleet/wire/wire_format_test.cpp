@@ -10,6 +10,7 @@
 
 #include "fleet/protocol/motions.h"
 #include "trajectory/rover_braking.h"
+#include "trajectory/splice.h"
 #include "world/robot_model.h"
 
 namespace mocha {
@@ -101,6 +102,26 @@ TEST(WireFormat, GivesBackPromisesButForTheQuantisation) {
       const MotionState b = sent.motion->at(t);
       ASSERT_LT((a.pose.position - b.pose.position).norm(), kSameMotion_m);
       ASSERT_LT((a.velocity - b.velocity).norm(), 5e-4);
+    }
+  }
+}
+
+// A knot shortly after a cut is the lever with which its rounding bends the rest of the drive.
+TEST(WireFormat, GivesBackDrivesThatWereCutShortlyBeforeAKnot) {
+  std::mt19937 random(2);
+  for (int run = 0; run < 300; ++run) {
+    const Motion whole = varied(random, kNow_s);
+    const auto& durations_s = std::get<DrivePhase>(whole.phases()[1]).path.durations();
+    const double knot_s = whole.phase_start_time(1) + durations_s[0] + durations_s[1];
+    const Motion rest = rest_of(whole, knot_s - 0.001 * (1 + run % 80));
+    const CommittedTrajectory heard =
+        std::get<CommittedTrajectory>(decoded(encoded(trajectory_of(Motion(rest)))));
+    for (double t = rest.start_time() + 1e-5; t < rest.phase_start_time(1) - 0.01; t += 0.01) {
+      const MotionState a = heard.motion->at(t);
+      const MotionState b = whole.at(t);
+      ASSERT_LT((a.pose.position - b.pose.position).norm(), 3e-4) << run % 80 + 1 << " ms";
+      ASSERT_LT((a.velocity - b.velocity).norm(), 2e-3) << run % 80 + 1 << " ms";
+      ASSERT_LT((a.acceleration - b.acceleration).norm(), 0.03) << run % 80 + 1 << " ms";
     }
   }
 }
