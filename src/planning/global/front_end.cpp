@@ -14,6 +14,7 @@ namespace mocha {
 namespace {
 
 constexpr double kSameGoal_m = 0.5;
+constexpr double kReachableStep_m = 0.1;  // between the places that are tried
 
 /// The shortest time in which a length can be driven from `speed` to rest, straight.
 double least_duration_s(double length_m, double speed, const MotionLimits& limits) {
@@ -137,6 +138,18 @@ bool FrontEnd::reaches(const Vector2& start, const Vector2& goal,
   const TravelCost cost(static_map, start, {}, options_.travel);
   return find_grid_path(static_map, start, goal, cost, kLatticeStep_m).outcome ==
          GridPath::Outcome::kFound;
+}
+
+Vector2 FrontEnd::nearest_reachable(const Vector2& start, const Vector2& goal,
+                                    const StaticMap& static_map) const {
+  const TravelCost cost(static_map, start, {}, options_.travel);
+  Vector2 nearest = start;
+  find_nearest_place(static_map, start, cost, kReachableStep_m, TravelCost::kInfinity,
+                     [&](const Vector2& place) {
+                       if ((place - goal).norm() < (nearest - goal).norm()) nearest = place;
+                       return false;
+                     });
+  return nearest;
 }
 
 }  // namespace mocha

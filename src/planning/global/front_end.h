@@ -39,6 +39,11 @@ class FrontEnd {
   /// Whether there is any path, team-mates aside.
   bool reaches(const Vector2& start, const Vector2& goal, const StaticMap& static_map) const;
 
+  /// The place nearest to the goal to which there is a path, team-mates aside; `start` where there
+  /// is none.
+  Vector2 nearest_reachable(const Vector2& start, const Vector2& goal,
+                            const StaticMap& static_map) const;
+
   /// Distance of the robot's centre from obstacles on a path [m].
   double required_clearance_m() const { return options_.travel.required_clearance_m; }
 

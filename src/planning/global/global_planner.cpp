@@ -149,11 +149,14 @@ PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scen
     run(query, front_end_.after_braking(query, scene, *goal), scene, should_stop, result);
     if (result.reason == PlanReason::kSolved) return result;
   }
-  const bool peers_block = result.candidates.empty() && !scene.peers.empty() &&
-                           front_end_.reaches(start.pose.position, *goal, *scene.static_map);
-  if (peers_block) {
+  if (!result.candidates.empty()) return result;
+  const StaticMap& static_map = *scene.static_map;
+  if (!scene.peers.empty() && front_end_.reaches(start.pose.position, *goal, static_map)) {
     result.reason = PlanReason::kPeerConflict;
     result.message = "team-mates stand on every path to " + place(*goal);
+  } else {
+    result.message += "; the nearest place in reach is " +
+                      place(front_end_.nearest_reachable(start.pose.position, *goal, static_map));
   }
   return result;
 }

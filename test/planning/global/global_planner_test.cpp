@@ -213,6 +213,9 @@ TEST_F(GlobalPlannerTest, SaysThatThereIsNoWay) {
   EXPECT_TRUE(result.motion.empty());
   EXPECT_TRUE(result.candidates.empty());
   EXPECT_NE(result.message.find("no path"), std::string::npos) << result.message;
+  // Before the wall, by its margin.
+  EXPECT_NE(result.message.find("nearest place in reach is (3."), std::string::npos)
+      << result.message;
 }
 
 TEST_F(GlobalPlannerTest, AnEnclosedRobotStandsAndSaysSo) {
