@@ -14,7 +14,7 @@ SPAN = re.compile(r"`([^`]+)`")
 PATH = re.compile(r"(?:src|test|config|msg|launch|scripts)/[\w./]*[\w/]")
 LADDER = "src/planning/replanner/ladder"
 EXECUTIVE = "src/planning/executive/executive_state"
-SITUATIONS = {"H": "kHolds", "P": "kPlanMeets", "T": "kThreatened", "B": "kBlocked", "W": "kInTheWay"}
+SITUATIONS = {"H": "kHolds", "P": "kPlanMeets", "T": "kThreatened", "B": "kBlocked", "W": "kInTheWay", "N": "kNoGoal"}
 ELSEWHERE = {"diagnostics", "tf", "move_base"}  # names of topics that no call of ours spells out
 
 

@@ -71,6 +71,7 @@ class LocalReplannerNode {
   void on_plan(const mocha_ugv::Trajectory& message) {
     try {
       replanning_.set_plan(message.phases.empty() ? Motion() : from_message(message));
+      if (replanning_.step_is_due()) step(ros::Time::now());
     } catch (const std::exception& error) {
       refuse("global_trajectory", error.what());
     }

@@ -26,6 +26,11 @@ LocalReplanning::LocalReplanning(const RobotModel& robot, const ParameterTable& 
       replanner_(robot, LocalReplannerOptions::from(values, robot), LocalOptions::from(values),
                  watch) {}
 
+void LocalReplanning::set_plan(Motion plan) {
+  if (plan.empty()) step_is_due_ = true;
+  replanner_.set_plan(std::move(plan));
+}
+
 void LocalReplanning::set_committed(const MotionId& id, Motion motion) {
   replanner_.set_committed(id.sequence, std::move(motion));
   committed_id_ = id;

@@ -70,11 +70,12 @@ class LocalReplanning {
       const RobotModel& robot, const ParameterTable& values, DataNames names = {},
       const LocalPlanner::Watch& watch = [](LocalStage) {});
 
-  void set_plan(Motion plan) { replanner_.set_plan(std::move(plan)); }
+  /// As LocalReplanner::set_plan(); where there is nothing to drive to, a step is due at once.
+  void set_plan(Motion plan);
   void set_committed(const MotionId& id, Motion motion);
   void hear(const Answer& answer);
 
-  /// Before the period is over: the motion in force meets a peer's promise.
+  /// Before the period is over: the motion in force meets a peer's promise, or is to be stopped.
   bool step_is_due() const { return step_is_due_; }
   Output step(double now_s, const LocalKnowledge& known);
 

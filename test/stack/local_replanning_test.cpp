@@ -123,6 +123,17 @@ TEST_F(LocalReplanningTest, AStepIsDueAtOnceWhereThePromiseIsBreached) {
   EXPECT_FALSE(replanning_.step_is_due());
 }
 
+TEST_F(LocalReplanningTest, AStepIsDueAtOnceWhereThereIsNothingToDriveTo) {
+  replanning_.set_plan(drive_);
+  EXPECT_FALSE(replanning_.step_is_due());
+  replanning_.set_plan(Motion());
+  EXPECT_TRUE(replanning_.step_is_due());
+  const auto output = replanning_.step(kNow_s, all_known());
+  EXPECT_EQ(output.row, Row::kStop);
+  EXPECT_TRUE(output.proposal);
+  EXPECT_FALSE(replanning_.step_is_due());
+}
+
 TEST_F(LocalReplanningTest, CountsRefusalsAndRemembersTheLast) {
   replanning_.hear({Answer::Kind::kRefused, 4, "too late"});
   replanning_.hear({Answer::Kind::kRefused, 5, "meets ugv2"});

@@ -11,6 +11,7 @@ constexpr Rung kRejoinSooner{Row::kRejoinSooner, K::kRejoinSooner, R::kPromise, 
 constexpr Rung kFollow{Row::kFollow, K::kFollow, R::kPromise, false};
 constexpr Rung kDetour{Row::kDetour, K::kDetour, R::kPromise, false};
 constexpr Rung kDetourLikely{Row::kDetourLikely, K::kDetour, R::kPromiseLikely, false};
+constexpr Rung kStop{Row::kStop, K::kStop, R::kRenewal, true};
 constexpr Rung kBrakeSoon{Row::kBrakeSoon, K::kBrakeSoon, R::kPromise, true};
 constexpr Rung kBrakeInTime{Row::kBrakeInTime, K::kBrakeInTime, R::kPromise, true};
 constexpr Rung kBrakeInTimeAtOnce{Row::kBrakeInTimeAtOnce, K::kBrakeInTimeAtOnce, R::kPromise,
@@ -63,6 +64,7 @@ const std::vector<Rung>& ladder_of(Situation situation) {
   static const std::vector<Rung> kInTheWay = {kFollow,   kDetour,         kDetourLikely,
                                               kSidestep, kSidestepLikely, kEmergencyDetour,
                                               kMostRoom, kLastResort};
+  static const std::vector<Rung> kNoGoal = {kStop};
   switch (situation) {
     case Situation::kHolds:
       return kHolds;
@@ -74,6 +76,8 @@ const std::vector<Rung>& ladder_of(Situation situation) {
       return kBlocked;
     case Situation::kInTheWay:
       return kInTheWay;
+    case Situation::kNoGoal:
+      return kNoGoal;
   }
   return kHolds;
 }
@@ -100,6 +104,8 @@ const char* to_text(Row row) {
       return "detour";
     case Row::kDetourLikely:
       return "detour past the likely course";
+    case Row::kStop:
+      return "stops: no goal";
     case Row::kBrakeSoon:
       return "brakes";
     case Row::kBrakeInTime:

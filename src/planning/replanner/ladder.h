@@ -13,6 +13,7 @@ enum class Situation {
   kThreatened,  ///< under way, the promise meets something that moves
   kBlocked,     ///< under way, the promise violates anything else
   kInTheWay,    ///< the robot stands, though it wants to go on, in the way of something that moves
+  kNoGoal,      ///< there is nothing to drive to, but the robot moves or is about to
 };
 
 /// What is done in a step. The values are those of ReplannerStatus.msg.
@@ -27,18 +28,19 @@ enum class Row {
   kRejoinSooner = 7,   ///< a shorter detour than the one that is driven
   kDetour = 8,
   kDetourLikely = 9,  ///< past the likely course of what moves
-  kBrakeSoon = 10,
-  kBrakeInTime = 11,
-  kBrakeInTimeAtOnce = 12,
-  kBrakeLikely = 13,
-  kBrakeInTimeLikely = 14,
-  kBrakeInTimeAtOnceLikely = 15,
-  kSidestep = 16,
-  kSidestepLikely = 17,
-  kBrakeHard = 18,
-  kEmergencyDetour = 19,
-  kMostRoom = 20,    ///< keeps clear of all but the predictions, and as far as possible of these
-  kLastResort = 21,  ///< nothing is certified
+  kStop = 10,         ///< at once, as there is nothing to drive to
+  kBrakeSoon = 11,
+  kBrakeInTime = 12,
+  kBrakeInTimeAtOnce = 13,
+  kBrakeLikely = 14,
+  kBrakeInTimeLikely = 15,
+  kBrakeInTimeAtOnceLikely = 16,
+  kSidestep = 17,
+  kSidestepLikely = 18,
+  kBrakeHard = 19,
+  kEmergencyDetour = 20,
+  kMostRoom = 21,    ///< keeps clear of all but the predictions, and as far as possible of these
+  kLastResort = 22,  ///< nothing is certified
 };
 
 /// What generates the motions of a row.
@@ -46,6 +48,7 @@ enum class ManeuverKind {
   kFollow,
   kRejoinSooner,
   kDetour,
+  kStop,
   kBrakeSoon,
   kBrakeInTime,
   kBrakeInTimeAtOnce,

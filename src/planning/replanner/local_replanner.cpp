@@ -63,10 +63,12 @@ LocalReplanner::Output LocalReplanner::decide(double now_s, const RobotState& me
   Step step{start_at(now_s, scene), {}, {}, false, proposals_.pending(now_s), false,
             std::move(output)};
   assess(step);
+  if (has_nothing_to_drive_to() && go_down_the_ladder(Situation::kNoGoal, step))
+    return std::move(step.output);
   if (step.situation != Situation::kHolds && waits_for_answer(step)) {
     step.output.row = Row::kWait;
   } else {
-    go_down_the_ladder(step);
+    go_down_the_ladder(step.situation, step);
   }
   return std::move(step.output);
 }
@@ -148,13 +150,14 @@ void LocalReplanner::assess(Step& step) const {
   }
 }
 
-void LocalReplanner::go_down_the_ladder(Step& step) {
-  const bool holds = step.situation == Situation::kHolds || step.situation == Situation::kPlanMeets;
-  for (const Rung& rung : ladder_of(step.situation)) {
+bool LocalReplanner::go_down_the_ladder(Situation situation, Step& step) {
+  const bool holds = situation == Situation::kHolds || situation == Situation::kPlanMeets;
+  for (const Rung& rung : ladder_of(situation)) {
     if (step.pending && !rung.replaces_pending) continue;
     const Climb climb = try_rung(rung, step);
-    if (climb == Climb::kProposed || (climb == Climb::kKeep && holds)) return;
+    if (climb == Climb::kProposed || (climb == Climb::kKeep && holds)) return true;
   }
+  return false;
 }
 
 LocalReplanner::Climb LocalReplanner::try_rung(const Rung& rung, Step& step) {
@@ -190,12 +193,15 @@ LocalReplanner::Climb LocalReplanner::try_follow(Step& step) {
     return Climb::kNext;
   }
   const bool nowhere = part->follows_until_s < std::min(maneuver->least_reach_s, plan_.end_time());
-  const bool waits = committed_source_.plan != plan_id_ && committed_.at(maneuver->join_s).at_rest;
+  const bool stands = committed_.at(maneuver->join_s).at_rest;
+  const bool waits = committed_source_.plan != plan_id_ && stands;
   // What was not seen yet will be seen on the way.
   const bool unseen = part->cut_by.term == ViolatedTerm::kUnseenSpace;
   step.output.violation = part->cut_by;
   if (part->cut_by && ((waits && nowhere) || !unseen))
     ask_for_plan(part->cut_by, describe(part->cut_by), step.output);
+  else if (part->cut_by && nowhere && stands)
+    object(part->cut_by, describe(part->cut_by), step.output);
   if (nowhere) {
     const bool meets = part->cut_by.term == ViolatedTerm::kSeparation;
     return meets ? Climb::kNext : Climb::kKeep;
@@ -222,6 +228,10 @@ void LocalReplanner::report(const Rung& rung, const char* words, Step& step) con
   if (rung.row == Row::kFollow) return;
   output.message = words;
   if (!rung.replaces_pending) return;
+  if (rung.row == Row::kStop) {
+    output.reason = PlanReason::kNoGoal;
+    return;
+  }
   const bool blocked = step.situation == Situation::kBlocked;
   output.reason = blocked ? PlanReason::kBraking : PlanReason::kPeerConflict;
   output.violation = step.violation;
@@ -230,12 +240,16 @@ void LocalReplanner::report(const Rung& rung, const char* words, Step& step) con
   output.request_plan = step.situation != Situation::kInTheWay;
 }
 
-void LocalReplanner::ask_for_plan(const Violation& violation, const std::string& why,
-                                  Output& output) {
+void LocalReplanner::object(const Violation& violation, const std::string& why, Output& output) {
   const bool meets = violation.term == ViolatedTerm::kSeparation;
   output.reason = meets ? PlanReason::kPeerConflict : PlanReason::kNotCertified;
   output.violation = violation;
   output.message = why;
+}
+
+void LocalReplanner::ask_for_plan(const Violation& violation, const std::string& why,
+                                  Output& output) {
+  object(violation, why, output);
   output.request_plan = true;
 }
 

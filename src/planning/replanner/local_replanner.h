@@ -36,9 +36,9 @@ class LocalReplanner {
       const RobotModel& robot, const LocalReplannerOptions& options,
       const LocalOptions& local_options, const LocalPlanner::Watch& watch = [](LocalStage) {});
 
-  /// The newest plan to the goal. An empty motion means there is none. One that leads to where the
-  /// plan at hand leads is passed over where it meets something that moves, and that one does not
-  /// or later.
+  /// The newest plan to the goal. An empty motion means that there is nothing to drive to: what is
+  /// in force is left by braking along it, at once. A plan that leads to where the one at hand
+  /// leads is passed over where it meets something that moves, and that one does not or later.
   void set_plan(Motion plan);
   /// The motion in force, as the broadcaster says. Sequences of own proposals continue after it.
   void set_committed(std::uint32_t sequence, Motion motion);
@@ -84,10 +84,12 @@ class LocalReplanner {
                      RequirementName trigger, double horizon_s) const;
   bool waits_for_answer(const Step& step) const;
   void assess(Step& step) const;
-  void go_down_the_ladder(Step& step);
+  /// Whether anything came of it.
+  bool go_down_the_ladder(Situation situation, Step& step);
   Climb try_rung(const Rung& rung, Step& step);
   Climb try_follow(Step& step);
   Maneuvers maneuvers(const Rung& rung, Step& step);
+  Maneuvers stops(const Step& step) const;
   Maneuvers detours(const Rung& rung, Step& step);
   Maneuvers rejoining_sooner(Step& step);
   Maneuvers emergency_detours(Step& step);
@@ -99,6 +101,8 @@ class LocalReplanner {
   void take_detour(const Rung& rung, Step& step);
   void propose(const Rung& rung, const Maneuver& maneuver, const CertifiedPart& part, Step& step);
   void report(const Rung& rung, const char* words, Step& step) const;
+  /// Says why no more is promised.
+  static void object(const Violation& violation, const std::string& why, Output& output);
   static void ask_for_plan(const Violation& violation, const std::string& why, Output& output);
 
   bool off_track(double now_s, const RobotState& measured) const;
@@ -107,6 +111,10 @@ class LocalReplanner {
   /// What is in force is where the robot is, and at rest no later than it will be.
   bool is_promised(const Motion& stop, double now_s) const;
   bool announced_stop(double now_s) const;
+  /// Braking along what is in force, at once, or standing where that has not begun to move;
+  /// nothing where it, or what is proposed, comes to rest as soon.
+  std::optional<Motion> sooner_stop(double now_s) const;
+  bool has_nothing_to_drive_to() const { return plan_id_ > 0 && plan_.empty(); }
   /// Says what the robot does in any case.
   void announce(double now_s, const Motion& motion, bool brakes, Row row, Output& output);
 

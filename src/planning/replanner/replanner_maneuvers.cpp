@@ -34,6 +34,8 @@ Maneuvers LocalReplanner::maneuvers(const Rung& rung, Step& step) {
       return rejoining_sooner(step);
     case ManeuverKind::kDetour:
       return detours(rung, step);
+    case ManeuverKind::kStop:
+      return stops(step);
     case ManeuverKind::kBrakeSoon:
       return brake_soon(step.start);
     case ManeuverKind::kBrakeInTime:
@@ -52,6 +54,12 @@ Maneuvers LocalReplanner::maneuvers(const Rung& rung, Step& step) {
       return last_resort(step.start);
   }
   return {};
+}
+
+Maneuvers LocalReplanner::stops(const Step& step) const {
+  const auto stop = sooner_stop(step.start.now_s);
+  if (!stop) return {};
+  return {whole(*stop, stop->start_time(), true, "stops: no goal")};
 }
 
 std::optional<Maneuver> LocalReplanner::following(Step& step) {

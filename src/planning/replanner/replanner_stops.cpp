@@ -79,14 +79,20 @@ void LocalReplanner::stop_here(double now_s, const RobotState& measured, Output&
   announce(now_s, stop, true, Row::kStopHere, output);
 }
 
+std::optional<Motion> LocalReplanner::sooner_stop(double now_s) const {
+  const bool stands = committed_.at(now_s).at_rest;
+  const double brake_s = stands ? now_s : committed_.switch_time(now_s + options_.emergency_s);
+  const Motion stop = with_brake(committed_, committed_.cut_time(now_s), brake_s, robot_.braking());
+  const Motion& next = proposals_.pending(now_s) ? proposals_.newest() : committed_;
+  if (stop.end_time() >= next.end_time() - kSooner_s) return std::nullopt;
+  return rest_of(stop, brake_s);
+}
+
 LocalReplanner::Output LocalReplanner::stop_blind(double now_s) {
   Output output;
   output.row = Row::kStopBlind;
-  if (committed_.empty() || announced_stop(now_s)) return counted(output);
-  const double brake_s = committed_.switch_time(now_s + options_.emergency_s);
-  const Motion stop = with_brake(committed_, committed_.cut_time(now_s), brake_s, robot_.braking());
-  if (stop.end_time() < committed_.end_time() - kSooner_s)
-    announce(now_s, rest_of(stop, brake_s), true, Row::kStopBlind, output);
+  if (committed_.empty()) return counted(output);
+  if (const auto stop = sooner_stop(now_s)) announce(now_s, *stop, true, Row::kStopBlind, output);
   return counted(output);
 }
 

@@ -10,9 +10,9 @@
 namespace mocha {
 namespace {
 
-constexpr Situation kSituations[] = {Situation::kHolds, Situation::kPlanMeets,
+constexpr Situation kSituations[] = {Situation::kHolds,      Situation::kPlanMeets,
                                      Situation::kThreatened, Situation::kBlocked,
-                                     Situation::kInTheWay};
+                                     Situation::kInTheWay,   Situation::kNoGoal};
 constexpr Situation kInDanger[] = {Situation::kThreatened, Situation::kBlocked,
                                    Situation::kInTheWay};
 constexpr int kRows = static_cast<int>(Row::kLastResort) + 1;
@@ -61,7 +61,8 @@ TEST(Ladder, RowsAreInTheirOrder) {
         R::kBrakeHard, R::kEmergencyDetour, R::kLastResort}},
       {Situation::kInTheWay,
        {R::kFollow, R::kDetour, R::kDetourLikely, R::kSidestep, R::kSidestepLikely,
-        R::kEmergencyDetour, R::kMostRoom, R::kLastResort}}};
+        R::kEmergencyDetour, R::kMostRoom, R::kLastResort}},
+      {Situation::kNoGoal, {R::kStop}}};
   for (const Situation situation : kSituations)
     EXPECT_EQ(rows_of(situation), expected.at(situation)) << static_cast<int>(situation);
 }
@@ -120,10 +121,10 @@ TEST(Ladder, WhatHasTheLimitsOfAnEmergencyComesAfterWhatHasThoseOfDriving) {
   }
 }
 
-TEST(Ladder, OnlyWhatIsDoneInDangerReplacesAPendingProposal) {
+TEST(Ladder, OnlyWhatIsDoneInDangerOrWithoutAGoalReplacesAPendingProposal) {
   for (const Situation situation : kSituations) {
     for (const Rung& rung : ladder_of(situation))
-      EXPECT_EQ(rung.replaces_pending, rung.row >= Row::kBrakeSoon) << to_text(rung.row);
+      EXPECT_EQ(rung.replaces_pending, rung.row >= Row::kStop) << to_text(rung.row);
   }
 }
 
