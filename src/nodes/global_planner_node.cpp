@@ -1,6 +1,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <mocha_ugv/PlanTrajectory.h>
 #include <ros/ros.h>
+#include <std_srvs/SetBool.h>
 
 #include <memory>
 #include <optional>
@@ -41,7 +42,8 @@ class GlobalPlannerNode {
         values_(values),
         planning_(model_, values,
                   {false, neighbour_parameters("trajectory_broadcaster").integer("priority"),
-                   identity_.name}),
+                   identity_.name},
+                  ros::names::resolve("map")),
         stop_(node),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
@@ -56,7 +58,10 @@ class GlobalPlannerNode {
                                  at_once())),
         requests_(
             node.subscribe("replan_request", 10, &GlobalPlannerNode::on_request, this, at_once())),
+        replanner_(node.subscribe("replanner_status", 10, &GlobalPlannerNode::on_replanner, this,
+                                  at_once())),
         service_(node.advertiseService("plan", &GlobalPlannerNode::on_plan_service, this)),
+        pauses_(node.advertiseService("pause", &GlobalPlannerNode::on_pause, this)),
         inputs_(node, identity_, pose_.transforms(),
                 {[this](std::deque<Goal> goals) { take(std::move(goals)); },
                  [this](const std::string& why) { stop(why); }, [this] { return stop_.reason(); }}),
@@ -84,7 +89,31 @@ class GlobalPlannerNode {
     request_ = status.message;
   }
 
-  void take(std::deque<Goal> goals) { executive_.take(std::move(goals), now_.toSec()); }
+  void on_replanner(const mocha_ugv::ReplannerStatus& message) {
+    try {
+      planning_.hear_replanner(from_message(message.status), ros::Time::now().toSec());
+    } catch (const std::exception& error) {
+      ++refused_;
+      ROS_WARN_THROTTLE(1.0, "Refused a message on replanner_status: %s", error.what());
+    }
+  }
+
+  void take(std::deque<Goal> goals) {
+    executive_.take(std::move(goals), committed_.motion(), now_.toSec());
+  }
+
+  bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+    if (request.data) {
+      executive_.pause();
+      outputs_.adopt(Motion(), now_);
+    } else {
+      executive_.resume();
+      if (executive_.idle()) report(PlanReason::kNoGoal, {}, "is not paused any more");
+    }
+    response.success = true;
+    response.message = to_text(executive_.state());
+    return true;
+  }
 
   // --- what happens when ---
 
@@ -129,8 +158,9 @@ class GlobalPlannerNode {
 
   void stop(const std::string& why) {
     if (stop_.stopped()) return;
-    ROS_INFO("%s: stops: %s", identity_.name.c_str(), why.c_str());
-    adopt(executive_.stop(committed_.motion(), now_.toSec()));
+    executive_.drop();
+    outputs_.adopt(Motion(), now_);
+    report(PlanReason::kNoGoal, {}, why);
   }
 
   bool on_plan_service(mocha_ugv::PlanTrajectory::Request& request,
@@ -176,16 +206,15 @@ class GlobalPlannerNode {
     if (output.planned) {
       ++plans_made_;
       outputs_.show_candidates(output.planned->result, output.planned->goal, now_);
-      class_switches_ += !output.plan.empty() && output.planned->result.switches_class;
+      class_switches_ += output.plan && output.planned->result.switches_class;
     }
     if (output.report) {
       const auto& [reason, violation, text] = *output.report;
-      const std::string no_map = "no map on " + ros::names::resolve("map") + " yet";
-      report(reason, violation, reason == PlanReason::kNoMap ? no_map : text);
+      report(reason, violation, text);
     }
     if (output.request) yield_requests_.send(*output.request, now_);
     finish(output.ending);
-    adopt(output.plan);
+    if (output.plan) outputs_.adopt(*output.plan, now_);
   }
 
   void finish(GoalExecutive::Ending ending) {
@@ -195,14 +224,8 @@ class GlobalPlannerNode {
       inputs_.finish(true, "reached");
       return;
     }
-    const bool occupied = ending == GoalExecutive::Ending::kGoalOccupied;
-    const std::string why = occupied ? outputs_.text() : "no progress towards the goal";
-    inputs_.finish(false, occupied ? why : "no progress; last: " + outputs_.text());
-    ROS_INFO("%s: stops: %s", identity_.name.c_str(), why.c_str());
-  }
-
-  void adopt(const Motion& plan) {
-    if (!plan.empty()) outputs_.adopt(plan, now_);
+    inputs_.finish(false, outputs_.text());
+    ROS_WARN("%s: gives its goal up: %s", identity_.name.c_str(), outputs_.text().c_str());
   }
 
   void report(PlanReason reason, const Violation& violation, const std::string& text) {
@@ -211,11 +234,10 @@ class GlobalPlannerNode {
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
-    const bool fine =
-        !planning_.stopped() && (executive_.idle() || outputs_.reason() == PlanReason::kSolved);
-    const std::string doing = executive_.idle()
-                                  ? to_text(executive_.state())
-                                  : to_text(outputs_.reason()) + (": " + outputs_.text());
+    const bool rests = executive_.idle() || executive_.state() == ExecutiveState::kPaused;
+    const bool fine = !planning_.stopped() && (rests || outputs_.reason() == PlanReason::kSolved);
+    const std::string doing =
+        rests ? to_text(executive_.state()) : to_text(outputs_.reason()) + (": " + outputs_.text());
     status.summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                    planning_.stopped() ? stop_.reason() : doing);
     status.add("state", to_text(executive_.state()));
@@ -248,7 +270,9 @@ class GlobalPlannerNode {
   int refused_ = 0;
   ros::Subscriber followed_;
   ros::Subscriber requests_;
+  ros::Subscriber replanner_;
   ros::ServiceServer service_;
+  ros::ServiceServer pauses_;
   diagnostic_updater::Updater diagnostics_;
   GoalInputs inputs_;
   LiveParameters parameters_;

@@ -1,5 +1,6 @@
 #include "stack/goal_planning.h"
 
+#include <sstream>
 #include <utility>
 
 namespace mocha {
@@ -9,17 +10,27 @@ PlanningScene scene_of(const PlanQuery& query, const SceneSource& scene) {
   return scene({query.committed.at(query.start_time_s).pose.position, query.goal});
 }
 
+std::string no_progress_for(double time_s) {
+  std::ostringstream text;
+  text << "no progress for " << time_s << " s: ";
+  return text.str();
+}
+
 }  // namespace
 
-GoalPlanning::GoalPlanning(const RobotModel& robot, const ParameterTable& values, const Rank& rank)
+GoalPlanning::GoalPlanning(const RobotModel& robot, const ParameterTable& values, const Rank& rank,
+                           std::string map_name)
     : robot_(robot),
+      map_name_(std::move(map_name)),
       planner_(std::make_unique<GlobalPlanner>(robot, PlannerOptions::from(values))),
       executive_(GoalExecutiveOptions::from(values), robot,
-                 Yielding(rank, robot, PlannerOptions::from(values))) {}
+                 Yielding(rank, robot, PlannerOptions::from(values))),
+      goal_timeout_s_(GoalOptions::from(values).timeout_s) {}
 
 void GoalPlanning::set_options(const ParameterTable& values) {
   planner_ = std::make_unique<GlobalPlanner>(robot_, PlannerOptions::from(values));
   executive_.set_options(GoalExecutiveOptions::from(values), PlannerOptions::from(values));
+  goal_timeout_s_ = GoalOptions::from(values).timeout_s;
 }
 
 GoalPlanning::StopNews GoalPlanning::heed(bool stopped, int stops) {
@@ -43,7 +54,34 @@ GoalExecutive::Output GoalPlanning::step(double now_s, const RobotState& measure
     };
     planner.scene = scene;
   }
-  return executive_.step(now_s, measured, committed, planner);
+  const bool has_plan = !executive_.plan().empty();
+  GoalExecutive::Output output = executive_.step(now_s, measured, committed, planner);
+  if (output.report && output.report->reason == PlanReason::kNoMap && !scene)
+    output.report->message = "no map on " + map_name_ + " yet";
+  if (output.report) cause_.hear_planner(*output.report);
+  explain(has_plan, now_s, output);
+  return output;
+}
+
+GoalExecutive::Report GoalPlanning::cause(bool has_plan, double now_s) const {
+  if (executive_.state() == ExecutiveState::kPaused)
+    return {PlanReason::kPaused, {}, "stays where it is until it is resumed"};
+  return cause_.cause(has_plan, now_s);
+}
+
+void GoalPlanning::explain(bool has_plan, double now_s, GoalExecutive::Output& output) {
+  using Ending = GoalExecutive::Ending;
+  const bool gives_up = output.ending != Ending::kNone && output.ending != Ending::kReached;
+  if (executive_.idle() && !gives_up && executive_.state() != ExecutiveState::kPaused) return;
+  GoalExecutive::Report report = cause(has_plan, now_s);
+  if (output.ending == Ending::kNoProgress) {
+    const bool solved = report.reason == PlanReason::kSolved;
+    report.message = no_progress_for(goal_timeout_s_) +
+                     (solved ? "it has a plan, and neither planner objects to it" : report.message);
+  }
+  const bool news = report.reason != said_.reason || report.message != said_.message;
+  if (output.report || news) output.report = report;
+  said_ = std::move(report);
 }
 
 PlanResult GoalPlanning::plan(const PlanQuery& query, const SceneSource& scene) const {

@@ -6,16 +6,20 @@
 #include "config/parameter_table.h"
 #include "planning/executive/goal_executive.h"
 #include "planning/global/global_planner.h"
+#include "stack/delay_cause.h"
 
 namespace mocha {
 
-/// The goal executive with the planner that it asks: goals and surroundings in, plans out.
+/// The goal executive with the planner that it asks: goals and surroundings in, plans out, and what
+/// keeps the robot from its goal, whichever planner knows it.
 class GoalPlanning {
  public:
   enum class StopNews { kNone, kStopped, kReset };
 
-  /// `values` are those of config/global_planner.yaml; rank: see YieldPolicy.
-  GoalPlanning(const RobotModel& robot, const ParameterTable& values, const Rank& rank);
+  /// `values` are those of config/global_planner.yaml; rank: see YieldPolicy; `map_name`: where the
+  /// map comes from, in messages to people.
+  GoalPlanning(const RobotModel& robot, const ParameterTable& values, const Rank& rank,
+               std::string map_name = "map");
   /// Counts for the goals that are there, too.
   void set_options(const ParameterTable& values);
 
@@ -27,16 +31,29 @@ class GoalPlanning {
   StopNews heed(bool stopped, int stops);
   bool stopped() const { return stopped_; }
 
-  /// As GoalExecutive::step(); `scene` is empty while there is no map.
+  /// What the local replanner says from now on.
+  void hear_replanner(const GoalExecutive::Report& said, double now_s) {
+    cause_.hear_replanner(said, now_s);
+  }
+
+  /// As GoalExecutive::step(), but the report is there where it is news, and says what keeps the
+  /// robot from its goal. `scene` is empty while there is no map.
   GoalExecutive::Output step(double now_s, const RobotState& measured, const Motion& committed,
                              const SceneSource& scene);
   /// A plan to somewhere, whatever the executive is about.
   PlanResult plan(const PlanQuery& query, const SceneSource& scene) const;
 
  private:
+  GoalExecutive::Report cause(bool has_plan, double now_s) const;
+  void explain(bool has_plan, double now_s, GoalExecutive::Output& output);
+
   const RobotModel robot_;
+  const std::string map_name_;
   std::unique_ptr<const GlobalPlanner> planner_;
   GoalExecutive executive_;
+  DelayCause cause_;
+  GoalExecutive::Report said_;
+  double goal_timeout_s_;
   bool stopped_ = false;
   int heeded_ = 0;  // stops
 };

@@ -41,7 +41,17 @@ RobotStack::RobotStack(std::string name, const RobotModel& robot, const Paramete
       keeping_(robot, parameters.local_replanner.number("lease"), protocol) {}
 
 void RobotStack::take(std::deque<Goal> goals, double now_s) {
-  planning_.executive().take(std::move(goals), now_s);
+  planning_.executive().take(std::move(goals), committed(), now_s);
+}
+
+void RobotStack::stop() {
+  planning_.executive().drop();
+  replanning_.set_plan(Motion());
+}
+
+void RobotStack::pause() {
+  planning_.executive().pause();
+  replanning_.set_plan(Motion());
 }
 
 RobotStack::Messages RobotStack::hear(const FleetMessage& message, double now_s) {
@@ -69,6 +79,7 @@ RobotStack::Messages RobotStack::replan(double now_s, const RobotState& measured
   if (replanned_.swerves || replanned_.keeps_plan)
     planning_.executive().follow(replanning_.replanner().plan());
   if (replanned_.request_plan) planning_.executive().request();
+  planning_.hear_replanner({replanned_.reason, replanned_.violation, replanned_.message}, now_s);
   if (replanned_.lease) keeping_.renew(*replanned_.lease);
   if (!replanned_.proposal) return {};
   return propose(*replanned_.proposal, now_s);
@@ -90,7 +101,7 @@ RobotStack::Messages RobotStack::pursue(double now_s, const RobotState& measured
   pursued_ = planning_.step(now_s, measured, committed(), [&](const std::vector<Vector2>&) {
     return PlanningScene{static_map, peers_};
   });
-  if (!pursued_.plan.empty()) replanning_.set_plan(pursued_.plan);
+  if (pursued_.plan) replanning_.set_plan(*pursued_.plan);
   if (!pursued_.request) return {};
   YieldRequest request = *pursued_.request;
   request.epoch = protocol_.epoch();

@@ -29,6 +29,11 @@ class RobotStack {
              SettlingProtocol& protocol);
 
   void take(std::deque<Goal> goals, double now_s);
+  /// Drops all goals. The robot brakes at once: a step is due.
+  void stop();
+  /// The same, but the goals are kept until it is resumed.
+  void pause();
+  void resume() { planning_.executive().resume(); }
   Messages hear(const FleetMessage& message, double now_s);
   /// As often as trajectory_broadcaster: follows leases and settles.
   Messages tick(double now_s);
@@ -44,6 +49,7 @@ class RobotStack {
   const MotionId& committed_id() const { return replanning_.committed_id(); }
 
   bool idle() const { return planning_.executive().idle(); }
+  ExecutiveState state() const { return planning_.executive().state(); }
   /// What the last pursue() came to.
   const GoalExecutive::Output& pursued() const { return pursued_; }
   /// What the last replan() came to.

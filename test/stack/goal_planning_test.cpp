@@ -15,32 +15,53 @@ class GoalPlanningTest : public ::testing::Test {
     return planning_.step(now_s, {now_s, {{0.0, 0.0}, 0.0}, {0.0, 0.0}}, standing_, scene_);
   }
 
+  /// Steps until all goals are given up, in a time between these.
+  GoalExecutive::Output run_to_the_end(double least_s, double most_s) {
+    GoalExecutive::Output output;
+    double time_s = 0.0;
+    while (time_s < most_s && output.ending == GoalExecutive::Ending::kNone)
+      output = step(kNow_s + (time_s += 0.1));
+    EXPECT_GT(time_s, least_s);
+    return output;
+  }
+
+  static GoalExecutive::Report too_close() {
+    GoalExecutive::Report report;
+    report.reason = PlanReason::kNotCertified;
+    report.violation.term = ViolatedTerm::kClearance;
+    report.violation.place = {3.1, 2.0};
+    report.violation.value = 0.069;
+    report.violation.limit = 0.105;
+    report.message = describe(report.violation);
+    return report;
+  }
+
   const ParameterTable values_ = ParameterTable::from_schema("config/global_planner.yaml");
   const Motion standing_ = standing(kNow_s - 1.0, {0.0, 0.0}, 0.0);
-  const std::shared_ptr<const StaticMap> map_ = static_map_of(free_grid({-2.0, -3.0}, {12.0, 3.0}));
+  std::shared_ptr<const StaticMap> map_ = static_map_of(free_grid({-2.0, -3.0}, {12.0, 3.0}));
   SceneSource scene_ = [this](const std::vector<Vector2>&) { return PlanningScene{map_, {}}; };
   GoalPlanning planning_{rover(), values_, {false, 0, "ugv1"}};
 };
 
 TEST_F(GoalPlanningTest, PlansToItsGoal) {
-  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, kNow_s);
+  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
   const auto output = step(kNow_s);
-  ASSERT_FALSE(output.plan.empty());
-  EXPECT_LT((output.plan.end_pose().position - Vector2(6.0, 0.0)).norm(), 0.01);
+  ASSERT_TRUE(output.plan);
+  EXPECT_LT((output.plan->end_pose().position - Vector2(6.0, 0.0)).norm(), 0.01);
 }
 
 TEST_F(GoalPlanningTest, WithoutAMapItSaysSo) {
   scene_ = nullptr;
-  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, kNow_s);
+  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
   const auto output = step(kNow_s);
-  EXPECT_TRUE(output.plan.empty());
+  EXPECT_FALSE(output.plan);
   ASSERT_TRUE(output.report);
   EXPECT_EQ(output.report->reason, PlanReason::kNoMap);
 }
 
 TEST_F(GoalPlanningTest, ForgetsItsGoalsWithEachNewEmergencyStop) {
   using StopNews = GoalPlanning::StopNews;
-  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, kNow_s);
+  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
   EXPECT_EQ(planning_.heed(false, 0), StopNews::kNone);
   EXPECT_FALSE(planning_.executive().idle());
   EXPECT_EQ(planning_.heed(true, 1), StopNews::kStopped);
@@ -52,10 +73,76 @@ TEST_F(GoalPlanningTest, ForgetsItsGoalsWithEachNewEmergencyStop) {
 }
 
 TEST_F(GoalPlanningTest, AStopThatIsResetBeforeItIsLookedAtCountsToo) {
-  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, kNow_s);
+  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
   EXPECT_EQ(planning_.heed(false, 1), GoalPlanning::StopNews::kStopped);
   EXPECT_FALSE(planning_.stopped());
   EXPECT_TRUE(planning_.executive().idle());
+}
+
+TEST_F(GoalPlanningTest, SaysWhatTheLocalReplannerCannotPromiseAsSoonAsItIsNews) {
+  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
+  EXPECT_EQ(step(kNow_s).report->reason, PlanReason::kSolved);
+  planning_.hear_replanner(too_close(), kNow_s + 0.1);
+  const auto output = step(kNow_s + 0.1);
+  ASSERT_TRUE(output.report);
+  EXPECT_EQ(output.report->reason, PlanReason::kNotCertified);
+  EXPECT_EQ(output.report->message, "local replanner: " + describe(too_close().violation));
+  EXPECT_EQ(output.report->violation.place, Vector2(3.1, 2.0));
+  EXPECT_FALSE(step(kNow_s + 0.15).report);
+  planning_.hear_replanner({}, kNow_s + 0.2);
+  EXPECT_EQ(step(kNow_s + 2.3).report->reason, PlanReason::kSolved);
+}
+
+TEST_F(GoalPlanningTest, WithoutProgressItSaysForHowLongAndWhy) {
+  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
+  step(kNow_s);
+  planning_.hear_replanner(too_close(), kNow_s + 0.1);
+  const auto output = run_to_the_end(59.0, 62.0);
+  EXPECT_EQ(output.ending, GoalExecutive::Ending::kNoProgress);
+  ASSERT_TRUE(output.report);
+  EXPECT_EQ(output.report->reason, PlanReason::kNotCertified);
+  EXPECT_EQ(output.report->message,
+            "no progress for 60 s: local replanner: " + describe(too_close().violation));
+}
+
+TEST_F(GoalPlanningTest, WhereNobodyObjectsItDoesNotSaySolved) {
+  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
+  const auto output = run_to_the_end(59.0, 62.0);
+  ASSERT_TRUE(output.report);
+  EXPECT_EQ(output.report->message,
+            "no progress for 60 s: it has a plan, and neither planner objects to it");
+}
+
+TEST_F(GoalPlanningTest, WhereNoPathLeadsItSaysSoAtOnceAndGivesUpSoon) {
+  OccupancyGrid grid = free_grid({-2.0, -3.0}, {12.0, 3.0});
+  fill_box(grid, {4.0, -3.0}, {4.2, 3.0});
+  fill_box(grid, {-2.0, -3.0}, {12.0, -2.8});
+  fill_box(grid, {-2.0, 2.8}, {12.0, 3.0});
+  map_ = static_map_of(grid);
+  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
+  const auto first = step(kNow_s);
+  ASSERT_TRUE(first.report);
+  EXPECT_EQ(first.report->reason, PlanReason::kNoPath);
+  planning_.hear_replanner(too_close(), kNow_s);  // of what it does without a plan
+  const auto last = run_to_the_end(2.5, 4.0);
+  EXPECT_EQ(last.ending, GoalExecutive::Ending::kUnreachable);
+  ASSERT_TRUE(last.report);
+  EXPECT_EQ(last.report->reason, PlanReason::kNoPath);
+  EXPECT_NE(
+      last.report->message.find("to (6.00, 0.00) on the map; the nearest place in reach is (3."),
+      std::string::npos)
+      << last.report->message;
+}
+
+TEST_F(GoalPlanningTest, SaysThatItIsPaused) {
+  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
+  step(kNow_s);
+  planning_.executive().pause();
+  EXPECT_EQ(step(kNow_s + 0.05).report->reason, PlanReason::kPaused);
+  EXPECT_FALSE(step(kNow_s + 0.1).report);
+  planning_.executive().resume();
+  step(kNow_s + 0.15);
+  EXPECT_EQ(step(kNow_s + 0.2).report->reason, PlanReason::kSolved);
 }
 
 TEST_F(GoalPlanningTest, TakesNewOptions) {

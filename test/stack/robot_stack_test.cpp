@@ -40,7 +40,7 @@ class RobotStackTest : public ::testing::Test {
   }
 
   double now_s_ = 1.7e9;
-  const LocalScene scene_ = scene_of(free_grid({-2.0, -3.0}, {12.0, 3.0}));
+  LocalScene scene_ = scene_of(free_grid({-2.0, -3.0}, {12.0, 3.0}));
   LateAnswers protocol_;
   RobotStack stack_{"ugv1",
                     rover(),
@@ -55,6 +55,25 @@ TEST_F(RobotStackTest, DrivesToItsGoal) {
   EXPECT_TRUE(stack_.idle());
   EXPECT_LT((state().pose.position - Vector2(9.0, 0.0)).norm(), 0.15);
   EXPECT_EQ(stack_.counts().lease_stops, 0);
+}
+
+/// The newest map of the local replanner has a wall that the planner does not know of.
+TEST_F(RobotStackTest, SaysWhyItsPlanIsNotDriven) {
+  OccupancyGrid grid = free_grid({-2.0, -3.0}, {12.0, 3.0});
+  fill_box(grid, {1.0, -3.0}, {1.2, 3.0});
+  const auto map = scene_.static_map;
+  scene_ = scene_of(grid);
+  scene_.static_map = map;
+  stack_.take({Goal{{9.0, 0.0}, std::nullopt}}, now_s_);
+  std::string said;
+  GoalExecutive::Ending ending = GoalExecutive::Ending::kNone;
+  for (int i = 0; i < 800 && ending == GoalExecutive::Ending::kNone; ++i) {
+    step();
+    ending = stack_.pursued().ending;
+    if (stack_.pursued().report) said = stack_.pursued().report->message;
+  }
+  EXPECT_EQ(ending, GoalExecutive::Ending::kNoProgress);
+  EXPECT_EQ(said.find("no progress for 60 s: local replanner: clearance to obstacles"), 0u) << said;
 }
 
 TEST_F(RobotStackTest, BrakesWhereItIsNotReplannedAnyMore) {

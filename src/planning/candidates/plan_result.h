@@ -27,7 +27,8 @@ enum class PlanReason {
   kBraking = 11,
   kBackingOut = 12,
   kCannotWin = 13,
-  kEmergencyStop = 14
+  kEmergencyStop = 14,
+  kPaused = 15
 };
 
 /// One path that was optimised, certified or not.

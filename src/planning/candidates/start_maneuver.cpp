@@ -7,9 +7,8 @@
 namespace mocha {
 namespace {
 
-constexpr double kLookAhead_m = 0.3;       // of the path that gives its initial direction
-constexpr double kRollingStart_rad = 1.2;  // between velocity and path; beyond, brake first
-constexpr double kNoTurn_rad = 0.02;       // smaller changes of heading are left to the drive
+constexpr double kLookAhead_m = 0.3;  // of the path that gives its initial direction
+constexpr double kNoTurn_rad = 0.02;  // smaller changes of heading are left to the drive
 
 Vector2 direction_ahead(const std::vector<Vector2>& path) {
   for (const Vector2& point : path) {

@@ -9,6 +9,9 @@
 
 namespace mocha {
 
+/// Between velocity and path; beyond, the robot brakes before it turns there.
+inline constexpr double kRollingStart_rad = 1.2;
+
 /// How a plan may begin before its optimised drive (brake, turn in place, or nothing), and the path
 /// of that drive.
 struct StartManeuver {

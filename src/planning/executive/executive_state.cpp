@@ -13,11 +13,10 @@ struct Everywhere {
   S to;
 };
 
+// But for the state in which the table has another entry.
 constexpr Everywhere kFromEverywhere[] = {
-    {E::kGoalGiven, S::kPlanning},
-    {E::kStopped, S::kIdle},
-    {E::kGoalReached, S::kPlanning},
-    {E::kAllReached, S::kParked},
+    {E::kGoalGiven, S::kPlanning}, {E::kGoalBehind, S::kBraking},   {E::kStopped, S::kIdle},
+    {E::kPaused, S::kPaused},      {E::kGoalReached, S::kPlanning}, {E::kAllReached, S::kParked},
 };
 
 struct Transition {
@@ -30,11 +29,23 @@ constexpr Transition kTransitions[] = {
     {S::kParked, E::kPullOver, S::kPlanningPullOver},
     {S::kParked, E::kPullOverHere, S::kPullingOver},
 
+    // Whatever happens, it stays there until it is resumed.
+    {S::kPaused, E::kGoalGiven, S::kPaused},
+    {S::kPaused, E::kGoalBehind, S::kPaused},
+    {S::kPaused, E::kStopped, S::kPaused},
+    {S::kPaused, E::kResumed, S::kBraking},
+
+    {S::kBraking, E::kBrakes, S::kPlanning},
+    {S::kBraking, E::kPullOver, S::kPlanningPullOver},
+    {S::kBraking, E::kPullOverHere, S::kPullingOver},
+    {S::kBraking, E::kNowhereToPullOver, S::kBraking},
+
     {S::kPlanning, E::kPlanFound, S::kDriving},
     {S::kPlanning, E::kPlanInTheWay, S::kWaiting},
     {S::kPlanning, E::kBackOutFound, S::kBackingOut},
     {S::kPlanning, E::kNoPlan, S::kBlocked},
     {S::kPlanning, E::kGoalFoundOccupied, S::kGoalOccupied},
+    {S::kPlanning, E::kNoPathFound, S::kUnreachable},
     {S::kPlanning, E::kPullOver, S::kPlanningPullOver},
     {S::kPlanning, E::kPullOverHere, S::kPullingOver},
     {S::kPlanning, E::kNowhereToPullOver, S::kPlanning},
@@ -55,6 +66,7 @@ constexpr Transition kTransitions[] = {
     {S::kReplanning, E::kBackOutFound, S::kBackingOut},
     {S::kReplanning, E::kNoPlan, S::kDriving},
     {S::kReplanning, E::kGoalFoundOccupied, S::kDriving},
+    {S::kReplanning, E::kNoPathFound, S::kDriving},
     {S::kReplanning, E::kPullOver, S::kPlanningPullOver},
     {S::kReplanning, E::kPullOverHere, S::kPullingOver},
     {S::kReplanning, E::kNowhereToPullOver, S::kPlanning},
@@ -71,6 +83,7 @@ constexpr Transition kTransitions[] = {
     {S::kBlocked, E::kPlanInTheWay, S::kWaiting},
     {S::kBlocked, E::kBackOutFound, S::kBackingOut},
     {S::kBlocked, E::kGoalFoundOccupied, S::kGoalOccupied},
+    {S::kBlocked, E::kNoPathFound, S::kUnreachable},
     {S::kBlocked, E::kPullOver, S::kPlanningPullOver},
     {S::kBlocked, E::kPullOverHere, S::kPullingOver},
     {S::kBlocked, E::kNowhereToPullOver, S::kPlanning},
@@ -80,9 +93,20 @@ constexpr Transition kTransitions[] = {
     {S::kGoalOccupied, E::kPlanInTheWay, S::kWaiting},
     {S::kGoalOccupied, E::kBackOutFound, S::kBackingOut},
     {S::kGoalOccupied, E::kNoPlan, S::kBlocked},
+    {S::kGoalOccupied, E::kNoPathFound, S::kUnreachable},
     {S::kGoalOccupied, E::kPullOver, S::kPlanningPullOver},
     {S::kGoalOccupied, E::kPullOverHere, S::kPullingOver},
     {S::kGoalOccupied, E::kNowhereToPullOver, S::kPlanning},
+
+    {S::kUnreachable, E::kFollowed, S::kDriving},
+    {S::kUnreachable, E::kPlanFound, S::kDriving},
+    {S::kUnreachable, E::kPlanInTheWay, S::kWaiting},
+    {S::kUnreachable, E::kBackOutFound, S::kBackingOut},
+    {S::kUnreachable, E::kNoPlan, S::kBlocked},
+    {S::kUnreachable, E::kGoalFoundOccupied, S::kGoalOccupied},
+    {S::kUnreachable, E::kPullOver, S::kPlanningPullOver},
+    {S::kUnreachable, E::kPullOverHere, S::kPullingOver},
+    {S::kUnreachable, E::kNowhereToPullOver, S::kPlanning},
 
     {S::kPlanningPullOver, E::kAtPullOverPoint, S::kWaiting},
     {S::kPlanningPullOver, E::kPlanFound, S::kPullingOver},
@@ -133,11 +157,11 @@ constexpr Transition kTransitions[] = {
 };
 
 std::optional<S> entry(S state, E event) {
-  for (const Everywhere& transition : kFromEverywhere) {
-    if (transition.event == event) return transition.to;
-  }
   for (const Transition& transition : kTransitions) {
     if (transition.from == state && transition.event == event) return transition.to;
+  }
+  for (const Everywhere& transition : kFromEverywhere) {
+    if (transition.event == event) return transition.to;
   }
   return std::nullopt;
 }
@@ -169,6 +193,10 @@ const char* to_text(ExecutiveState state) {
       return "no goal";
     case S::kParked:
       return "parked at its goal";
+    case S::kPaused:
+      return "paused";
+    case S::kBraking:
+      return "braking, to plan anew";
     case S::kPlanning:
       return "planning";
     case S::kDriving:
@@ -181,6 +209,8 @@ const char* to_text(ExecutiveState state) {
       return "without a plan";
     case S::kGoalOccupied:
       return "the goal is occupied";
+    case S::kUnreachable:
+      return "the goal cannot be reached";
     case S::kPlanningPullOver:
       return "planning to make room";
     case S::kPullingOver:

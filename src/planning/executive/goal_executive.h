@@ -20,7 +20,7 @@ namespace mocha {
 /// executive_state.h. Pure decisions: time, measurements and plans come in.
 class GoalExecutive {
  public:
-  enum class Ending { kNone, kReached, kNoProgress, kGoalOccupied };
+  enum class Ending { kNone, kReached, kNoProgress, kGoalOccupied, kUnreachable };
   struct Planned {
     Goal goal;
     PlanResult result;
@@ -33,7 +33,7 @@ class GoalExecutive {
   struct Output {
     std::optional<Planned> planned;  ///< what was found, whatever became of it
     std::optional<Report> report;
-    Motion plan;                          ///< to be driven from now on; empty: no news
+    std::optional<Motion> plan;  ///< from now on; an empty one: there is nothing to drive to
     std::optional<YieldRequest> request;  ///< for all team-mates
     Ending ending = Ending::kNone;        ///< of all goals
   };
@@ -42,17 +42,20 @@ class GoalExecutive {
   /// Counts for the goals that are there, too.
   void set_options(const GoalExecutiveOptions& options, const PlannerOptions& planner);
 
-  /// Goals to be reached in order, at least one, instead of those there were.
-  void take(std::deque<Goal> goals, double now_s);
+  /// Goals to be reached in order, at least one, instead of those there were. Where the first lies
+  /// ahead of the motion in force, the robot keeps rolling until it is planned to; else it brakes.
+  void take(std::deque<Goal> goals, const Motion& committed, double now_s);
   /// Plans anew as soon as possible.
   void request() { handle(ExecutiveEvent::kPlanRequested); }
   /// What is driven instead of what was planned, around something that moves; counts only if it
   /// leads to the same place.
   void follow(Motion followed);
-  /// Drops all goals. The plan brakes along what is in force; empty where nothing is.
-  Motion stop(const Motion& committed, double now_s);
-  /// Drops all goals and the plan, where something else stops the robot.
+  /// Drops all goals: there is nothing to drive to from now on.
   void drop();
+  /// There is nothing to drive to, though the goals are kept and new ones are taken, until the
+  /// robot is to go on.
+  void pause();
+  void resume();
   /// What a team-mate asks for.
   void hear(const YieldRequest& request, double now_s) { yielding_.hear(request, now_s); }
 
@@ -74,7 +77,7 @@ class GoalExecutive {
     std::optional<PullOverPoint> pull_over;  ///< in the states that make room or wait
     Motion plan;                             ///< the last one that was found
     double planned_s = -std::numeric_limits<double>::infinity();  ///< the planner was asked last
-    double occupied_since_s = 0.0;                                ///< of kGoalOccupied
+    double without_plan_since_s = 0.0;  ///< for the reason that the state names
   };
 
   /// What a step is about.
@@ -94,18 +97,22 @@ class GoalExecutive {
   void note_progress(const Input& input);
   void yield(const Input& input, Output& output);
   void plan(const Input& input, Output& output);
+  void brake_first(const Input& input, Output& output);
   void ask(const Input& input, Output& output);
 
   Goal target() const;
   Vector2 destination() const;
   RobotIntent intent(const RobotState& measured) const;
   Motion brake(const Motion& committed, double now_s) const;
+  bool brakes(const Motion& committed, double now_s) const;
+  bool has_to_brake(const Vector2& goal, const Motion& committed, double now_s) const;
   bool plan_is_due(double now_s) const;
   bool much_better(const PlanResult& result, double now_s) const;
   std::optional<Rank> in_way_of(const Motion& plan, double now_s) const;
   void adopt(const PlanResult& result, Output& output);
   void hold_back(const Rank& whose, const Input& input, Output& output);
   void fail(PlanReason reason, const Input& input, Output& output);
+  void give_up(Ending why, Output& output);
   void fail_to_pull_over(const Input& input, Output& output);
   void follow_advice(const YieldAdvice& advice, const Motion& braking, Output& output);
 

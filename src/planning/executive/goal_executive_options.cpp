@@ -8,13 +8,10 @@ constexpr double kSoonest_s = 0.2;  // between two plans, whatever is requested
 }  // namespace
 
 GoalExecutiveOptions GoalExecutiveOptions::from(const ParameterTable& values) {
-  return {values.number("planning_time"),
-          values.number("replan_period"),
-          values.number("retry_period"),
-          values.number("min_improvement"),
-          values.number("occupied_goal_timeout"),
-          values.number("backup_distance"),
-          GoalOptions::from(values)};
+  return {values.number("planning_time"),         values.number("replan_period"),
+          values.number("retry_period"),          values.number("min_improvement"),
+          values.number("occupied_goal_timeout"), values.number("unreachable_timeout"),
+          values.number("backup_distance"),       GoalOptions::from(values)};
 }
 
 std::optional<double> GoalExecutiveOptions::planning_period_s(ExecutiveState state) const {
@@ -28,16 +25,25 @@ std::optional<double> GoalExecutiveOptions::planning_period_s(ExecutiveState sta
       return replan_period_s;
     case S::kBlocked:
     case S::kGoalOccupied:
+    case S::kUnreachable:
     case S::kPullOverBlocked:
     case S::kWaiting:
       return retry_period_s;
     case S::kIdle:
     case S::kParked:
+    case S::kPaused:
+    case S::kBraking:
     case S::kBackingOut:
     case S::kPullingOver:
     case S::kBackingOutToPullOver:
       break;
   }
+  return std::nullopt;
+}
+
+std::optional<double> GoalExecutiveOptions::patience_s(ExecutiveState state) const {
+  if (state == ExecutiveState::kGoalOccupied) return occupied_goal_timeout_s;
+  if (state == ExecutiveState::kUnreachable) return unreachable_timeout_s;
   return std::nullopt;
 }
 

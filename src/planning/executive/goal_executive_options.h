@@ -15,11 +15,15 @@ struct GoalExecutiveOptions {
   double retry_period_s;   ///< after a failure
   double min_improvement;  ///< of the remaining time, for a plan to replace a valid one
   double occupied_goal_timeout_s;
+  double unreachable_timeout_s;
   double backup_distance_m;  ///< to drive back where nothing else helps
   GoalOptions goals;
 
   /// Time between two plans in this state [s]; none where no plan is needed.
   std::optional<double> planning_period_s(ExecutiveState state) const;
+
+  /// How long the goals are kept in this state [s]; none where `goals.timeout_s` alone counts.
+  std::optional<double> patience_s(ExecutiveState state) const;
 
   static GoalExecutiveOptions from(const ParameterTable& values);
 };

@@ -1,5 +1,7 @@
 #include "ros_bridge/messages/status_conversions.h"
 
+#include <stdexcept>
+
 #include "ros_bridge/rviz/candidate_drawing.h"
 
 namespace mocha {
@@ -18,6 +20,7 @@ using Status = mocha_ugv::PlannerStatus;
 static_assert(static_cast<int>(PlanReason::kBackingOut) == Status::BACKING_OUT);
 static_assert(static_cast<int>(PlanReason::kCannotWin) == Status::CANNOT_WIN);
 static_assert(static_cast<int>(PlanReason::kEmergencyStop) == Status::EMERGENCY_STOP);
+static_assert(static_cast<int>(PlanReason::kPaused) == Status::PAUSED);
 static_assert(static_cast<int>(PlanReason::kPeerConflict) == Status::PEER_CONFLICT);
 static_assert(static_cast<int>(ViolatedTerm::kSeparation) == Status::SEPARATION);
 static_assert(static_cast<int>(ViolatedTerm::kUnseenSpace) == Status::UNSEEN_SPACE);
@@ -60,6 +63,8 @@ const char* to_text(PlanReason reason) {
       return "cannot win";
     case PlanReason::kEmergencyStop:
       return "emergency stop";
+    case PlanReason::kPaused:
+      return "paused";
   }
   return "unknown";
 }
@@ -80,6 +85,22 @@ Status to_message(PlanReason reason, const Violation& violation, const std::stri
   status.limit = violation.limit;
   status.peer = violation.peer;
   return status;
+}
+
+GoalExecutive::Report from_message(const Status& status) {
+  if (status.reason > Status::PAUSED) throw std::invalid_argument("has a reason that is none");
+  if (status.violated > Status::WHEEL_SPEED)
+    throw std::invalid_argument("violates an unknown term");
+  GoalExecutive::Report report;
+  report.reason = static_cast<PlanReason>(status.reason);
+  report.message = status.message;
+  report.violation.term = static_cast<ViolatedTerm>(status.violated);
+  report.violation.time_s = status.at.toSec();
+  report.violation.place = {status.place.x, status.place.y};
+  report.violation.value = status.value;
+  report.violation.limit = status.limit;
+  report.violation.peer = status.peer;
+  return report;
 }
 
 mocha_ugv::ReplannerStatus to_message(Row row, const Status& status) {

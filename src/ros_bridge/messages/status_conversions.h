@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "planning/candidates/plan_result.h"
+#include "planning/executive/goal_executive.h"
 #include "planning/replanner/ladder.h"
 
 namespace mocha {
@@ -14,6 +14,9 @@ namespace mocha {
 mocha_ugv::PlannerStatus to_message(PlanReason reason, const Violation& violation,
                                     const std::string& text, const std::string& frame,
                                     ros::Time stamp);
+
+/// Throws std::invalid_argument for a reason or a term that there is not.
+GoalExecutive::Report from_message(const mocha_ugv::PlannerStatus& status);
 
 /// What a step of the local replanner came to.
 mocha_ugv::ReplannerStatus to_message(Row row, const mocha_ugv::PlannerStatus& status);

@@ -66,8 +66,12 @@ void PlannerOutputs::report(PlanReason reason, const Violation& violation, const
   reason_ = reason;
   text_ = text;
   statuses_.publish(to_message(reason, violation, text, identity_.map_frame, now));
-  if (news && reason != PlanReason::kSolved) {
-    ROS_WARN_THROTTLE(2.0, "%s: %s: %s", identity_.name.c_str(), to_text(reason), text.c_str());
+  if (!news || reason == PlanReason::kSolved) return;
+  const std::string words = identity_.name + ": " + to_text(reason) + ": " + text;
+  if (reason == PlanReason::kNoGoal || reason == PlanReason::kPaused) {
+    ROS_INFO("%s", words.c_str());
+  } else {
+    ROS_WARN_THROTTLE(2.0, "%s", words.c_str());
   }
 }
 

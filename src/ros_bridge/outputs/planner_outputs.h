@@ -19,7 +19,7 @@ class PlannerOutputs {
  public:
   PlannerOutputs(ros::NodeHandle& node, const RobotIdentity& identity, const RobotModel& model);
 
-  /// The plan that is to be driven from now on.
+  /// The plan that is to be driven from now on; an empty one: there is nothing to drive to.
   void adopt(const Motion& motion, ros::Time now);
   /// How often that was done; the sequence of the newest plan.
   std::uint32_t adopted() const { return adopted_; }
@@ -28,7 +28,7 @@ class PlannerOutputs {
 
   void show_candidates(const PlanResult& result, const Goal& goal, ros::Time now);
 
-  /// Publishes the status; news that are not a success are logged as well.
+  /// Publishes the status; news are logged as well, but for a success.
   void report(PlanReason reason, const Violation& violation, const std::string& text,
               ros::Time now);
   /// The last report.

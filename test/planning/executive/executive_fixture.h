@@ -32,7 +32,7 @@ class ExecutiveFixture : public ::testing::Test {
       state_.pose.position = {x, 0.0};
       executive_.step(now_s_, state_, committed_, {});
     }
-    executive_.take({Goal{{kLength_m, 0.0}, std::nullopt}}, now_s_);
+    executive_.take({Goal{{kLength_m, 0.0}, std::nullopt}}, committed_, now_s_);
   }
 
   PlanResult answer(const PlanQuery& query) {

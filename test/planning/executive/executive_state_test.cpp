@@ -16,24 +16,44 @@ using Row = std::map<E, S>;
 
 constexpr S kStates[] = {S::kIdle,
                          S::kParked,
+                         S::kPaused,
+                         S::kBraking,
                          S::kPlanning,
                          S::kDriving,
                          S::kReplanning,
                          S::kBackingOut,
                          S::kBlocked,
                          S::kGoalOccupied,
+                         S::kUnreachable,
                          S::kPlanningPullOver,
                          S::kPullingOver,
                          S::kBackingOutToPullOver,
                          S::kPullOverBlocked,
                          S::kWaiting};
-constexpr E kEvents[] = {E::kGoalGiven,       E::kStopped,           E::kPlanRequested,
-                         E::kFollowed,        E::kGoalReached,       E::kAllReached,
-                         E::kPlanEnded,       E::kAtPullOverPoint,   E::kStrayed,
-                         E::kPlanFound,       E::kPlanInTheWay,      E::kBackOutFound,
-                         E::kNoPlan,          E::kPullOver,          E::kGoalFoundOccupied,
-                         E::kPullOverHere,    E::kNowhereToPullOver, E::kWayIsClear,
-                         E::kNoNeedToPullOver};
+constexpr E kEvents[] = {E::kGoalGiven,
+                         E::kStopped,
+                         E::kPlanRequested,
+                         E::kFollowed,
+                         E::kGoalReached,
+                         E::kAllReached,
+                         E::kPlanEnded,
+                         E::kAtPullOverPoint,
+                         E::kStrayed,
+                         E::kPlanFound,
+                         E::kPlanInTheWay,
+                         E::kBackOutFound,
+                         E::kNoPlan,
+                         E::kPullOver,
+                         E::kGoalFoundOccupied,
+                         E::kPullOverHere,
+                         E::kNowhereToPullOver,
+                         E::kWayIsClear,
+                         E::kNoNeedToPullOver,
+                         E::kGoalBehind,
+                         E::kPaused,
+                         E::kResumed,
+                         E::kBrakes,
+                         E::kNoPathFound};
 
 /// What each event leads to in each state; an event that is not named is not heeded.
 std::map<S, Row> table() {
@@ -41,13 +61,19 @@ std::map<S, Row> table() {
                             {E::kPlanInTheWay, S::kWaiting},
                             {E::kBackOutFound, S::kBackingOut},
                             {E::kNoPlan, S::kBlocked},
-                            {E::kGoalFoundOccupied, S::kGoalOccupied}};
+                            {E::kGoalFoundOccupied, S::kGoalOccupied},
+                            {E::kNoPathFound, S::kUnreachable}};
   const Row makes_room = {{E::kAtPullOverPoint, S::kWaiting},
                           {E::kWayIsClear, S::kPlanning},
                           {E::kNoNeedToPullOver, S::kParked}};
   std::map<S, Row> rows;
   rows[S::kIdle] = {};
   rows[S::kParked] = {};
+  rows[S::kPaused] = {{E::kGoalGiven, S::kPaused},
+                      {E::kGoalBehind, S::kPaused},
+                      {E::kStopped, S::kPaused},
+                      {E::kResumed, S::kBraking}};
+  rows[S::kBraking] = {{E::kBrakes, S::kPlanning}, {E::kNowhereToPullOver, S::kBraking}};
   rows[S::kPlanning] = without_plan;
   rows[S::kDriving] = {{E::kPlanRequested, S::kReplanning},
                        {E::kFollowed, S::kDriving},
@@ -57,7 +83,7 @@ std::map<S, Row> table() {
       {E::kFollowed, S::kReplanning},       {E::kPlanEnded, S::kBlocked},
       {E::kPlanFound, S::kDriving},         {E::kPlanInTheWay, S::kDriving},
       {E::kBackOutFound, S::kBackingOut},   {E::kNoPlan, S::kDriving},
-      {E::kGoalFoundOccupied, S::kDriving},
+      {E::kGoalFoundOccupied, S::kDriving}, {E::kNoPathFound, S::kDriving},
   };
   rows[S::kBackingOut] = {{E::kPlanRequested, S::kPlanning}, {E::kPlanEnded, S::kPlanning}};
   rows[S::kBlocked] = without_plan;
@@ -66,6 +92,9 @@ std::map<S, Row> table() {
   rows[S::kGoalOccupied] = without_plan;
   rows[S::kGoalOccupied].erase(E::kGoalFoundOccupied);
   rows[S::kGoalOccupied][E::kFollowed] = S::kDriving;
+  rows[S::kUnreachable] = without_plan;
+  rows[S::kUnreachable].erase(E::kNoPathFound);
+  rows[S::kUnreachable][E::kFollowed] = S::kDriving;
   rows[S::kPlanningPullOver] = makes_room;
   rows[S::kPlanningPullOver].insert({{E::kPlanFound, S::kPullingOver},
                                      {E::kBackOutFound, S::kBackingOutToPullOver},
@@ -88,12 +117,14 @@ std::map<S, Row> table() {
   for (const S state : kStates) {
     Row& row = rows[state];
     row.insert({{E::kGoalGiven, S::kPlanning},
+                {E::kGoalBehind, S::kBraking},
                 {E::kStopped, S::kIdle},
+                {E::kPaused, S::kPaused},
                 {E::kGoalReached, S::kPlanning},
                 {E::kAllReached, S::kParked}});
-    if (state == S::kIdle) continue;
+    if (state == S::kIdle || state == S::kPaused) continue;
     row.insert({{E::kPullOver, S::kPlanningPullOver}, {E::kPullOverHere, S::kPullingOver}});
-    if (state != S::kParked) row[E::kNowhereToPullOver] = S::kPlanning;
+    if (state != S::kParked) row.insert({E::kNowhereToPullOver, S::kPlanning});
   }
   return rows;
 }
@@ -127,18 +158,21 @@ TEST(ExecutiveState, EveryStateIsReachedFromEveryOther) {
   }
 }
 
-TEST(ExecutiveState, OnlyAGoalEndsIdleness) {
+TEST(ExecutiveState, OnlyAGoalOrAPauseEndsIdleness) {
   for (const E event : kEvents) {
-    const bool of_a_goal =
-        event == E::kGoalGiven || event == E::kGoalReached || event == E::kAllReached;
-    EXPECT_EQ(next_state(S::kIdle, event) != S::kIdle, of_a_goal);
+    const bool told = event == E::kGoalGiven || event == E::kGoalBehind || event == E::kPaused;
+    const bool reached = event == E::kGoalReached || event == E::kAllReached;
+    EXPECT_EQ(next_state(S::kIdle, event) != S::kIdle, told || reached);
   }
 }
 
-TEST(ExecutiveState, AStopAndANewGoalGoBeforeEverything) {
+TEST(ExecutiveState, AStopAndANewGoalGoBeforeEverythingButAPause) {
   for (const S state : kStates) {
-    EXPECT_EQ(next_state(state, E::kStopped), S::kIdle);
-    EXPECT_EQ(next_state(state, E::kGoalGiven), S::kPlanning);
+    const bool paused = state == S::kPaused;
+    EXPECT_EQ(next_state(state, E::kStopped), paused ? S::kPaused : S::kIdle);
+    EXPECT_EQ(next_state(state, E::kGoalGiven), paused ? S::kPaused : S::kPlanning);
+    EXPECT_EQ(next_state(state, E::kGoalBehind), paused ? S::kPaused : S::kBraking);
+    EXPECT_EQ(next_state(state, E::kPaused), S::kPaused);
   }
 }
 

@@ -11,7 +11,7 @@ using Ending = GoalExecutive::Ending;
 using MakingRoomTest = ExecutiveFixture;
 
 TEST_F(MakingRoomTest, AsksForItsWayWhereSomebodyStandsInIt) {
-  reason_ = PlanReason::kNoPath;
+  reason_ = PlanReason::kPeerConflict;
   stand_ahead("ugv7");
   run(1.4);
   EXPECT_TRUE(said_.empty());
@@ -22,7 +22,7 @@ TEST_F(MakingRoomTest, AsksForItsWayWhereSomebodyStandsInIt) {
   EXPECT_FALSE(said_.back().rank.stuck);
   EXPECT_NEAR(said_.back().path.front().x(), 0.0, 1e-9);
   EXPECT_NEAR(said_.back().path.back().x(), kLength_m, 1e-9);
-  executive_.stop(committed_, now_s_);
+  executive_.drop();
   run(0.1);
   ASSERT_EQ(said_.size(), 1u);
   EXPECT_TRUE(said_.front().path.empty());  // it withdraws
@@ -31,7 +31,7 @@ TEST_F(MakingRoomTest, AsksForItsWayWhereSomebodyStandsInIt) {
 }
 
 TEST_F(MakingRoomTest, AsksNobodyWhereNobodyIsInItsWay) {
-  reason_ = PlanReason::kNoPath;
+  reason_ = PlanReason::kNotCertified;
   run(10.0);
   EXPECT_TRUE(said_.empty());
 }
@@ -45,7 +45,7 @@ TEST_F(MakingRoomTest, MakesRoomForAHigherOneAndGoesOnWhenItHasPassed) {
   const Vector2 aside = output.planned->goal.position;
   EXPECT_GT(std::abs(aside.y()), 0.8);
   EXPECT_LT(aside.norm(), 1.5);
-  EXPECT_FALSE(output.plan.empty());
+  EXPECT_TRUE(output.plan);
   state_.pose.position = aside;
   committed_ = standing(now_s_, aside, 0.0);
   run_while_asked(request, 10.0);  // it plans to the goal again and again, but drives nothing
@@ -127,7 +127,7 @@ TEST_F(MakingRoomTest, WhoCannotGetOutOfTheWaySaysSo) {
   OccupancyGrid grid = free_grid({-0.6, -0.6}, {12.0, 0.6});  // a dead end, the way out ahead
   scene_.static_map = static_map_of(grid);
   step();
-  reason_ = PlanReason::kNoPath;
+  reason_ = PlanReason::kPeerConflict;
   stand_ahead("ugv2");
   run_while_asked(way_of("ugv2", {{9.0, 0.0}, {-0.3, 0.0}}), 4.0);
   ASSERT_FALSE(said_.empty());
@@ -149,7 +149,7 @@ TEST_F(MakingRoomTest, MakesRoomWhereItIsParkedButNotWhereItWasToldToStop) {
   state_.pose.position = aside;
   run_while_asked(request, 3.0);
   EXPECT_TRUE(asked_.empty());  // it stays there
-  executive_.stop(committed_, now_s_);
+  executive_.drop();
   state_.pose.position = {kLength_m, 0.0};
   run_while_asked(request, 3.0);
   EXPECT_TRUE(asked_.empty());
@@ -175,7 +175,8 @@ TEST_F(MakingRoomTest, TriesAgainAndAgainWhereTheOnlyPullOverPointIsOutOfReach) 
   reason_ = PlanReason::kNoPath;
   const auto output = run_while_asked(request, 0.5);
   EXPECT_EQ(executive_.state(), ExecutiveState::kPullOverBlocked);
-  EXPECT_FALSE(output.plan.empty());  // it brakes
+  ASSERT_TRUE(output.plan);
+  EXPECT_TRUE(output.plan->empty());  // it brakes
   run_while_asked(request, 3.0);
   EXPECT_NEAR(asked_.size(), 6.0, 1.0);  // once a retry period
   for (const PlanQuery& query : asked_) EXPECT_GT(std::abs(query.goal.y()), 0.8);
@@ -243,7 +244,7 @@ TEST_F(MakingRoomTest, KeepsThePlanAtHandWhereTheNextWouldGetIntoTheWay) {
   const YieldRequest request = way_of("ugv2", {{3.0, -4.0}, {3.0, 4.0}});
   executive_.hear(request, now_s_);
   executive_.request();
-  EXPECT_TRUE(run_while_asked(request, 1.5).plan.empty());
+  EXPECT_FALSE(run_while_asked(request, 1.5).plan);
   EXPECT_GE(asked_.size(), 2u);
   EXPECT_EQ(executive_.state(), ExecutiveState::kDriving);
   EXPECT_EQ(executive_.plan().end_time(), end_s);
@@ -278,12 +279,12 @@ TEST_F(MakingRoomTest, ForgetsItsGoalsWhereSomethingElseStopsIt) {
   EXPECT_TRUE(executive_.idle());
   EXPECT_TRUE(executive_.plan().empty());
   const YieldRequest request = way_of("ugv9", {{9.0, 0.0}, {-4.0, 0.0}});
-  EXPECT_TRUE(run_while_asked(request, 3.0).plan.empty());
+  EXPECT_FALSE(run_while_asked(request, 3.0).plan);
   EXPECT_TRUE(asked_.empty());
-  executive_.take({Goal{{0.0, 0.0}, std::nullopt}}, now_s_);
+  executive_.take({Goal{{0.0, 0.0}, std::nullopt}}, committed_, now_s_);
   ASSERT_EQ(step().ending, Ending::kReached);  // and is parked there
   executive_.drop();
-  EXPECT_TRUE(run_while_asked(request, 3.0).plan.empty()) << "makes room";
+  EXPECT_FALSE(run_while_asked(request, 3.0).plan) << "makes room";
   EXPECT_TRUE(asked_.empty());
 }
 

@@ -39,6 +39,19 @@ TEST(StatusConversions, SayWhatWhereWhenAndByHowMuch) {
   EXPECT_EQ(status.peer, "ugv2");
 }
 
+TEST(StatusConversions, ComeBackAsTheyWere) {
+  auto status = to_message(PlanReason::kPeerConflict, violation(), "too close", "map", kStamp);
+  const auto report = from_message(status);
+  EXPECT_EQ(report.reason, PlanReason::kPeerConflict);
+  EXPECT_EQ(report.message, "too close");
+  EXPECT_EQ(describe(report.violation), describe(violation()));
+  status.reason = mocha_ugv::PlannerStatus::PAUSED + 1;
+  EXPECT_THROW(from_message(status), std::invalid_argument);
+  status.reason = mocha_ugv::PlannerStatus::PAUSED;
+  status.violated = mocha_ugv::PlannerStatus::WHEEL_SPEED + 1;
+  EXPECT_THROW(from_message(status), std::invalid_argument);
+}
+
 TEST(StatusConversions, WithoutAViolationItsFieldsAreEmpty) {
   const auto status = to_message(PlanReason::kNoGoal, {}, "", "map", kStamp);
   EXPECT_EQ(status.violated, mocha_ugv::PlannerStatus::NOTHING);
@@ -62,7 +75,8 @@ TEST(StatusConversions, EveryReasonHasItsOwnWordsAndNumber) {
       {PlanReason::kBraking, Status::BRAKING},
       {PlanReason::kBackingOut, Status::BACKING_OUT},
       {PlanReason::kCannotWin, Status::CANNOT_WIN},
-      {PlanReason::kEmergencyStop, Status::EMERGENCY_STOP}};
+      {PlanReason::kEmergencyStop, Status::EMERGENCY_STOP},
+      {PlanReason::kPaused, Status::PAUSED}};
   std::set<std::string> words;
   for (const auto& [reason, number] : numbers) {
     EXPECT_EQ(to_message(reason, {}, "", "map", kStamp).reason, number);
@@ -85,6 +99,7 @@ TEST(StatusConversions, EveryRowHasItsOwnNumberAndWords) {
       {Row::kRejoinSooner, Status::REJOIN_SOONER},
       {Row::kDetour, Status::DETOUR},
       {Row::kDetourLikely, Status::DETOUR_LIKELY},
+      {Row::kStop, Status::STOP},
       {Row::kBrakeSoon, Status::BRAKE_SOON},
       {Row::kBrakeInTime, Status::BRAKE_IN_TIME},
       {Row::kBrakeInTimeAtOnce, Status::BRAKE_IN_TIME_AT_ONCE},

@@ -1,0 +1,162 @@
+// What the goal executive makes of plans, and of their lack.
+#include <cmath>
+#include <utility>
+
+#include "planning/executive/back_out_instead.h"
+#include "planning/executive/goal_executive.h"
+
+namespace mocha {
+namespace {
+
+using S = ExecutiveState;
+using E = ExecutiveEvent;
+
+constexpr double kSameGoal_m = 0.05;
+constexpr double kRounding_s = 1e-6;  // of differences of times
+
+GoalExecutive::Report report(PlanReason reason, const std::string& message,
+                             const Violation& violation = {}) {
+  GoalExecutive::Report report;
+  report.reason = reason;
+  report.violation = violation;
+  report.message = message;
+  return report;
+}
+
+E failure_event(PlanReason reason) {
+  if (reason == PlanReason::kGoalOccupied) return E::kGoalFoundOccupied;
+  if (reason == PlanReason::kNoPath) return E::kNoPathFound;
+  return E::kNoPlan;
+}
+
+}  // namespace
+
+PlanQuery GoalExecutive::query_to(const Goal& goal, const Motion& committed, double now_s) const {
+  PlanQuery query;
+  query.committed = committed;
+  query.start_time_s = committed.switch_time(now_s + options_.planning_time_s);
+  query.goal = goal.position;
+  query.goal_yaw_rad = goal.yaw_rad;
+  return query;
+}
+
+bool GoalExecutive::plan_is_due(double now_s) const {
+  const auto period_s = options_.planning_period_s(state_);
+  return period_s && now_s - errand_.planned_s + kRounding_s >= *period_s;
+}
+
+void GoalExecutive::plan(const Input& input, Output& output) {
+  if (!input.planner.plan) {
+    output.report = report(PlanReason::kNoMap, "no map yet");
+    return;
+  }
+  if (input.committed.empty()) {
+    output.report =
+        report(PlanReason::kNoPose, "nothing is committed yet that a plan could start from");
+    return;
+  }
+  PlanQuery query = query_to(target(), input.committed, input.now_s);
+  query.driven = errand_.plan;
+  errand_.planned_s = input.now_s;
+  output.planned = Planned{target(), input.planner.plan(query)};
+  PlanResult& result = output.planned->result;
+  if (state_ == S::kDriving && !much_better(result, input.now_s)) return;
+  if (result.motion.empty()) {
+    back_out_instead(query, trail_.points(), options_.backup_distance_m, robot_.limits,
+                     input.planner, result);
+  }
+  if (const auto whose = in_way_of(result.motion, input.now_s)) {
+    hold_back(*whose, input, output);
+    return;
+  }
+  output.report = report(result.reason, result.message, result.violation);
+  if (result.motion.empty()) {
+    fail(result.reason, input, output);
+  } else {
+    adopt(result, output);
+  }
+}
+
+/// Quicker by far; or it leads to the goal itself, or farther, than where it was occupied before.
+bool GoalExecutive::much_better(const PlanResult& result, double now_s) const {
+  if (result.motion.empty()) return false;
+  const Vector2& asked = goals_.asked().position;
+  const double nearer_m = (goals_.current().position - asked).norm() - (result.goal - asked).norm();
+  if (std::abs(nearer_m) > kSameGoal_m) return nearer_m > 0.0;
+  const double remaining_s = errand_.plan.end_time() - now_s;
+  return result.motion.end_time() <
+         errand_.plan.end_time() - options_.min_improvement * remaining_s;
+}
+
+/// None while the robot makes room: what leads out of the way may begin in it.
+std::optional<Rank> GoalExecutive::in_way_of(const Motion& plan, double now_s) const {
+  if (makes_room(state_) || plan.empty()) return std::nullopt;
+  return yielding_.in_way_of(plan, now_s);
+}
+
+void GoalExecutive::adopt(const PlanResult& result, Output& output) {
+  const bool back_out = result.reason == PlanReason::kBackingOut;
+  if (makes_room(state_)) {
+    output.report->message =
+        "makes room for " + errand_.pull_over->whose.agent + ": " + result.message;
+  } else {
+    errand_.pull_over.reset();
+    if (!back_out) goals_.move_current(result.goal);
+  }
+  handle(back_out ? E::kBackOutFound : E::kPlanFound);
+  errand_.plan = result.motion;
+  output.plan = result.motion;
+}
+
+/// A plan to the goal that would get into the way of a higher rank is not driven; without another
+/// at hand, the robot waits where it comes to rest: that place is in no such way, or it would have
+/// been told to pull over.
+void GoalExecutive::hold_back(const Rank& whose, const Input& input, Output& output) {
+  if (drives_plan(state_)) {
+    handle(E::kPlanInTheWay);
+    return;
+  }
+  output.report = report(PlanReason::kPeerConflict, "waits until " + whose.agent + " has passed");
+  if (state_ == S::kWaiting) return;
+  begin_errand(E::kPlanInTheWay, PullOverPoint{input.committed.end_pose().position, whose});
+  errand_.planned_s = input.now_s;
+}
+
+void GoalExecutive::fail(PlanReason reason, const Input& input, Output& output) {
+  if (makes_room(state_)) {
+    fail_to_pull_over(input, output);
+    return;
+  }
+  const S before = state_;
+  handle(failure_event(reason));
+  if (drives_plan(state_)) return;
+  if (state_ != before) {
+    errand_.without_plan_since_s = input.now_s;
+    output.plan = Motion();
+  }
+  const auto patience_s = options_.patience_s(state_);
+  if (!patience_s || input.now_s - errand_.without_plan_since_s + kRounding_s < *patience_s) return;
+  give_up(state_ == S::kGoalOccupied ? Ending::kGoalOccupied : Ending::kUnreachable, output);
+}
+
+void GoalExecutive::give_up(Ending why, Output& output) {
+  drop();
+  output.ending = why;
+  output.plan = Motion();
+}
+
+/// Stops, and looks for another place; if there is none, tries again.
+void GoalExecutive::fail_to_pull_over(const Input& input, Output& output) {
+  handle(E::kNoPlan);
+  const Motion braking = brake(input.committed, input.now_s);
+  errand_.plan = Motion();
+  output.plan = Motion();
+  const auto other =
+      yielding_.pull_over(errand_.pull_over->whose, errand_.pull_over, braking.end_pose().position,
+                          input.planner.scene, input.now_s);
+  if (!other) return;
+  follow_advice(*other, braking, output);
+  errand_.planned_s = input.now_s;
+}
+
+}  // namespace mocha
