@@ -11,6 +11,7 @@ from geometry_msgs.msg import PoseStamped
 from mocha_ugv.msg import PlannerStatus
 from mocha_ugv.srv import PlanTrajectory
 from nav_msgs.msg import Path
+from std_srvs.srv import SetBool
 
 from simulated_robot import SimulatedRobot, pose, wrap
 
@@ -24,6 +25,7 @@ class GoalsTest(unittest.TestCase):
         cls.robot = SimulatedRobot()
         cls.waypoints = rospy.Publisher("/ugv1/waypoints", Path, queue_size=1)
         cls.plan = rospy.ServiceProxy("/ugv1/plan", PlanTrajectory)
+        cls.pause = rospy.ServiceProxy("/ugv1/pause", SetBool)
         cls.robot.start()
 
     def tearDown(self):
@@ -90,6 +92,45 @@ class GoalsTest(unittest.TestCase):
         self.assertLess(begun, self.robot.now)
         self.check_stands()
 
+    def stopping_distance(self):
+        """[m] of the rover that brakes at 0.48 m/s^2 within 0.3 s, while it still accelerates."""
+        speed = abs(self.robot.truth.speed) + 0.1
+        return speed * speed / (2.0 * 0.48) + 0.3 * speed
+
+    def test_cancel_stops_at_once(self):
+        self.go_to_speed()
+        place, allowed = self.robot.place(), self.stopping_distance()
+        self.robot.client.cancel_goal()
+        self.robot.run_until(self.robot.standing, 4.0, "it stands after the cancel")
+        self.assertLess(self.robot.distance_to(*place), allowed)
+        self.check_stands()
+
+    def test_cancelled_at_rest_it_does_not_set_off(self):
+        self.robot.arrive(-3.0, LANE_Y, 0.0)
+        for after_s in (0.1, 0.2, 0.3, 0.4):
+            place = self.robot.place()
+            self.robot.send(3.0, LANE_Y)
+            self.robot.run_until(lambda: not self.robot.done(), 2.0, "the goal is taken")
+            self.robot.run(after_s)
+            self.robot.client.cancel_goal()
+            self.robot.run_until(self.robot.done, 2.0, "the client knows")
+            self.check_stands()
+            self.assertLess(self.robot.distance_to(*place), 0.02)
+
+    def test_pause_and_resume(self):
+        x, _ = self.go_to_speed()
+        place, allowed = self.robot.place(), self.stopping_distance()
+        self.assertEqual(self.pause(True).message, "paused")
+        self.robot.run_until(self.robot.standing, 4.0, "it stands after the pause")
+        self.assertLess(self.robot.distance_to(*place), allowed)
+        self.check_stands()
+        self.assertFalse(self.robot.done())
+        self.assertEqual(self.robot.last_reason(), PlannerStatus.PAUSED)
+        self.pause(False)
+        self.robot.run_until(self.robot.done, 60.0, "it goes on")
+        self.assertEqual(self.robot.outcome()[0], "SUCCEEDED")
+        self.assertLess(self.robot.distance_to(x, LANE_Y), 0.2)
+
     def test_a_new_goal_replaces_the_one_before(self):
         since = self.robot.now
         _, x = self.go_to_speed()
@@ -116,7 +157,7 @@ class GoalsTest(unittest.TestCase):
             self.robot.run_until(lambda: self.robot.reported(reason, since), 30.0, "the planner says why")
             self.robot.run_until(self.robot.standing, 10.0, "it stands")
             place = self.robot.place()
-            self.robot.run_until(self.robot.done, 80.0, "the goal (%.0f, %.0f) is given up" % (x, y))
+            self.robot.run_until(self.robot.done, 10.0, "the goal (%.0f, %.0f) is given up" % (x, y))
             self.assertLess(self.robot.distance_to(*place), 0.1)
             status, text = self.robot.outcome()
             self.assertEqual(status, "ABORTED")
