@@ -1,5 +1,6 @@
 // What becomes of a promise where there is nothing to drive to any more.
 #include "planning/replanner/replanner_test.h"
+#include "trajectory/rover_braking.h"
 #include "trajectory/splice.h"
 
 namespace mocha {
@@ -92,7 +93,7 @@ TEST_F(NoGoalTest, ATurnInPlaceThatBeginsInAMomentDoesNotBegin) {
 
 TEST_F(NoGoalTest, ItBrakesAtOnceBesideAPeer) {
   const auto stand = std::make_shared<const Motion>(standing(kNow_s - 9.0, {4.0, 1.5}, 0.0));
-  scene_.peers = {std::make_shared<PeerObstacle>("ugv2", stand, 0.3)};
+  scene_.peers = {std::make_shared<PeerObstacle>("ugv2", stand, 0.3, test::kRoverBraking)};
   replanner_.set_plan(Motion());
   const auto output = step_on_track(kDriving_s);
   EXPECT_EQ(output.row, Row::kStop) << to_text(output.row);
