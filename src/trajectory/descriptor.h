@@ -27,6 +27,7 @@ struct MotionDescriptor {
   std::vector<PhaseDescriptor> phases;
 };
 
+/// A drive that was cut less than 50 ms before or after a knot is told without that knot.
 MotionDescriptor describe(const Motion& motion);
 
 /// Rebuilds the motion. Throws std::invalid_argument, saying what is wrong, for anything that is

@@ -9,10 +9,9 @@
 namespace mocha {
 namespace {
 
-// Knots are told in hundredths of a millimetre. Rebuilt from one that is 4 ms from the start, a
-// drive would be up to 6 cm off; from 50 ms, 0.2 mm. A polynomial of a smooth curve goes on for
-// 50 ms where its neighbour was with less than a micrometre of difference.
-constexpr double kSliver_s = 0.05;
+// Knots are told in hundredths of a millimetre: of two that are nearer to each other in time, this
+// would make jerks. A polynomial of a smooth curve goes on for so long as its neighbour does.
+constexpr double kSliver_s = 0.002;
 
 /// [order][k]: the factor that u^k gets by deriving it so often.
 template <int Coefficients>

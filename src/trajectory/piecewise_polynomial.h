@@ -49,8 +49,8 @@ class PiecewisePolynomial {
   /// Derivatives 0 .. S-1 at time t.
   State state(double t) const;
 
-  /// The part from t0 to t1 [s]; the same curve but for its ends: what is left of a piece that is
-  /// cut, if shorter than 50 ms, becomes part of its neighbour. Requires 0 <= t0 < t1 <=
+  /// The part from t0 to t1 [s]; the same curve, exactly up to rounding. What is left of a piece
+  /// that is cut, if shorter than 2 ms, becomes part of its neighbour. Requires 0 <= t0 < t1 <=
   /// duration(), and a smooth curve (one of MINCO).
   PiecewisePolynomial slice(double t0, double t1) const;
 
