@@ -63,7 +63,8 @@ TEST(Conversions, StartTimesSurviveToTheBit) {
 }
 
 TEST(Conversions, MotionsThatWereCutOnTheWayStillJoin) {
-  // Promise, cut, promise again: every cut is made at an epoch time and goes over the wire.
+  // Promise, cut, promise again: every cut is made at an epoch time, may leave out a knot, and goes
+  // over the wire.
   for (int seed = 1; seed <= 10; ++seed) {
     const Motion original = over_the_wire(Motion(kEpoch_s, {example(seed, 0.0).phases()[1]}));
     Motion motion = original;
@@ -72,7 +73,7 @@ TEST(Conversions, MotionsThatWereCutOnTheWayStillJoin) {
       motion = over_the_wire(rest);
       const MotionState before = original.at(cut_s);
       const MotionState after = motion.at(cut_s);
-      EXPECT_LT((before.pose.position - after.pose.position).norm(), 1e-5);
+      EXPECT_LT((before.pose.position - after.pose.position).norm(), 3e-5);
       EXPECT_LT((before.velocity - after.velocity).norm(), 1e-4);
       EXPECT_LT(std::abs(wrap_angle(before.pose.yaw_rad - after.pose.yaw_rad)), 1e-3);
       const Motion braking = over_the_wire(with_brake(motion, cut_s, cut_s + 0.2, Braking(0.5)));
@@ -80,7 +81,7 @@ TEST(Conversions, MotionsThatWereCutOnTheWayStillJoin) {
           (braking.at(cut_s + 0.1).pose.position - original.at(cut_s + 0.1).pose.position).norm(),
           1e-5);
     }
-    EXPECT_LT((motion.end_pose().position - original.end_pose().position).norm(), 1e-5);
+    EXPECT_LT((motion.end_pose().position - original.end_pose().position).norm(), 3e-5);
   }
 }
 
