@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """What scripts/robot_description says of a robot agrees with its model in config/robots: the lidar stands where the model has it, and what
 is drawn fills the footprint."""
+import importlib.machinery
 import math
 import pathlib
 import subprocess
@@ -25,7 +26,7 @@ def description(model):
 def values_of(model):
     defaults = yaml.safe_load((ROOT / "config/robot.yaml").read_text())
     own = yaml.safe_load((ROOT / f"config/robots/{model}.yaml").read_text()) or {}
-    return {**{name: entry["default"] for name, entry in defaults.items()}, **own}
+    return {**{name: entry["default"] for name, entry in defaults.items() if "gone" not in entry}, **own}
 
 
 def numbers(text):
@@ -74,6 +75,17 @@ class RobotDescription(unittest.TestCase):
                 for size, drawn in zip(footprint, extents(description(model).find("link[@name='ugv7/base_link']"))):
                     self.assertLessEqual(drawn, size + 1e-9)
                     self.assertGreaterEqual(drawn, size - MARGIN_M)
+
+    def test_a_polygon_is_drawn_by_its_sides(self):
+        script = importlib.machinery.SourceFileLoader("robot_description", str(ROOT / "scripts/robot_description")).load_module()
+        values = {**values_of("rover"), "footprint": "polygon", "footprint_corners": "[[0.3, 0.0], [-0.1, 0.2], [-0.1, -0.2]]"}
+        drawn = script.bare("wedge", values).findall("link[@name='base_link']/visual")
+        self.assertEqual(len(drawn), 3)
+        for visual, (x, y) in zip(drawn, [(0.1, 0.1), (-0.1, 0.0), (0.1, -0.1)]):
+            for number, expected in zip(numbers(visual.find("origin").get("xyz")), (x, y)):
+                self.assertAlmostEqual(number, expected)
+        self.assertAlmostEqual(half_extents(drawn[1])[0], 0.2)
+        self.assertAlmostEqual(numbers(drawn[1].find("origin").get("rpy"))[2], -0.5 * math.pi)
 
     def test_files_in_urdf_agree_with_their_models(self):
         """As they are, too: other programs may read them."""

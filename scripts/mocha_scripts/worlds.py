@@ -14,7 +14,7 @@ def read_world(path):
 def robot_values(model):
     """Values of config/robots/<model>.yaml over the defaults of its schema."""
     with open(os.path.join(ROOT, "config/robot.yaml")) as file:
-        values = {name: entry["default"] for name, entry in yaml.safe_load(file).items()}
+        values = {name: entry["default"] for name, entry in yaml.safe_load(file).items() if "gone" not in entry}
     with open(os.path.join(ROOT, f"config/robots/{model}.yaml")) as file:
         values.update(yaml.safe_load(file) or {})
     return values

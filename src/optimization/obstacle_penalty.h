@@ -11,21 +11,22 @@
 namespace mocha {
 
 /// Paper (30): phi(1 - d_r |d_r| / d_s^2), summed over the obstacles r that the field tells apart,
-/// at the centre of each disc that covers the robot along its heading.
+/// at the centre of each disc or ball that covers the robot.
 ///
-/// d_r is signed, so that a sample inside an obstacle is pushed out as well. The heading is the
+/// d_r is signed, so that a sample inside an obstacle is pushed out as well. The heading h is the
 /// direction of travel, v / sqrt(|v|^2 + e^2): near standstill the discs slide together to the
-/// base; the certificate judges the true footprint.
+/// base; the certificate judges the true footprint. In the plane, a disc is centred ahead and to
+/// the left of the base, at p + ahead h + left J h; in space along the heading.
 template <int D>
 class ObstaclePenalty : public Penalty<D> {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
 
-  /// A covering disc or ball: offset along the direction of travel, and the distance d_s [m] to
-  /// keep from its centre.
+  /// A covering disc or ball, and the distance d_s to keep from its centre.
   struct Cover {
-    double offset_m;
+    double ahead_m;
     double safety_distance_m;
+    double left_m = 0.0;  ///< none in space
   };
 
   /// `field` must outlive the penalty. `soft_speed` e [m/s] is positive.
@@ -36,8 +37,8 @@ class ObstaclePenalty : public Penalty<D> {
         cover_(std::move(cover)),
         soft_speed2_(soft_speed * soft_speed) {
     for (const Cover& each : cover_) {
-      reach_m_ = std::max(reach_m_, std::abs(each.offset_m) + each.safety_distance_m);
-      if (each.offset_m != 0.0) wanted_ = kPosition | kVelocity;
+      reach_m_ = std::max(reach_m_, std::hypot(each.ahead_m, each.left_m) + each.safety_distance_m);
+      if (!is_at_base(each)) wanted_ = kPosition | kVelocity;
     }
   }
 
@@ -58,10 +59,10 @@ class ObstaclePenalty : public Penalty<D> {
         continue;
       }
       for (const Cover& cover : cover_) {
-        if (cover.offset_m == 0.0) {
-          add_ball(samples, j, cover, rows);
+        if (is_at_base(cover)) {
+          add_at_base(samples, j, cover, rows);
         } else {
-          add_along_heading(samples, j, cover, rows);
+          add_off_base(samples, j, cover, rows);
         }
       }
       ++j;
@@ -69,6 +70,14 @@ class ObstaclePenalty : public Penalty<D> {
   }
 
  private:
+  static bool is_at_base(const Cover& cover) { return cover.ahead_m == 0.0 && cover.left_m == 0.0; }
+
+  /// J h of a vector in the plane.
+  static Vector left_of(const Vector& h) {
+    static_assert(D == 2);
+    return {-h.y(), h.x()};
+  }
+
   /// The gradient by the place of the disc's centre.
   Vector add_at(const Vector& centre, double safety_distance_m, double& value) const {
     const double inverse_ds2 = 1.0 / (safety_distance_m * safety_distance_m);
@@ -82,22 +91,25 @@ class ObstaclePenalty : public Penalty<D> {
     return by_centre;
   }
 
-  void add_ball(const PieceSamples<D>& samples, int j, const Cover& cover,
-                PenaltyRows<D>& rows) const {
+  void add_at_base(const PieceSamples<D>& samples, int j, const Cover& cover,
+                   PenaltyRows<D>& rows) const {
     const Vector centre = samples.position().row(j);
     rows.by_position().row(j) += add_at(centre, cover.safety_distance_m, rows.value[j]);
   }
 
-  void add_along_heading(const PieceSamples<D>& samples, int j, const Cover& cover,
-                         PenaltyRows<D>& rows) const {
+  void add_off_base(const PieceSamples<D>& samples, int j, const Cover& cover,
+                    PenaltyRows<D>& rows) const {
     const Vector velocity = samples.velocity().row(j);
     const double soft_speed = std::sqrt(velocity.squaredNorm() + soft_speed2_);
     const Vector heading = velocity / soft_speed;
-    const Vector centre = samples.position().row(j).transpose() + cover.offset_m * heading;
+    Vector offset = cover.ahead_m * heading;
+    if constexpr (D == 2) offset += cover.left_m * left_of(heading);
+    const Vector centre = samples.position().row(j).transpose() + offset;
     const Vector by_centre = add_at(centre, cover.safety_distance_m, rows.value[j]);
     rows.by_position().row(j) += by_centre;
-    rows.by_velocity().row(j) +=
-        (cover.offset_m / soft_speed) * (by_centre - heading.dot(by_centre) * heading);
+    Vector by_heading = cover.ahead_m * by_centre;
+    if constexpr (D == 2) by_heading -= cover.left_m * left_of(by_centre);
+    rows.by_velocity().row(j) += (by_heading - heading.dot(by_heading) * heading) / soft_speed;
   }
 
   double weight_;

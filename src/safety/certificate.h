@@ -19,6 +19,11 @@ namespace mocha {
 /// Speed, acceleration and yaw rate of drives; yaw rate and yaw acceleration of turns in place.
 Violation check_limits(const Motion& motion, const MotionLimits& limits, double from_s);
 
+/// What the footprint keeps to the obstacles of the field at a pose [m], never overstated; below 0
+/// where it overlaps them, or its cover does.
+double clearance_bound_m(const Pose& pose, const Footprint& footprint,
+                         const ObstacleField<2>& field);
+
 /// The footprint's cover discs keep `margin_m` >= 0 to all obstacles of the field, until `until_s`.
 Violation check_clearance(const Motion& motion, const Footprint& footprint,
                           const ObstacleField<2>& field, double margin_m, double from_s,

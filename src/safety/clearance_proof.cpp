@@ -85,10 +85,8 @@ class Keepout {
  public:
   Keepout(const Footprint& footprint, const ObstacleField<2>& field, double margin_m)
       : footprint_(footprint), field_(field), margin_m_(margin_m) {
-    for (const auto& disc : footprint.cover()) {
-      offset_m_ = std::max(offset_m_, std::abs(disc.offset_m));
-      reach_m_ = std::max(reach_m_, std::abs(disc.offset_m) + disc.radius_m);
-    }
+    for (const CoverDisc& disc : footprint.cover().discs())
+      arm_m_ = std::max(arm_m_, disc.offset_m.norm());
   }
 
   bool clear(const Pose& pose) const {
@@ -97,41 +95,30 @@ class Keepout {
 
   /// A proof that all cover discs keep the margin throughout the interval.
   bool clear(const Sweep& sweep) const {
-    const double at_base = field_.distance_bound(sweep.place);
-    if (at_base >= sweep.travel_m + reach_m_ + margin_m_) return true;  // whatever the heading is
-    for (const auto& disc : footprint_.cover()) {
-      const double needed = disc.radius_m + margin_m_ + sweep.travel_m +
-                            (disc.offset_m == 0.0 ? 0.0 : std::abs(disc.offset_m) * sweep.swing);
-      const double bound = disc.offset_m == 0.0
-                               ? at_base
-                               : field_.distance_bound(sweep.place + disc.offset_m * sweep.heading);
-      if (!(bound >= needed)) return false;
-    }
-    return true;
+    return footprint_.cover().all([&](const DiscTree::Node& disc) {
+      const double needed_m = disc.radius_m + margin_m_ + moved_m(sweep, disc.arm_m);
+      return field_.distance_bound(sweep.place + turned(disc.offset_m, sweep.heading)) >= needed_m;
+    });
   }
 
   /// How far the discs move in the interval, at most.
-  double sweep_m(const Sweep& sweep) const {
-    return sweep.travel_m + (offset_m_ == 0.0 ? 0.0 : offset_m_ * sweep.swing);
-  }
+  double sweep_m(const Sweep& sweep) const { return moved_m(sweep, arm_m_); }
 
   /// Clearance at one pose [m], never overstated.
-  double clearance_m(const Pose& pose) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& disc : footprint_.cover()) {
-      least = std::min(least, field_.distance_bound(cover_centre(pose, disc)) - disc.radius_m);
-    }
-    return least;
-  }
+  double clearance_m(const Pose& pose) const { return clearance_bound_m(pose, footprint_, field_); }
 
   double margin_m() const { return margin_m_; }
 
  private:
+  /// How far a point moves in the interval, at most, that is `arm_m` off the base.
+  static double moved_m(const Sweep& sweep, double arm_m) {
+    return sweep.travel_m + (arm_m == 0.0 ? 0.0 : arm_m * sweep.swing);
+  }
+
   const Footprint& footprint_;
   const ObstacleField<2>& field_;
   double margin_m_;
-  double offset_m_ = 0.0;
-  double reach_m_ = 0.0;
+  double arm_m_ = 0.0;  // of the disc farthest off the base
 };
 
 std::optional<double> first_contact(const Motion& motion, int phase, const Keepout& keepout,
@@ -169,6 +156,13 @@ Violation report(const Motion& motion, const Keepout& keepout, double t) {
 }
 
 }  // namespace
+
+double clearance_bound_m(const Pose& pose, const Footprint& footprint,
+                         const ObstacleField<2>& field) {
+  return footprint.cover().least([&](const CoverDisc& disc) {
+    return field.distance_bound(cover_centre(pose, disc)) - disc.radius_m;
+  });
+}
 
 Violation check_clearance(const Motion& motion, const Footprint& footprint,
                           const ObstacleField<2>& field, double margin_m, double from_s,

@@ -1,7 +1,7 @@
 #include "safety/leaving.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <vector>
 
 namespace mocha {
@@ -11,45 +11,56 @@ namespace {
 constexpr double kSlack_m = 0.003;
 constexpr double kStep_s = 0.05;     // between the moments at which a leaving robot is looked at
 constexpr double kWayStep_s = 0.01;  // the same, where it is the way that is measured
-// So much may the discs that cover a standing robot reach into what is around: both overstate what
-// they stand for.
-constexpr double kOverstated_m = 0.05;
-// The way of a leaving robot, in stages.
+// So much may the cover of a standing robot reach into cells of the map, and its disc into that of
+// a peer: all of them overstate what they stand for, the cover by kCoverTolerance_m at most.
+constexpr double kCellsOverstated_m = 0.04;
+constexpr double kPeersOverstated_m = 0.05;
+// A leaving robot is looked at after so much way, or when a corner has turned so far.
 constexpr double kStage_m = 0.02;
-constexpr int kFirst = 15;  // after so many it has the floor
-constexpr int kAll = 50;    // and then all of its margin
+constexpr double kTurned_m = 0.005;
+constexpr double kFirst_m = 0.3;  // of way; then it has the floor
+constexpr double kAll_m = 1.0;    // and then all of its margin
 
-double clearance_at(const Pose& pose, const Footprint& footprint, const ObstacleField<2>& field) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& disc : footprint.cover()) {
-    nearest = std::min(nearest, field.distance_bound(cover_centre(pose, disc)) - disc.radius_m);
-  }
-  return nearest;
-}
+/// Where a leaving robot is looked at.
+struct Stage {
+  double time_s;
+  double way_m;  ///< so far
+  double gap_m = 0.0;
+};
 
-/// The gap to ask for, where `gaps_m` are those of all stages so far, the present one included.
-double required_gap_m(const std::vector<double>& gaps_m, double margin_m, const Leaving& leaving) {
-  const int stage = static_cast<int>(gaps_m.size()) - 1;
-  if (stage >= kAll) return margin_m;
-  double required_m = stage >= kFirst ? std::min(leaving.floor_m, margin_m) : gaps_m[0];
-  for (int i = 0; i <= stage; ++i) {
-    const double share = static_cast<double>(stage - i) / kAll;
-    required_m = std::max(required_m, gaps_m[i] + share * share * (margin_m - gaps_m[i]));
+/// The gap to ask for from the last of these stages on.
+double required_gap_m(const std::vector<Stage>& stages, double margin_m, const Leaving& leaving) {
+  constexpr double kRounding_m = 1e-9;
+  const double way_m = stages.back().way_m + kRounding_m;
+  if (way_m >= kAll_m) return margin_m;
+  double required_m = way_m >= kFirst_m ? std::min(leaving.floor_m, margin_m) : stages[0].gap_m;
+  for (const Stage& stage : stages) {
+    const double share = (way_m - stage.way_m) / kAll_m;
+    required_m = std::max(required_m, stage.gap_m + share * share * (margin_m - stage.gap_m));
   }
   return std::min(required_m, margin_m);
 }
 
-/// The time at which the motion has driven `way_m` from `from_s` on; its end where that is sooner.
-double time_after(const Motion& motion, double from_s, double way_m) {
-  Vector2 place = motion.position(from_s);
-  for (double t = from_s; t < motion.end_time(); t += kWayStep_s) {
-    const Vector2 next = motion.position(t + kWayStep_s);
-    const double step_m = (next - place).norm();
-    if (step_m >= way_m) return std::min(t + kWayStep_s * way_m / step_m, motion.end_time());
-    way_m -= step_m;
-    place = next;
+/// The stage after this one, the motion's end at the latest; `arm_m` is that of a corner.
+Stage stage_after(const Stage& stage, const Motion& motion, double arm_m) {
+  Stage next = stage;
+  Pose pose = motion.at(stage.time_s).pose;
+  for (double left = 1.0; next.time_s < motion.end_time(); next.time_s += kWayStep_s) {
+    const Pose then = motion.at(next.time_s + kWayStep_s).pose;
+    const double step_m = (then.position - pose.position).norm();
+    const double turned_m = arm_m * std::abs(wrap_angle(then.yaw_rad - pose.yaw_rad));
+    const double step = step_m / kStage_m + turned_m / kTurned_m;
+    if (step >= left) {
+      next.way_m += step_m * left / step;
+      next.time_s += kWayStep_s * left / step;
+      break;
+    }
+    left -= step;
+    next.way_m += step_m;
+    pose = then;
   }
-  return motion.end_time();
+  next.time_s = std::min(next.time_s, motion.end_time());
+  return next;
 }
 
 }  // namespace
@@ -59,18 +70,24 @@ Violation check_clearance_or_leaving(const Motion& motion, const Footprint& foot
                                      const Leaving& leaving, double from_s) {
   const Violation strict = check_clearance(motion, footprint, field, margin_m, from_s);
   if (!strict) return strict;
-  const auto gap_at = [&](double t) { return clearance_at(motion.at(t).pose, footprint, field); };
-  std::vector<double> gaps_m = {gap_at(from_s) - kSlack_m};
-  if (gaps_m[0] >= margin_m || gaps_m[0] + kSlack_m <= -kOverstated_m) return strict;
-  double t = std::max(from_s, motion.start_time());
+  const auto gap_at = [&](double t) {
+    return clearance_bound_m(motion.at(t).pose, footprint, field) - kSlack_m;
+  };
+  std::vector<Stage> stages = {{std::max(from_s, motion.start_time()), 0.0, gap_at(from_s)}};
+  if (stages[0].gap_m >= margin_m || stages[0].gap_m + kSlack_m <= -kCellsOverstated_m)
+    return strict;
+  const double arm_m = footprint.is_disc() ? 0.0 : footprint.circumscribed_radius_m();
   for (;;) {
-    const double required_m = required_gap_m(gaps_m, margin_m, leaving);
-    if (required_m >= margin_m) return check_clearance(motion, footprint, field, margin_m, t);
-    const double next_s = time_after(motion, t, kStage_m);
-    const Violation closer = check_clearance(motion, footprint, field, required_m, t, next_s);
-    if (closer || next_s >= motion.end_time()) return closer;
-    t = next_s;
-    gaps_m.push_back(gap_at(t) - kSlack_m);
+    const Stage& here = stages.back();
+    const double required_m = required_gap_m(stages, margin_m, leaving);
+    if (required_m >= margin_m)
+      return check_clearance(motion, footprint, field, margin_m, here.time_s);
+    Stage next = stage_after(here, motion, arm_m);
+    const Violation closer =
+        check_clearance(motion, footprint, field, required_m, here.time_s, next.time_s);
+    if (closer || next.time_s >= motion.end_time()) return closer;
+    next.gap_m = gap_at(next.time_s);
+    stages.push_back(next);
   }
 }
 
@@ -87,7 +104,7 @@ Violation check_separation_or_leaving(const Motion& motion, double own_radius_m,
   const Violation strict = prove(clearance_m, from_s);
   if (!strict) return strict;
   const double here_m = gap_at(from_s);
-  if (here_m - kSlack_m >= clearance_m || here_m <= -kOverstated_m) return strict;
+  if (here_m - kSlack_m >= clearance_m || here_m <= -kPeersOverstated_m) return strict;
   if (const Violation closer = prove(here_m - kSlack_m, from_s)) return closer;
   const double end_s = std::min(until_s, std::max(motion.end_time(), other.rest_time()));
   for (double t = from_s; t < end_s; t += kStep_s) {

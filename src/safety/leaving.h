@@ -9,8 +9,8 @@ namespace mocha {
 
 /// How a motion that begins closer to obstacles than its margin may go on: the gap grows along the
 /// way as on an arc that leaves a wall, with the square of the way, to all of the margin after a
-/// metre. That is asked from every place of the way on; so room that was gained is never lost, and
-/// what is certified once is certified at every later moment of the drive, too.
+/// metre. That is asked from every place of the way on, and of every turn in place; so room that
+/// was gained is never lost, and what is certified once is certified at every later moment, too.
 struct Leaving {
   /// The gap [m] that it has to have after 0.3 m already: the tracking error, below which a
   /// contact cannot be excluded.
@@ -18,7 +18,7 @@ struct Leaving {
 };
 
 /// Clearance as check_clearance() proves it, with that exception. It does not hold for a robot
-/// whose discs reach more than 5 cm into an obstacle.
+/// whose cover reaches more than 4 cm into an obstacle.
 Violation check_clearance_or_leaving(const Motion& motion, const Footprint& footprint,
                                      const ObstacleField<2>& field, double margin_m,
                                      const Leaving& leaving, double from_s);

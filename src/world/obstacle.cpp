@@ -16,15 +16,6 @@ const Vector2& corner(const Polygon& polygon, std::size_t i) {
   return polygon.corners[i % polygon.corners.size()];
 }
 
-/// Twice the area, positive for corners in counter-clockwise order.
-double doubled_area(const Polygon& polygon) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-    sum += cross(corner(polygon, i), corner(polygon, i + 1));
-  }
-  return sum;
-}
-
 /// Whether the segments a-b and c-d share a point; where, for those that are not parallel.
 bool segments_meet(const Vector2& a, const Vector2& b, const Vector2& c, const Vector2& d,
                    Vector2& where) {
@@ -120,8 +111,15 @@ std::string fault_of(const Polygon& polygon) {
     }
   }
   if (sides_cross(polygon)) return "sides cross each other";
-  if (std::abs(doubled_area(polygon)) < kSmallestSide_m * kSmallestSide_m) return "has no area";
+  if (std::abs(signed_area_m2(polygon)) < kSmallestSide_m * kSmallestSide_m) return "has no area";
   return {};
+}
+
+double signed_area_m2(const Polygon& polygon) {
+  double doubled_m2 = 0.0;
+  for (std::size_t i = 0; i < polygon.corners.size(); ++i)
+    doubled_m2 += cross(corner(polygon, i), corner(polygon, i + 1));
+  return 0.5 * doubled_m2;
 }
 
 Vector2 nearest_on_segment(const Vector2& p, const Vector2& a, const Vector2& b) {
@@ -138,19 +136,23 @@ Gap gap(const Vector2& point, const Circle& circle) {
 }
 
 Gap gap(const Vector2& point, const Polygon& polygon) {
-  Gap nearest{kInfinity, point};
+  double nearest_squared = kInfinity;
+  Vector2 nearest = point;
   bool inside = false;
-  for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-    const Vector2& a = corner(polygon, i);
-    const Vector2& b = corner(polygon, i + 1);
-    const Vector2 place = nearest_on_segment(point, a, b);
-    const double distance = (point - place).norm();
-    if (distance < nearest.distance_m) nearest = {distance, place};
-    const bool spans = (a.y() > point.y()) != (b.y() > point.y());
-    if (spans && (cross(b - a, point - a) > 0.0) == (b.y() > a.y())) inside = !inside;
+  const Vector2* a = &polygon.corners.back();
+  for (const Vector2& b : polygon.corners) {
+    const Vector2 place = nearest_on_segment(point, *a, b);
+    const double squared = (point - place).squaredNorm();
+    if (squared < nearest_squared) {
+      nearest_squared = squared;
+      nearest = place;
+    }
+    const bool spans = (a->y() > point.y()) != (b.y() > point.y());
+    if (spans && (cross(b - *a, point - *a) > 0.0) == (b.y() > a->y())) inside = !inside;
+    a = &b;
   }
-  if (inside) nearest.distance_m = -nearest.distance_m;
-  return nearest;
+  const double distance = std::sqrt(nearest_squared);
+  return {inside ? -distance : distance, nearest};
 }
 
 Vector2 outward_normal(const Vector2& point, const Polygon& polygon) {
@@ -164,7 +166,7 @@ Vector2 outward_normal(const Vector2& point, const Polygon& polygon) {
     nearest = distance;
     side = b - a;
   }
-  const double sense = doubled_area(polygon) > 0.0 ? 1.0 : -1.0;
+  const double sense = signed_area_m2(polygon) > 0.0 ? 1.0 : -1.0;
   return sense * Vector2(side.y(), -side.x()).normalized();
 }
 

@@ -30,9 +30,12 @@ struct Cylinder {
   double to_z_m = std::numeric_limits<double>::infinity();
 };
 
-/// Why a polygon cannot be an obstacle (too few corners, a repeated corner, sides that cross);
-/// empty for a sound one.
+/// Why a polygon is not a simple one (too few corners, a corner that is repeated or not finite,
+/// sides that meet, no area); empty for a sound one.
 std::string fault_of(const Polygon& polygon);
+
+/// Its area, positive for corners in counter-clockwise order.
+double signed_area_m2(const Polygon& polygon);
 
 /// The point nearest to p on the line segment from a to b.
 Vector2 nearest_on_segment(const Vector2& p, const Vector2& a, const Vector2& b);

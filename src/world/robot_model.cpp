@@ -1,8 +1,13 @@
 #include "world/robot_model.h"
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
+#include <vector>
 
 #include "config/parameter_table.h"
 
@@ -30,10 +35,24 @@ LidarModel read_lidar(const ParameterTable& values) {
   return lidar;
 }
 
+/// "[[x, y], ...]", as costmap_2d takes it. Throws std::invalid_argument.
+std::vector<Vector2> read_corners(const std::string& text) {
+  try {
+    std::vector<Vector2> corners;
+    for (const auto& corner : YAML::Load(text).as<std::vector<std::array<double, 2>>>())
+      corners.emplace_back(corner[0], corner[1]);
+    return corners;
+  } catch (const YAML::Exception&) {
+    throw std::invalid_argument("expected \"[[x, y], [x, y], ...]\"");
+  }
+}
+
 Footprint read_footprint(const ParameterTable& values) {
   if (values.text("footprint") == "disc") return Footprint::disc(values.number("footprint_radius"));
-  return Footprint::rectangle(values.number("footprint_length"), values.number("footprint_width"),
-                              values.integer("footprint_discs"));
+  if (values.text("footprint") == "rectangle")
+    return Footprint::rectangle(values.number("footprint_length"),
+                                values.number("footprint_width"));
+  return Footprint::polygon(read_corners(values.text("footprint_corners")));
 }
 
 void check_wheels(const RobotModel& model, const std::string& path) {
@@ -110,7 +129,12 @@ RobotModel load_robot_model(const std::string& config_directory, const std::stri
   robot.emergency_acceleration = values.number("emergency_acceleration");
   robot.actuator_lag_s = values.number("actuator_lag");
   robot.cmd_timeout_s = values.number("cmd_timeout");
-  robot.footprint = read_footprint(values);
+  try {
+    robot.footprint = read_footprint(values);
+  } catch (const std::invalid_argument& error) {
+    throw ParameterError(path + ": footprint_corners = " + values.text("footprint_corners") + ": " +
+                         error.what());
+  }
   robot.lidar = read_lidar(values);
   robot.margins = {values.number("margin_tracking"), values.number("margin_localisation"),
                    values.number("margin_map"), values.number("margin_clock")};

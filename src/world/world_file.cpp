@@ -4,14 +4,13 @@
 #include <cctype>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 #include "config/parameter_table.h"
 #include "world/yaml_reader.h"
 
 namespace mocha {
 namespace {
-
-constexpr int kRectangleDiscs = 2;  // that cover a rectangle where the model is a disc
 
 Eigen::AlignedBox2d read_bounds(const YamlReader& reader) {
   reader.allow_keys({"min", "max"});
@@ -79,10 +78,17 @@ void override_footprint(const YamlReader& reader, RobotModel& model) {
   }
   if (reader.has("radius")) model.footprint = Footprint::disc(reader.at("radius").positive());
   if (!reader.has("footprint")) return;
-  const auto sides = reader.at("footprint").items(2, 2);
-  const int discs = model.footprint.is_disc() ? kRectangleDiscs
-                                              : static_cast<int>(model.footprint.cover().size());
-  model.footprint = Footprint::rectangle(sides[0].positive(), sides[1].positive(), discs);
+  const YamlReader shape = reader.at("footprint");
+  if (!shape.is_list_of_lists()) {
+    const auto sides = shape.items(2, 2);
+    model.footprint = Footprint::rectangle(sides[0].positive(), sides[1].positive());
+    return;
+  }
+  try {
+    model.footprint = Footprint::polygon(shape.points());
+  } catch (const std::invalid_argument& error) {
+    shape.refuse(error.what());
+  }
 }
 
 Vector2 read_place(const YamlReader& reader, const std::vector<YamlReader>& values,

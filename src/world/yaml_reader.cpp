@@ -67,6 +67,10 @@ void YamlReader::allow_keys(std::initializer_list<const char*> keys) const {
 
 bool YamlReader::has(const std::string& key) const { return node_[key].IsDefined(); }
 
+bool YamlReader::is_list_of_lists() const {
+  return node_.IsSequence() && (node_.size() == 0 || node_[0].IsSequence());
+}
+
 YamlReader YamlReader::at(const std::string& key) const {
   const std::string full = key_.empty() ? key : key_ + "." + key;
   if (!has(key)) throw WorldError(file_ + ": " + full + ": is missing");

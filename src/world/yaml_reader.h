@@ -21,6 +21,7 @@ class YamlReader {
   void allow_keys(std::initializer_list<const char*> keys) const;
 
   bool has(const std::string& key) const;
+  bool is_list_of_lists() const;                ///< or an empty list
   YamlReader at(const std::string& key) const;  ///< must exist
   std::vector<YamlReader> items() const;        ///< of a list
   std::vector<YamlReader> items(std::size_t least, std::size_t most) const;

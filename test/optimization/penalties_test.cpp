@@ -221,9 +221,20 @@ TEST(ObstaclePenalty, PutsTheDiscsAlongTheHeading) {
             0.0);  // at rest: at the base
 }
 
+TEST(ObstaclePenalty, PutsTheDiscsAsideOfTheHeading) {
+  const CircleField field({{{0.0, 3.0}, 1.0}});
+  const ObstaclePenalty<2> left(1.0, field, {{0.3, 0.6, 0.5}}, 0.05);
+  // Fast: the disc is 0.5 m to the left and 0.3 m ahead, so 0.5 m from the circle.
+  const double near = value_of(left, sample_at({-0.3, 1.0}, {100.0, 0.0}, kZero));
+  EXPECT_NEAR(near, std::pow(1.0 - 0.25 / 0.36, 3), 1e-4);
+  EXPECT_EQ(value_of(left, sample_at({-0.3, 1.0}, {-100.0, 0.0}, kZero)), 0.0);
+  EXPECT_EQ(value_of(left, sample_at({-0.3, 1.0}, kZero, kZero)), 0.0);  // at the base
+}
+
 TEST(ObstaclePenalty, GradientMatchesDifferencesAlsoNearStandstill) {
   const CircleField field({{{0.3, 0.2}, 0.4}, {{-1.2, 1.0}, 0.3}});
-  const ObstaclePenalty<2> penalty(3.0, field, {{0.3, 0.8}, {-0.3, 0.8}}, 0.05);
+  const ObstaclePenalty<2> penalty(
+      3.0, field, {{0.3, 0.8}, {-0.3, 0.8}, {0.2, 0.7, -0.25}, {0.0, 0.7, 0.3}}, 0.05);
   RandomSamples samples;
   for (int i = 0; i < 200; ++i) {
     expect_gradient(penalty, samples.next(1.0), 1e-7, 1e-5);

@@ -136,12 +136,7 @@ class ClosedLoop {
       true_cells_ = world.cells;
       true_field_ = occupied_field(world);
     }
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& disc : robot_.footprint.cover()) {
-      least =
-          std::min(least, true_field_->distance_bound(cover_centre(pose_, disc)) - disc.radius_m);
-    }
-    return least;
+    return clearance_bound_m(pose_, robot_.footprint, *true_field_);
   }
 
   double footprint_radius_m() const { return robot_.footprint.circumscribed_radius_m(); }

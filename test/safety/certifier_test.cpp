@@ -11,6 +11,7 @@
 #include "trajectory/rover_braking.h"
 #include "trajectory/simple_motions.h"
 #include "world/margin_budget.h"
+#include "world/primitive_field.h"
 
 namespace mocha {
 namespace {
@@ -276,6 +277,25 @@ TEST_F(CertifierTest, APromiseIsRenewedOnAllOfItsWay) {
   }
   EXPECT_GT(certified_ones, 150);
   EXPECT_GT(leaving, 15);
+}
+
+TEST_F(CertifierTest, ARectangleNeedsAGapOfItsWidthAndItsMargins) {
+  const RobotModel jackal = load_robot_model("config", "jackal");
+  const Requirement promise = Requirements(jackal)[Name::kPromise].from(kNow_s);
+  const double needed_m = 0.43 + 2.0 * MarginBudget::of(jackal).static_margin_m();
+  const auto through = [&](double gap_m) {
+    const auto side = [gap_m](double sign) {
+      const double near = 0.5 * sign * gap_m;
+      return Polygon{{{3.0, near}, {3.3, near}, {3.3, 9.0 * sign}, {3.0, 9.0 * sign}}};
+    };
+    Scene scene = open();
+    scene.obstacles =
+        std::make_shared<PrimitiveField<2>>(std::vector<Obstacle>{side(1.0), side(-1.0)}, 1.0);
+    return certify(ahead(), jackal.footprint, scene, promise);
+  };
+  const Violation wide = through(needed_m + 0.02);
+  EXPECT_FALSE(wide) << describe(wide);
+  EXPECT_EQ(through(needed_m - 0.01).term, ViolatedTerm::kClearance);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "safety/certificate.h"
 #include "safety/circle_field.h"
 #include "trajectory/random_motion.h"
+#include "world/primitive_field.h"
 
 namespace mocha {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 double sampled_clearance(const Motion& motion, const Footprint& footprint, const CircleField& field,
                          double t) {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& disc : footprint.cover()) {
+  for (const auto& disc : footprint.cover().discs()) {
     const Vector2 centre = cover_centre(motion.at(t).pose, disc);
     least = std::min(least, field.sample(centre).distance_m - disc.radius_m);
   }
@@ -53,8 +54,8 @@ CircleField clutter(const Motion& motion, int seed, double gap_m) {
 
 TEST(ClearanceProof, AgreesWithDenseSampling) {
   constexpr int kSamples = 10000;
-  const Footprint footprints[] = {Footprint::disc(0.3), Footprint::rectangle(0.508, 0.43, 2),
-                                  Footprint::rectangle(0.8, 0.3, 3)};
+  const Footprint footprints[] = {Footprint::disc(0.3), Footprint::rectangle(0.508, 0.43),
+                                  Footprint::rectangle(0.8, 0.3)};
   int accepted = 0;
   int refused = 0;
   for (int seed = 0; seed < 120; ++seed) {
@@ -128,8 +129,8 @@ TEST(ClearanceProof, FindsAContactAtTheVeryEnd) {
 }
 
 TEST(ClearanceProof, FindsWhatOnlyACornerTouchesInATurn) {
-  const Footprint long_one = Footprint::rectangle(1.0, 0.2, 5);
-  const double reach = long_one.cover().back().offset_m + long_one.cover().back().radius_m;
+  const Footprint long_one = Footprint::rectangle(1.0, 0.2);
+  const double reach = long_one.cover_reach_m();
   const Motion turn(0.0, {TurnPhase{{Vector2::Zero(), 0.0}, M_PI / 2.0, 2.0}});
   const double diagonal = std::sqrt(0.5);
   const auto post = [&](double away) {
@@ -146,7 +147,7 @@ TEST(ClearanceProof, FindsWhatOnlyACornerTouchesInATurn) {
 TEST(ClearanceProof, DiscsFollowTheHeadingBackward) {
   // The front disc leads although the robot drives backward: only the tail's end comes near the
   // post.
-  const Footprint body = Footprint::rectangle(1.0, 0.4, 2);
+  const Footprint body = Footprint::rectangle(1.0, 0.4);
   const Motion forward = ahead(2.0, 4.0);
   const Motion backward(0.0, {DrivePhase{-1, std::get<DrivePhase>(forward.phases()[0]).path}});
   const CircleField post({{Vector2(2.4, 0.0), 0.05}});
@@ -154,6 +155,46 @@ TEST(ClearanceProof, DiscsFollowTheHeadingBackward) {
     EXPECT_TRUE(check_clearance(motion, body, post, 0.0, 0.0));
     EXPECT_FALSE(check_clearance(motion, body, CircleField({{Vector2(2.7, 0.0), 0.05}}), 0.0, 0.0));
   }
+}
+
+/// Walls on both sides of the x axis, so far from it.
+PrimitiveField<2> walls(double away_m) {
+  const auto wall = [](double from_y, double to_y) {
+    return Polygon{{{-9.0, from_y}, {9.0, from_y}, {9.0, to_y}, {-9.0, to_y}}};
+  };
+  return PrimitiveField<2>({wall(away_m, away_m + 1.0), wall(-away_m - 1.0, -away_m)}, 1.0);
+}
+
+const Footprint kJackal = Footprint::rectangle(0.508, 0.43);
+
+TEST(ClearanceProof, ARectangleStandsCloseBesideAWall) {
+  const Motion stand(0.0, {StandPhase{{Vector2::Zero(), 0.0}, 2.0}});
+  EXPECT_FALSE(check_clearance(stand, kJackal, walls(0.215 + 0.03), 0.02, 0.0));
+  EXPECT_TRUE(check_clearance(stand, kJackal, walls(0.215 + 0.03), 0.031, 0.0));
+  const Motion across(0.0, {StandPhase{{Vector2::Zero(), M_PI / 2.0}, 2.0}});
+  EXPECT_FALSE(check_clearance(across, kJackal, walls(0.254 + 0.03), 0.02, 0.0));
+  EXPECT_TRUE(check_clearance(across, kJackal, walls(0.254 + 0.03), 0.031, 0.0));
+}
+
+TEST(ClearanceProof, ARectangleTurnsWhereItsCornersPass) {
+  const Motion turn(0.0, {TurnPhase{{Vector2::Zero(), 0.1}, 2.0 * M_PI, 6.0}});
+  const double corner_m = kJackal.circumscribed_radius_m();
+  EXPECT_FALSE(check_clearance(turn, kJackal, walls(corner_m + 0.011), 0.0, 0.0));
+  EXPECT_TRUE(check_clearance(turn, kJackal, walls(corner_m - 0.001), 0.0, 0.0));
+}
+
+TEST(ClearanceProof, APolygonIsProvedByItsShape) {
+  // A wedge, its tip ahead: beside the tip there is room that beside its tail there is not.
+  const Footprint wedge = Footprint::polygon({{0.5, 0.0}, {-0.3, 0.3}, {-0.3, -0.3}});
+  const Motion stand(0.0, {StandPhase{{Vector2::Zero(), 0.0}, 1.0}});
+  const auto post = [](double x, double y) { return CircleField({{{x, y}, 0.01}}); };
+  EXPECT_FALSE(check_clearance(stand, wedge, post(0.4, 0.1), 0.03, 0.0));
+  EXPECT_FALSE(check_clearance(stand, wedge, post(0.4, -0.1), 0.03, 0.0));
+  EXPECT_TRUE(check_clearance(stand, wedge, post(-0.25, 0.26), 0.0, 0.0));
+  EXPECT_TRUE(check_clearance(stand, wedge, post(-0.25, -0.26), 0.0, 0.0));
+  const Motion drive = ahead(2.0, 4.0);
+  EXPECT_TRUE(check_clearance(drive, wedge, post(1.0, 0.31), 0.03, 0.0));
+  EXPECT_FALSE(check_clearance(drive, wedge, post(1.0, 0.36), 0.03, 0.0));
 }
 
 TEST(ClearanceProof, StandingIsCheckedToo) {

@@ -31,7 +31,7 @@ Motion drive(double yaw_rad, double length_m = 2.0) {
 double gap_m(const Motion& motion, const Footprint& footprint, const ObstacleField<2>& field,
              double t) {
   double least_m = std::numeric_limits<double>::infinity();
-  for (const auto& disc : footprint.cover()) {
+  for (const auto& disc : footprint.cover().discs()) {
     const Vector2 centre = cover_centre(motion.at(t).pose, disc);
     least_m = std::min(least_m, field.sample(centre).distance_m - disc.radius_m);
   }
@@ -142,6 +142,19 @@ TEST(Leaving, TurningInPlaceNeedsNoMoreRoomThanStanding) {
         0.0, {TurnPhase{{{0.0, 0.0}, -1.2}, 1.2, 3.0}, drive(0.0).phases().front()});
     EXPECT_TRUE(clearance(turns_and_follows_it, wall(y))) << y;
   }
+}
+
+TEST(Leaving, WhatARectangleGainsInATurnIsNotLostAgain) {
+  // Beside a wall it has the most room along it: a corner is nearer before and after.
+  const Footprint jackal = load_robot_model("config", "jackal").footprint;
+  const CircleField near = wall(0.28);
+  const auto turned = [&](double by_rad, double from_s) {
+    const Motion turn(0.0, {TurnPhase{{{0.0, 0.0}, -0.15}, by_rad, 2.0}});
+    return check_clearance_or_leaving(turn, jackal, near, kMargin_m, kLeaving, from_s);
+  };
+  for (double t = 0.0; t < 2.0; t += 0.1) EXPECT_FALSE(turned(0.15, t)) << t;
+  EXPECT_EQ(turned(0.27, 0.0).term, ViolatedTerm::kClearance);  // 12 mm of 31 are lost
+  EXPECT_TRUE(turned(-0.1, 0.0));
 }
 
 TEST(Leaving, OnceClearItMustStayClear) {

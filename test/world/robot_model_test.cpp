@@ -107,6 +107,37 @@ TEST_F(RobotModelTest, RefusalsNameFileKeyAndValue) {
   EXPECT_THROW(load_robot_model("config", "no_such_robot"), ParameterError);
 }
 
+TEST_F(RobotModelTest, AFootprintIsADiscARectangleOrAPolygon) {
+  EXPECT_EQ(load("footprint_radius: 0.2").footprint.circumscribed_radius_m(), 0.2);
+  const std::string sides = "footprint: rectangle\nfootprint_length: 0.6\nfootprint_width: 0.4\n";
+  EXPECT_NEAR(load(sides).footprint.inscribed_radius_m(), 0.2, 1e-12);
+  const std::string wedge = "[[0.3, 0.0], [-0.1, 0.2], [-.1, -2e-1]]";
+  const RobotModel robot = load("footprint: polygon\nfootprint_corners: '" + wedge + "'\n");
+  const std::vector<Vector2> corners = {{0.3, 0.0}, {-0.1, 0.2}, {-0.1, -0.2}};
+  EXPECT_EQ(robot.footprint.corners(), corners);
+}
+
+TEST_F(RobotModelTest, SaysWhatIsWrongWithCorners) {
+  const auto refused = [this](const std::string& corners, const std::string& why) {
+    const std::string error =
+        refusal("footprint: polygon\nfootprint_corners: \"" + corners + "\"\n");
+    for (const std::string& part :
+         {std::string("test.yaml"), "footprint_corners = " + corners, why})
+      EXPECT_NE(error.find(part), std::string::npos) << error;
+  };
+  refused("", "[[x, y]");
+  refused("0.3", "[[x, y]");
+  refused("[[0.3, 0.0], [-0.1, 0.2], [-0.1, -0.2]", "[[x, y]");
+  refused("[[0.3, 0.0], [-0.1, 0.2], [-0.1, -0.2, 0.0]]", "[[x, y]");
+  refused("[[0.3, 0.0], [-0.1, 0.2], [-0.1]]", "[[x, y]");
+  refused("[[0.3, 0.0], [-0.1, 0.2], [-0.1, wide]]", "[[x, y]");
+  refused("[0.3, 0.0, -0.1, 0.2, -0.1, -0.2]", "[[x, y]");
+  refused("[[0.3, 0.0], [-0.1, 0.2]]", "at least 3 corners");
+  refused("[[0.3, 0.0], [-0.1, 0.2], [-0.1, .nan]]", "not finite");
+  refused("[[0.3, 0.1], [0.1, 0.2], [0.1, 0.1]]", "base_link");
+  EXPECT_NE(refusal("footprint_discs: 3\n").find("gone"), std::string::npos);
+}
+
 TEST_F(RobotModelTest, AnEmergencyIsBetweenDrivingAndWhatTheWheelsCan) {
   const std::string limits = "max_acceleration: 1.0\nmax_wheel_acceleration: 2.0\n";
   for (const char* kept : {"1.0", "1.5", "2.0"})

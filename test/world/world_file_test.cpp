@@ -61,6 +61,7 @@ robots:
   - {name: ugv1, model: rover, start: [0, 0, 1.5], goal: [3, 0, -0.5]}
   - {name: ugv2, model: jackal, start: [-2, 0, 0], goal: [3, -2], radius: 0.4}
   - {name: ugv3, model: jackal, start: [-5, 0, 0], footprint: [0.8, 0.6]}
+  - {name: ugv4, model: rover, start: [-5, 3, 0], footprint: [[0.4, 0], [-0.2, 0.3], [-0.2, -0.3]]}
 )");
   EXPECT_EQ(world.bounds.max().x(), 10.0);
   EXPECT_EQ(world.optimal_time_s, 7.5);
@@ -75,7 +76,7 @@ robots:
   EXPECT_TRUE(world.moving[0].loop);
   EXPECT_EQ(world.moving[0].speed_mps, 0.8);
   EXPECT_FALSE(world.moving[1].loop);
-  ASSERT_EQ(world.robots.size(), 3u);
+  ASSERT_EQ(world.robots.size(), 4u);
   EXPECT_EQ(world.robots[0].start.yaw_rad, 1.5);
   EXPECT_EQ(world.robots[0].goal->yaw_rad, -0.5);
   EXPECT_EQ(world.robots[0].model.name, "rover");
@@ -84,6 +85,8 @@ robots:
   EXPECT_EQ(world.robots[1].model.footprint.circumscribed_radius_m(), 0.4);
   EXPECT_NEAR(world.robots[2].model.footprint.circumscribed_radius_m(), 0.5, 1e-12);
   EXPECT_FALSE(world.robots[2].goal.has_value());
+  EXPECT_EQ(world.robots[3].model.footprint.corners().size(), 3u);
+  EXPECT_EQ(world.robots[3].model.footprint.circumscribed_radius_m(), 0.4);
 }
 
 TEST_F(WorldFileTest, FilesThatCannotBeRead) {
@@ -131,6 +134,13 @@ TEST_F(WorldFileTest, SizesThatCannotBe) {
                        {"robots[0].radius = 0"});
   expect_refused_robot("{name: a, model: rover, start: [0, 0, 0], footprint: [1, -1]}",
                        {"robots[0].footprint[1] = -1"});
+  expect_refused_robot("{name: a, model: rover, start: [0, 0, 0], footprint: []}",
+                       {"robots[0].footprint = []", "at least 3 corners"});
+  expect_refused_robot("{name: a, model: rover, start: [0, 0, 0], footprint: [[1, 0], [2]]}",
+                       {"robots[0].footprint[1]", "2 values"});
+  expect_refused_robot(
+      "{name: a, model: rover, start: [0, 0, 0], footprint: [[1, 0], [2, 1], [2, 0]]}",
+      {"robots[0].footprint", "base_link"});
   expect_refused_robot("{name: a, model: rover, start: [0, 0, 0], radius: 1, footprint: [1, 1]}",
                        {"robots[0].footprint", "either"});
 }
@@ -180,8 +190,8 @@ TEST_F(WorldFileTest, StartsWithinSomethingSolid) {
 }
 
 TEST_F(WorldFileTest, TheTrueFootprintCountsNotItsCover) {
-  // Beside the jackal's long side, within its cover discs and its circumscribed circle, but not in
-  // the rectangle.
+  // Beside the jackal's long side, within its cover and its circumscribed circle, but not in the
+  // rectangle.
   const std::string robot = "robots: [{name: a, model: jackal, start: [0, 0, 1.5707963]}]\n";
   EXPECT_NO_THROW(load(kBounds + ("circles: [[0.32, 0, 0.1]]\n" + robot)));
   expect_refusal(kBounds + ("circles: [[0.31, 0, 0.1]]\n" + robot), {"circles[0]"});

@@ -177,8 +177,9 @@ std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQu
                                                                    const Effort& effort) const {
   const MotionLimits& limits = limits_of(query);
   std::vector<ObstaclePenalty<2>::Cover> cover;
-  for (const Footprint::CoverDisc& disc : robot_.footprint.cover()) {
-    cover.push_back({disc.offset_m, disc.radius_m + static_margin_m_ + options_.soft_margin_m});
+  for (const CoverDisc& disc : robot_.footprint.soft_cover()) {
+    cover.push_back({disc.offset_m.x(), disc.radius_m + static_margin_m_ + options_.soft_margin_m,
+                     disc.offset_m.y()});
   }
   std::vector<std::unique_ptr<Penalty<2>>> penalties;
   penalties.push_back(std::make_unique<ObstaclePenalty<2>>(

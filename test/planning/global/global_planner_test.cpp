@@ -242,7 +242,7 @@ TEST_F(GlobalPlannerTest, BacksOutOfADeadEndTheWayItCame) {
   fill_box(grid, {0.0, -0.62}, {4.0, -0.42});
   fill_box(grid, {4.0, -0.62}, {4.2, 0.62});
   RobotModel robot = robot_;
-  robot.footprint = Footprint::rectangle(1.0, 0.4, 3);
+  robot.footprint = Footprint::rectangle(1.0, 0.4);
   const GlobalPlanner planner(robot, default_options());
   PlanQuery query = from_standing({3.2, 0.0}, 0.0, {8.0, 0.0});
   const PlanningScene scene{static_map_of(grid), {}};
