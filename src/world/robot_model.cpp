@@ -55,6 +55,16 @@ Footprint read_footprint(const ParameterTable& values) {
   return Footprint::polygon(read_corners(values.text("footprint_corners")));
 }
 
+void check_turning_in_place(const ParameterTable& values, const std::string& path) {
+  const double radius_m = values.number("min_turning_radius");
+  if (radius_m == 0.0) return;
+  std::ostringstream message;
+  message << path << ": min_turning_radius = " << radius_m
+          << " m: mocha_ugv plans for bases that turn in place (0 m); car-like bases are not "
+             "supported";
+  throw ParameterError(message.str());
+}
+
 void check_wheels(const RobotModel& model, const std::string& path) {
   const MotionLimits& limits = model.limits;
   const auto check = [&](const char* name, double needed) {
@@ -120,6 +130,7 @@ RobotModel load_robot_model(const std::string& config_directory, const std::stri
   const std::string path = config_directory + "/robots/" + model + ".yaml";
   ParameterTable values = ParameterTable::from_schema(config_directory + "/robot.yaml");
   values.assign_file(path);
+  check_turning_in_place(values, path);
   RobotModel robot;
   robot.name = model;
   robot.limits = {values.number("max_speed"),       values.number("max_acceleration"),

@@ -77,7 +77,9 @@ struct RobotModel {
 
 /// Loads `<config_directory>/robots/<model>.yaml` under the schema `<config_directory>/robot.yaml`.
 /// Throws ParameterError for unknown models and keys, values out of range, a speed or a yaw rate
-/// that the wheels cannot deliver, a footprint that is none, and sweeps that overlap.
+/// that the wheels cannot deliver, a footprint that is none, sweeps that overlap, and a base that
+/// cannot turn in place (min_turning_radius): plans begin, end and change course with turns in
+/// place.
 RobotModel load_robot_model(const std::string& config_directory, const std::string& model);
 
 }  // namespace mocha

@@ -3,6 +3,7 @@
 
 import itertools
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -30,9 +31,9 @@ MISSPELT = WALLED_IN.replace("circles", "circels")
 class RefusalsTest(unittest.TestCase):
     numbers = itertools.count()
 
-    def check_node(self, node, words, *arguments):
+    def check_node(self, node, words, *arguments, **environment):
         command = ["rosrun", "mocha_ugv", node, "__name:=refusing_%d" % next(self.numbers), *arguments]
-        result = subprocess.run(command, env=dict(os.environ, ROS_NAMESPACE="ugv1"), stdout=subprocess.PIPE,
+        result = subprocess.run(command, env=dict(os.environ, ROS_NAMESPACE="ugv1", **environment), stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True, timeout=PATIENCE_S)
         self.assertEqual(result.returncode, 1, result.stdout)
         self.assertEqual(result.stdout.count("FATAL"), 1, result.stdout)
@@ -55,6 +56,17 @@ class RefusalsTest(unittest.TestCase):
         for node in NODES[:-1]:
             with self.subTest(node):
                 self.check_node(node, ["robots/hovercraft.yaml"], "_robot_model:=hovercraft")
+
+    def test_bases_that_cannot_turn_in_place(self):
+        with tempfile.TemporaryDirectory() as package:  # the same configuration, and one more robot
+            shutil.copy(ROOT + "/package.xml", package)
+            shutil.copytree(ROOT + "/config", package + "/config")
+            with open(package + "/config/robots/car.yaml", "w") as model:
+                model.write("min_turning_radius: 0.45\n")
+            for node in NODES[:-1] + ("base_driver",):
+                with self.subTest(node):
+                    self.check_node(node, ["robots/car.yaml: min_turning_radius = 0.45 m", "bases that turn in place (0 m)"],
+                                    "_robot_model:=car", ROS_PACKAGE_PATH=package + ":" + os.environ["ROS_PACKAGE_PATH"])
 
     def test_times_that_cannot_work_together(self):
         both = ["trajectory_tracker/max_lease = 0.2 s", "must be at least", "local_replanner/lease = 0.5 s"]

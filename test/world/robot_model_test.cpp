@@ -138,6 +138,17 @@ TEST_F(RobotModelTest, SaysWhatIsWrongWithCorners) {
   EXPECT_NE(refusal("footprint_discs: 3\n").find("gone"), std::string::npos);
 }
 
+TEST_F(RobotModelTest, ABaseThatCannotTurnInPlaceIsRefusedInPlainWords) {
+  EXPECT_EQ(refusal("min_turning_radius: 0.0\n"), "accepted");
+  EXPECT_EQ(
+      refusal("min_turning_radius: 0.45\n"),
+      (directory_ / "robots/test.yaml").string() +
+          ": min_turning_radius = 0.45 m: mocha_ugv plans for bases that turn in place (0 m); "
+          "car-like bases are not supported");
+  EXPECT_NE(refusal("min_turning_radius: -0.1\n").find("min_turning_radius = -0.1"),
+            std::string::npos);
+}
+
 TEST_F(RobotModelTest, AnEmergencyIsBetweenDrivingAndWhatTheWheelsCan) {
   const std::string limits = "max_acceleration: 1.0\nmax_wheel_acceleration: 2.0\n";
   for (const char* kept : {"1.0", "1.5", "2.0"})
