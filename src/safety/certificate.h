@@ -16,7 +16,8 @@ namespace mocha {
 // accepted holds; what is refused is violated or within rounding distance of it: 1 mm for
 // distances, a share of 1e-6 for limits.
 
-/// Speed, acceleration and yaw rate of drives; yaw rate and yaw acceleration of turns in place.
+/// Speed, acceleration, yaw rate and direction of drives; yaw rate and yaw acceleration of turns in
+/// place.
 Violation check_limits(const Motion& motion, const MotionLimits& limits, double from_s);
 
 /// What the footprint keeps to the obstacles of the field at a pose [m], never overstated; below 0

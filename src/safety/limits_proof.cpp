@@ -83,6 +83,7 @@ Earliest first_break(const DrivePiece& before, const DrivePiece& after) {
 }
 
 Earliest first_violation(const DrivePiece& piece, const MotionLimits& limits) {
+  if (piece.drive_direction < 0 && !limits.can_reverse) return {ViolatedTerm::kSpeedBackward, 0.0};
   Earliest first = first_excess(piece, limits.max_speed, limits.max_acceleration);
   for (const int side : {-1, 1}) {
     first.consider(ViolatedTerm::kYawRate,
@@ -124,6 +125,21 @@ double yaw_acceleration(const TurnPhase& turn, double t) {
          (turn.duration_s * turn.duration_s);
 }
 
+double limit_of(ViolatedTerm term, bool in_turn, const MotionLimits& limits) {
+  switch (term) {
+    case ViolatedTerm::kSpeed:
+      return limits.max_speed;
+    case ViolatedTerm::kSpeedBackward:
+      return 0.0;
+    case ViolatedTerm::kYawRate:
+      return limits.max_yaw_rate;
+    case ViolatedTerm::kWheelSpeed:
+      return limits.max_wheel_speed;
+    default:
+      return in_turn ? limits.max_yaw_acceleration : limits.max_acceleration;
+  }
+}
+
 /// The violation that begins at `t` in a phase, with the worst value of the stretch that begins
 /// there.
 Violation report(const Motion& motion, int phase, const MotionLimits& limits, const Earliest& first,
@@ -133,7 +149,8 @@ Violation report(const Motion& motion, int phase, const MotionLimits& limits, co
   const double end = motion.phase_start_time(phase) + duration_s(motion.phases()[phase]);
   const auto value_at = [&](double when) {
     const MotionState state = motion.at(when);
-    if (term == ViolatedTerm::kSpeed) return state.velocity.norm();
+    if (term == ViolatedTerm::kSpeed || term == ViolatedTerm::kSpeedBackward)
+      return state.velocity.norm();
     if (term == ViolatedTerm::kYawRate) return std::abs(state.yaw_rate);
     if (term == ViolatedTerm::kWheelSpeed) {
       return state.velocity.norm() + 0.5 * limits.track_m * std::abs(state.yaw_rate);
@@ -145,11 +162,7 @@ Violation report(const Motion& motion, int phase, const MotionLimits& limits, co
   violation.term = term;
   violation.time_s = t;
   violation.place = motion.position(t);
-  violation.limit = term == ViolatedTerm::kSpeed        ? limits.max_speed
-                    : term == ViolatedTerm::kYawRate    ? limits.max_yaw_rate
-                    : term == ViolatedTerm::kWheelSpeed ? limits.max_wheel_speed
-                    : turn                              ? limits.max_yaw_acceleration
-                                                        : limits.max_acceleration;
+  violation.limit = limit_of(term, turn != nullptr, limits);
   violation.value = first.jumps ? std::numeric_limits<double>::infinity()
                                 : worst_value(value_at, std::greater<>(), violation.limit, t, end);
   return violation;

@@ -29,6 +29,8 @@ Wording wording(ViolatedTerm term) {
       return {"clearance to space not seen free", "m", true, ""};
     case ViolatedTerm::kWheelSpeed:
       return {"wheel speed", "m/s", false, ""};
+    case ViolatedTerm::kSpeedBackward:
+      return {"speed backward", "m/s", false, ""};
     case ViolatedTerm::kNothing:
       break;
   }

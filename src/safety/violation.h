@@ -8,13 +8,14 @@ namespace mocha {
 /// What a motion violates.
 enum class ViolatedTerm {
   kNothing,
-  kClearance,     ///< [m] body to static obstacle
-  kSpeed,         ///< [m/s]
-  kAcceleration,  ///< [m/s^2] of the base, or [rad/s^2] of a turn in place
-  kYawRate,       ///< [rad/s]
-  kSeparation,    ///< [m] own disc to a moving obstacle's disc
-  kUnseenSpace,   ///< cannot stop inside space that was seen free
-  kWheelSpeed,    ///< [m/s] of the faster wheel
+  kClearance,      ///< [m] body to static obstacle
+  kSpeed,          ///< [m/s]
+  kAcceleration,   ///< [m/s^2] of the base, or [rad/s^2] of a turn in place
+  kYawRate,        ///< [rad/s]
+  kSeparation,     ///< [m] own disc to a moving obstacle's disc
+  kUnseenSpace,    ///< cannot stop inside space that was seen free
+  kWheelSpeed,     ///< [m/s] of the faster wheel
+  kSpeedBackward,  ///< [m/s] of a base that cannot drive backward
 };
 
 /// The first moment at which something that moves in D dimensions breaks a limit; false if there is

@@ -135,7 +135,8 @@ RobotModel load_robot_model(const std::string& config_directory, const std::stri
   robot.name = model;
   robot.limits = {values.number("max_speed"),       values.number("max_acceleration"),
                   values.number("max_yaw_rate"),    values.number("max_yaw_acceleration"),
-                  values.number("max_wheel_speed"), values.number("track")};
+                  values.number("max_wheel_speed"), values.number("track"),
+                  values.flag("can_reverse")};
   robot.max_wheel_acceleration = values.number("max_wheel_acceleration");
   robot.emergency_acceleration = values.number("emergency_acceleration");
   robot.actuator_lag_s = values.number("actuator_lag");

@@ -16,7 +16,8 @@ struct MotionLimits {
   double max_yaw_acceleration = 4.0;  ///< [rad/s^2] of turns in place
   /// [m/s] of the faster wheel's rim: |v| + track / 2 |omega|.
   double max_wheel_speed = std::numeric_limits<double>::infinity();
-  double track_m = 0.0;  ///< distance between left and right wheels
+  double track_m = 0.0;     ///< distance between left and right wheels
+  bool can_reverse = true;  ///< drives backward, too
 
   /// Whether the wheels can do the highest speed and the highest yaw rate together, so that their
   /// limit needs no attention of its own.

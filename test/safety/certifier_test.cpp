@@ -232,6 +232,20 @@ TEST_F(CertifierTest, APromiseInForceMayUseUpTheMarginOfTheMap) {
   EXPECT_TRUE(certified(ahead(), beside(margin_m - margins_.map_m - 0.005), renewal));
 }
 
+TEST_F(CertifierTest, NothingAllowsABaseThatCannotReverseToDriveBackward) {
+  RobotModel forward = robot_;
+  forward.limits.can_reverse = false;
+  const Motion back = within(random_drive(1, 5, -1), {0.95, 0.78, 1.45}, kNow_s);
+  for (const Name name :
+       {Name::kPlan, Name::kDetour, Name::kDetourLikely, Name::kEmergencyDetour, Name::kPromise,
+        Name::kPromiseLikely, Name::kRenewal, Name::kEmergency, Name::kEscape}) {
+    EXPECT_FALSE(certified(back, open(), requirements_[name])) << to_text(name);
+    EXPECT_EQ(certified(back, open(), Requirements(forward)[name]).term,
+              ViolatedTerm::kSpeedBackward)
+        << to_text(name);
+  }
+}
+
 /// What is promised today holds tomorrow: on all of its way, a promise is renewed in the same
 /// scene.
 TEST_F(CertifierTest, APromiseIsRenewedOnAllOfItsWay) {

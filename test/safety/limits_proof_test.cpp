@@ -357,6 +357,23 @@ TEST(LimitsProof, TurnsInPlace) {
   }
 }
 
+TEST(LimitsProof, ABaseThatCannotReverseIsHeldToDriveForward) {
+  MotionLimits limits = scaled(1.001);
+  limits.can_reverse = false;
+  for (int seed = 0; seed < 10; ++seed) {
+    EXPECT_FALSE(check_limits(within(random_drive(seed, 4, 1), kPeaks, 0.0), limits, 0.0)) << seed;
+    const Motion backward = within(random_drive(seed, 4, -1), kPeaks, 0.0);
+    const double from_s = 0.1 * seed;
+    const Violation violation = check_limits(backward, limits, from_s);
+    EXPECT_EQ(violation.term, ViolatedTerm::kSpeedBackward) << seed;
+    EXPECT_EQ(violation.time_s, from_s);
+    EXPECT_EQ(violation.limit, 0.0);
+    EXPECT_GT(violation.value, 0.1);
+    EXPECT_EQ(describe(violation).find("speed backward"), 0u) << describe(violation);
+    EXPECT_FALSE(check_limits(backward, limits, backward.end_time())) << "it is over";
+  }
+}
+
 TEST(LimitsProof, SaysWhatWhereWhenAndByHowMuch) {
   const Violation violation{ViolatedTerm::kSpeed, 12.5, {1.0, -2.0}, 1.25, 1.0, ""};
   EXPECT_EQ(describe(violation),

@@ -138,6 +138,13 @@ TEST_F(RobotModelTest, SaysWhatIsWrongWithCorners) {
   EXPECT_NE(refusal("footprint_discs: 3\n").find("gone"), std::string::npos);
 }
 
+TEST_F(RobotModelTest, ABaseReversesUnlessItsModelSaysOtherwise) {
+  EXPECT_TRUE(load("max_speed: 0.5\n").limits.can_reverse);
+  const RobotModel forward = load("can_reverse: false\n");
+  EXPECT_FALSE(forward.limits.can_reverse);
+  EXPECT_FALSE(forward.emergency_limits().can_reverse);
+}
+
 TEST_F(RobotModelTest, ABaseThatCannotTurnInPlaceIsRefusedInPlainWords) {
   EXPECT_EQ(refusal("min_turning_radius: 0.0\n"), "accepted");
   EXPECT_EQ(

@@ -25,6 +25,7 @@ static_assert(static_cast<int>(PlanReason::kPeerConflict) == Status::PEER_CONFLI
 static_assert(static_cast<int>(ViolatedTerm::kSeparation) == Status::SEPARATION);
 static_assert(static_cast<int>(ViolatedTerm::kUnseenSpace) == Status::UNSEEN_SPACE);
 static_assert(static_cast<int>(ViolatedTerm::kWheelSpeed) == Status::WHEEL_SPEED);
+static_assert(static_cast<int>(ViolatedTerm::kSpeedBackward) == Status::SPEED_BACKWARD);
 using ReplannerStatus = mocha_ugv::ReplannerStatus;
 static_assert(static_cast<int>(Row::kEmergencyStop) == ReplannerStatus::EMERGENCY_STOP);
 static_assert(static_cast<int>(Row::kDetourLikely) == ReplannerStatus::DETOUR_LIKELY);
@@ -89,7 +90,7 @@ Status to_message(PlanReason reason, const Violation& violation, const std::stri
 
 GoalExecutive::Report from_message(const Status& status) {
   if (status.reason > Status::PAUSED) throw std::invalid_argument("has a reason that is none");
-  if (status.violated > Status::WHEEL_SPEED)
+  if (status.violated > Status::SPEED_BACKWARD)
     throw std::invalid_argument("violates an unknown term");
   GoalExecutive::Report report;
   report.reason = static_cast<PlanReason>(status.reason);
