@@ -9,6 +9,7 @@ CommandLimiter::CommandLimiter(const RobotModel& robot)
     : max_wheel_speed_(robot.limits.max_wheel_speed),
       max_wheel_acceleration_(robot.max_wheel_acceleration),
       track_m_(robot.limits.track_m),
+      can_reverse_(robot.limits.can_reverse),
       deceleration_(robot.limits.max_acceleration),
       yaw_deceleration_(robot.limits.max_yaw_acceleration) {}
 
@@ -17,8 +18,9 @@ UnicycleState CommandLimiter::limit(const UnicycleState& wanted, double dt) {
   const double yaw_rate = std::clamp(wanted.yaw_rate, -max_yaw_rate, max_yaw_rate);
   const double max_speed = max_wheel_speed_ - 0.5 * track_m_ * std::abs(yaw_rate);
   const WheelSpeeds from = wheel_speeds(last_, track_m_);
+  const double min_speed = can_reverse_ ? -max_speed : 0.0;
   const WheelSpeeds to =
-      wheel_speeds({std::clamp(wanted.speed, -max_speed, max_speed), yaw_rate}, track_m_);
+      wheel_speeds({std::clamp(wanted.speed, min_speed, max_speed), yaw_rate}, track_m_);
   const double change = std::max(std::abs(to.left - from.left), std::abs(to.right - from.right));
   const double allowed = max_wheel_acceleration_ * dt;
   const double share = change > allowed ? allowed / change : 1.0;

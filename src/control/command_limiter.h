@@ -29,6 +29,7 @@ class CommandLimiter {
   double max_wheel_speed_;
   double max_wheel_acceleration_;
   double track_m_;
+  bool can_reverse_;
   double deceleration_;
   double yaw_deceleration_;
   UnicycleState last_ = {0.0, 0.0};

@@ -17,6 +17,7 @@ Vehicle::Vehicle(const RobotModel& model, const Pose& start)
     : max_wheel_speed_(model.limits.max_wheel_speed),
       max_wheel_acceleration_(model.max_wheel_acceleration),
       track_m_(model.limits.track_m),
+      can_reverse_(model.limits.can_reverse),
       lag_s_(model.actuator_lag_s),
       cmd_timeout_s_(model.cmd_timeout_s),
       pose_(start),
@@ -32,12 +33,13 @@ void Vehicle::command(double now_s, const Twist& twist) {
 
 Vehicle::Wheels Vehicle::wanted(double now_s) const {
   if (now_s - command_time_s_ > cmd_timeout_s_ + kTimeSlack_s) return {};
+  const double speed = can_reverse_ ? command_.speed : std::max(0.0, command_.speed);
   const double difference = 0.5 * track_m_ * command_.yaw_rate;
   // The faster wheel runs at the sum of both magnitudes; scaling both keeps the curvature.
-  const double fastest = std::abs(command_.speed) + std::abs(difference);
+  const double fastest = std::abs(speed) + std::abs(difference);
   const double scale = fastest > max_wheel_speed_ ? max_wheel_speed_ / fastest : 1.0;
   if (scale == 0.0) return {};  // absurd commands, whose sum is infinite
-  return {scale * (command_.speed - difference), scale * (command_.speed + difference)};
+  return {scale * (speed - difference), scale * (speed + difference)};
 }
 
 double Vehicle::followed(double speed, double wanted, double dt_s) const {

@@ -12,7 +12,8 @@ struct Twist {
 };
 
 /// A differential drive: commands become wheel speeds, which follow with a first-order lag within
-/// the wheels' limits. Nothing stops it but its wheels: obstacles do not push back.
+/// the wheels' limits; backward only where the model can. Nothing stops it but its wheels:
+/// obstacles do not push back.
 class Vehicle {
  public:
   Vehicle(const RobotModel& model, const Pose& start);
@@ -42,6 +43,7 @@ class Vehicle {
   double max_wheel_speed_;
   double max_wheel_acceleration_;
   double track_m_;
+  bool can_reverse_;
   double lag_s_;
   double cmd_timeout_s_;
   Pose pose_;

@@ -94,6 +94,20 @@ TEST(CommandLimiter, PrefersTheYawRate) {
   EXPECT_NEAR(command.speed, model.limits.max_wheel_speed - model.limits.track_m, 1e-9);
 }
 
+TEST(CommandLimiter, NeverDrivesABaseBackwardThatCannot) {
+  RobotModel model = closed_loop::rover();
+  model.limits.can_reverse = false;
+  CommandLimiter limiter(model);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> speed(-3.0, 3.0), yaw_rate(-12.0, 12.0);
+  for (int i = 0; i < 500; ++i)
+    EXPECT_GE(limiter.limit({speed(random), yaw_rate(random)}, 0.02).speed, -1e-12);
+  UnicycleState command{};
+  for (int i = 0; i < 200; ++i) command = limiter.limit({-1.0, 2.0}, 0.02);
+  EXPECT_NEAR(command.speed, 0.0, 1e-12);
+  EXPECT_NEAR(command.yaw_rate, 2.0, 1e-9) << "it still turns in place";
+}
+
 TEST(CommandLimiter, RampDownKeepsTheCurvature) {
   CommandLimiter limiter(closed_loop::rover());
   for (int i = 0; i < 100; ++i) limiter.limit({0.8, 0.4}, 0.02);

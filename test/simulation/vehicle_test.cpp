@@ -51,6 +51,19 @@ TEST(Vehicle, AcceleratesNoFasterThanItsWheels) {
   EXPECT_NEAR(vehicle.pose().position.x(), 0.25 + 1.5, 1e-9);
 }
 
+TEST(Vehicle, DoesNotDriveBackwardWhereItsModelCannot) {
+  RobotModel forward = model();
+  forward.limits.can_reverse = false;
+  Vehicle vehicle(forward, {});
+  drive(vehicle, {1.0, 0.0}, 0.0, 1.0);
+  const double reached_m = vehicle.pose().position.x();
+  drive(vehicle, {-1.0, 0.0}, 1.0, 3.0);
+  EXPECT_EQ(vehicle.twist().speed, 0.0);
+  EXPECT_GT(vehicle.pose().position.x(), reached_m);
+  drive(vehicle, {-1.0, 1.0}, 4.0, 1.0);
+  EXPECT_NEAR(vehicle.twist().yaw_rate, 1.0, 1e-9) << "it still turns in place";
+}
+
 TEST(Vehicle, ScalesBothWheelsSoThatTheCurvatureStays) {
   Vehicle vehicle(model(), {});
   drive(vehicle, {2.0, 4.0}, 0.0, 3.0);  // wants 1.2 and 2.8 m/s at the wheels
