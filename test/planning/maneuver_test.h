@@ -66,7 +66,7 @@ class ManeuverTest : public ::testing::Test {
                                           test::kRoverBraking);
   }
 
-  const RobotModel robot_;
+  RobotModel robot_;
   const Requirements requirements_{robot_};
 };
 

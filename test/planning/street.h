@@ -40,12 +40,15 @@ struct Walker {
   }
 };
 
-/// The closed loop of a rover among people, which are predicted from what they do at each step.
-/// Their true discs are watched every 10 ms.
+/// The closed loop of a rover (or another robot) among people, which are predicted from what they
+/// do at each step. Their true discs are watched every 10 ms.
 class Street {
  public:
-  Street(const OccupancyGrid& world, const Vector2& goal, std::vector<Walker> walkers = {})
-      : walkers(std::move(walkers)), loop(rover(), world, Vector2::Zero(), goal) {
+  Street(const OccupancyGrid& world, const Vector2& goal, std::vector<Walker> walkers = {},
+         const RobotModel& robot = rover())
+      : walkers(std::move(walkers)),
+        loop(robot, world, Vector2::Zero(), goal),
+        robot_radius_m_(robot.footprint.circumscribed_radius_m()) {
     begin_s_ = loop.now_s;
   }
 
@@ -94,6 +97,7 @@ class Street {
   std::mt19937 random;  ///< that the noise is drawn from
 
   double least_gap_m = std::numeric_limits<double>::infinity();  ///< between the true discs
+  double least_speed = 0.0;    ///< [m/s] along the heading; negative where it drove backward
   double contact_speed = 0.0;  ///< [m/s] at which the robot itself runs into a person, the highest
   int yaw_swings = 0;          ///< from turning one way to turning the other
   int swerves_tried = 0;
@@ -135,6 +139,7 @@ class Street {
     if (motion.empty()) return;
     for (double later_s = 0.0; later_s < ClosedLoop::kStep_s - 1e-6; later_s += 0.01) {
       const MotionState state = motion.at(loop.now_s + later_s);
+      least_speed = std::min(least_speed, state.speed);
       for (const Walker& walker : walkers) {
         if (t() + later_s < walker.appears_s) continue;
         const Vector2 apart = walker.place(t() + later_s) - state.pose.position;
@@ -150,7 +155,7 @@ class Street {
     }
   }
 
-  const double robot_radius_m_ = rover().footprint.circumscribed_radius_m();
+  const double robot_radius_m_;
   double begin_s_;
   double swerved_s_ = -10.0;
   int turns_ = 0;

@@ -13,6 +13,12 @@ namespace {
 /// A rover with a perfect tracker, and peers of which the test makes what they promise.
 class RobotStackTest : public ::testing::Test {
  protected:
+  explicit RobotStackTest(const RobotModel& robot = rover())
+      : stack_("ugv1", robot,
+               {ParameterTable::from_schema("config/global_planner.yaml"),
+                ParameterTable::from_schema("config/local_replanner.yaml")},
+               protocol_) {}
+
   RobotState state() const {
     if (stack_.committed().empty()) return {now_s_, {{0.0, 0.0}, 0.0}, {0.0, 0.0}};
     const MotionState at = stack_.committed().at(now_s_);
@@ -42,11 +48,18 @@ class RobotStackTest : public ::testing::Test {
   double now_s_ = 1.7e9;
   LocalScene scene_ = scene_of(free_grid({-2.0, -3.0}, {12.0, 3.0}));
   LateAnswers protocol_;
-  RobotStack stack_{"ugv1",
-                    rover(),
-                    {ParameterTable::from_schema("config/global_planner.yaml"),
-                     ParameterTable::from_schema("config/local_replanner.yaml")},
-                    protocol_};
+  RobotStack stack_;
+};
+
+RobotModel forward_rover() {
+  RobotModel robot = rover();
+  robot.limits.can_reverse = false;
+  return robot;
+}
+
+class ForwardRobotStackTest : public RobotStackTest {
+ protected:
+  ForwardRobotStackTest() : RobotStackTest(forward_rover()) {}
 };
 
 TEST_F(RobotStackTest, DrivesToItsGoal) {
@@ -55,6 +68,16 @@ TEST_F(RobotStackTest, DrivesToItsGoal) {
   EXPECT_TRUE(stack_.idle());
   EXPECT_LT((state().pose.position - Vector2(9.0, 0.0)).norm(), 0.15);
   EXPECT_EQ(stack_.counts().lease_stops, 0);
+}
+
+TEST_F(ForwardRobotStackTest, TurnsToAGoalBehindAndNeverDrivesBackward) {
+  set_off();
+  stack_.take({Goal{{0.0, 0.0}, std::nullopt}}, now_s_);
+  for (int i = 0; i < 300 && !stack_.idle(); ++i) {
+    step();
+    ASSERT_GE(state().twist.speed, 0.0);
+  }
+  EXPECT_LT((state().pose.position - Vector2(0.0, 0.0)).norm(), 0.15);
 }
 
 /// The newest map of the local replanner has a wall that the planner does not know of.

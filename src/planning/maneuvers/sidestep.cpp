@@ -39,11 +39,12 @@ DrivePhase straight(const Pose& from, double direction, double length_m,
   return {direction > 0.0 ? 1 : -1, PlanarPath({piece}, {duration_s})};
 }
 
-/// Turns by the smaller angle, so that either the front or the back points to the place.
+/// Turns by the smaller angle, so that either the front or the back points to the place; always the
+/// front, where the robot cannot drive backward.
 std::vector<Phase> step_to(const Pose& from, const Vector2& place, const MotionLimits& limits) {
   const Vector2 path = place - from.position;
   const double ahead = wrap_angle(std::atan2(path.y(), path.x()) - from.yaw_rad);
-  const double direction = std::abs(ahead) <= 0.5 * M_PI ? 1.0 : -1.0;
+  const double direction = std::abs(ahead) <= 0.5 * M_PI || !limits.can_reverse ? 1.0 : -1.0;
   const double change = direction > 0.0 ? ahead : wrap_angle(ahead + M_PI);
   Pose faced = from;
   std::vector<Phase> phases;

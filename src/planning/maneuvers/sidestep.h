@@ -5,8 +5,9 @@
 namespace mocha {
 
 /// Motions that brake where need be and then step aside, out of the way of what moves, to rest: a
-/// turn in place and a straight drive, forward or backward, to a place within two metres that stays
-/// free. The most promising first, some ten of them at most; all of them are settled.
+/// turn in place and a straight drive, forward or (where it can) backward, to a place within two
+/// metres that stays free. The most promising first, some ten of them at most; all of them are
+/// settled.
 Maneuvers sidesteps(const ManeuverStart& start);
 
 /// The same within the limits of an emergency; those that bind at once come with them where no peer

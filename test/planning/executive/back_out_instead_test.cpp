@@ -11,7 +11,8 @@ const std::vector<Vector2> kTrail = {{-2.0, 0.0}, {-1.5, 0.0}, {-1.0, 0.0}, {-0.
 
 /// What becomes of a failure of that kind, for a robot that came along a trail.
 PlanResult instead_of(PlanReason reason, const Motion& committed, bool leads_on,
-                      const std::vector<Vector2>& trail = kTrail) {
+                      const std::vector<Vector2>& trail = kTrail,
+                      const MotionLimits& limits = rover().limits) {
   PlanQuery query;
   query.committed = committed;
   query.start_time_s = 4.0;
@@ -20,7 +21,7 @@ PlanResult instead_of(PlanReason reason, const Motion& committed, bool leads_on,
   PlanResult result;
   result.reason = reason;
   result.message = "no path";
-  back_out_instead(query, trail, 1.0, rover().limits, planner, result);
+  back_out_instead(query, trail, 1.0, limits, planner, result);
   return result;
 }
 
@@ -53,6 +54,11 @@ TEST(BackOutInstead, AFailureStaysOneWhereTheRobotMovesOrCannotBackOut) {
   EXPECT_EQ(instead_of(PlanReason::kNoPath, kRest, false).reason, PlanReason::kNoPath);
   EXPECT_EQ(instead_of(PlanReason::kNoPath, kRest, true, {}).reason, PlanReason::kNoPath)
       << "it does not know where it came from";
+  MotionLimits forward = rover().limits;
+  forward.can_reverse = false;
+  EXPECT_EQ(instead_of(PlanReason::kNoPath, kRest, true, kTrail, forward).reason,
+            PlanReason::kNoPath)
+      << "it cannot drive backward";
 }
 
 }  // namespace

@@ -135,6 +135,20 @@ TEST_F(GlobalPlannerTest, BrakesFirstWhereTheGoalLiesBehind) {
   EXPECT_TRUE(std::holds_alternative<TurnPhase>(result.motion.phases()[1]));
 }
 
+TEST_F(GlobalPlannerTest, ARobotThatCannotReverseTurnsToAGoalBehind) {
+  RobotModel robot = robot_;
+  robot.limits.can_reverse = false;
+  const GlobalPlanner planner(robot, default_options());
+  const PlanQuery query = from_standing({8.0, 0.0}, 0.0, {0.0, 0.0});
+  const PlanResult result = planner.plan(query, {static_map_of(open_), {}}, kGoOn);
+  expect_certified(result, query, open_);
+  const Violation limits = check_limits(result.motion, robot.limits, kStart_s);
+  EXPECT_FALSE(limits) << describe(limits);
+  ASSERT_EQ(result.motion.phases().size(), 2u);
+  EXPECT_TRUE(std::holds_alternative<TurnPhase>(result.motion.phases()[0]));
+  EXPECT_EQ(std::get<DrivePhase>(result.motion.phases()[1]).direction, 1);
+}
+
 TEST_F(GlobalPlannerTest, ReachesTheHeadingAskedFor) {
   for (const double yaw_rad : {0.0, 1.5, M_PI, -2.0}) {
     PlanQuery query = from_standing({0.0, 0.0}, 0.4, {5.0, 1.0});

@@ -67,5 +67,11 @@ TEST(BackOut, IsNothingWithoutATrailOrWhereTheRobotDidNotComeFromBehind) {
   EXPECT_FALSE(back_out_along(trail, {{0.0, 0.0}, M_PI / 2}, 0.0, 1.0, kLimits));
 }
 
+TEST(BackOut, IsNothingForARobotThatCannotReverse) {
+  MotionLimits limits = kLimits;
+  limits.can_reverse = false;
+  EXPECT_FALSE(back_out_along(straight_trail(3.0), {{0.0, 0.0}, 0.0}, 0.0, 1.0, limits));
+}
+
 }  // namespace
 }  // namespace mocha

@@ -142,6 +142,23 @@ TEST_P(SidestepTest, GoesBackwardWhereThatIsTheWay) {
     EXPECT_FALSE(check_clearance(motion, robot_.footprint, *walls.obstacles, 0.0, kNow_s));
 }
 
+TEST_P(SidestepTest, OfARobotThatCannotReverseAllTurnAndGoForward) {
+  const LocalScene scene = with(open_, {1.2, 0.0}, {-0.1, 0.0});
+  robot_.limits.can_reverse = false;
+  for (const bool hard : {false, true}) {
+    const ManeuverStart start = start_of(stands_, scene, kNow_s);
+    const Maneuvers found = hard ? hard_sidesteps(start) : sidesteps(start);
+    ASSERT_FALSE(found.empty());
+    double least_x = 0.0;
+    for (const Maneuver& each : found) {
+      const Violation violation = check_limits(each.motion, robot_.emergency_limits(), kNow_s);
+      EXPECT_FALSE(violation) << describe(violation);
+      least_x = std::min(least_x, each.motion.end_pose().position.x());
+    }
+    EXPECT_LT(least_x, -0.1) << "also to where the robot had its back";
+  }
+}
+
 TEST_P(SidestepTest, StandsFreeAtTheEnd) {
   OccupancyGrid pillars = open_;
   for (int i = 0; i < 6; ++i)
