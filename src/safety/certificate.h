@@ -22,8 +22,7 @@ Violation check_limits(const Motion& motion, const MotionLimits& limits, double 
 
 /// What the footprint keeps to the obstacles of the field at a pose [m], never overstated; below 0
 /// where it overlaps them, or its cover does.
-double clearance_bound_m(const Pose& pose, const Footprint& footprint,
-                         const ObstacleField<2>& field);
+double clearance_m(const Pose& pose, const Footprint& footprint, const ObstacleField<2>& field);
 
 /// The footprint's cover discs keep `margin_m` >= 0 to all obstacles of the field, until `until_s`.
 Violation check_clearance(const Motion& motion, const Footprint& footprint,

@@ -36,8 +36,9 @@ Violation certify(const Motion& motion, const Footprint& footprint, const Scene&
                                             requirement.obstacle_margin_m, requirement.leaving,
                                             from_s));
   if (requirement.unseen_margin_m) {
-    Violation unseen = check_clearance_or_leaving(motion, footprint, *scene.unseen,
-                                                  *requirement.unseen_margin_m, Leaving{}, from_s);
+    Violation unseen =
+        check_clearance_or_leaving(motion, footprint, *scene.unseen, *requirement.unseen_margin_m,
+                                   requirement.leaving, from_s);
     if (unseen) unseen.term = ViolatedTerm::kUnseenSpace;
     first.consider(unseen);
   }

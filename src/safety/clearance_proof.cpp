@@ -104,8 +104,7 @@ class Keepout {
   /// How far the discs move in the interval, at most.
   double sweep_m(const Sweep& sweep) const { return moved_m(sweep, arm_m_); }
 
-  /// Clearance at one pose [m], never overstated.
-  double clearance_m(const Pose& pose) const { return clearance_bound_m(pose, footprint_, field_); }
+  double clearance_at(const Pose& pose) const { return clearance_m(pose, footprint_, field_); }
 
   double margin_m() const { return margin_m_; }
 
@@ -144,7 +143,7 @@ std::optional<double> first_contact(const Motion& motion, int phase, const Keepo
 
 /// The violation that begins at `t`, with the least clearance of the stretch that begins there.
 Violation report(const Motion& motion, const Keepout& keepout, double t) {
-  const auto value = [&](double when) { return keepout.clearance_m(motion.at(when).pose); };
+  const auto value = [&](double when) { return keepout.clearance_at(motion.at(when).pose); };
   Violation violation;
   violation.term = ViolatedTerm::kClearance;
   violation.time_s = t;
@@ -157,8 +156,7 @@ Violation report(const Motion& motion, const Keepout& keepout, double t) {
 
 }  // namespace
 
-double clearance_bound_m(const Pose& pose, const Footprint& footprint,
-                         const ObstacleField<2>& field) {
+double clearance_m(const Pose& pose, const Footprint& footprint, const ObstacleField<2>& field) {
   return footprint.cover().least([&](const CoverDisc& disc) {
     return field.distance_bound(cover_centre(pose, disc)) - disc.radius_m;
   });

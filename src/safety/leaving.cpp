@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace mocha {
@@ -18,8 +19,6 @@ constexpr double kPeersOverstated_m = 0.05;
 // A leaving robot is looked at after so much way, or when a corner has turned so far.
 constexpr double kStage_m = 0.02;
 constexpr double kTurned_m = 0.005;
-constexpr double kFirst_m = 0.3;  // of way; then it has the floor
-constexpr double kAll_m = 1.0;    // and then all of its margin
 
 /// Where a leaving robot is looked at.
 struct Stage {
@@ -32,13 +31,13 @@ struct Stage {
 double required_gap_m(const std::vector<Stage>& stages, double margin_m, const Leaving& leaving) {
   constexpr double kRounding_m = 1e-9;
   const double way_m = stages.back().way_m + kRounding_m;
-  if (way_m >= kAll_m) return margin_m;
-  double required_m = way_m >= kFirst_m ? std::min(leaving.floor_m, margin_m) : stages[0].gap_m;
+  if (way_m >= leaving.way_m) return margin_m;
+  double required_m = -std::numeric_limits<double>::infinity();
   for (const Stage& stage : stages) {
-    const double share = (way_m - stage.way_m) / kAll_m;
-    required_m = std::max(required_m, stage.gap_m + share * share * (margin_m - stage.gap_m));
+    required_m =
+        std::max(required_m, leaving.required_m(stage.gap_m, way_m - stage.way_m, margin_m));
   }
-  return std::min(required_m, margin_m);
+  return required_m;
 }
 
 /// The stage after this one, the motion's end at the latest; `arm_m` is that of a corner.
@@ -71,7 +70,7 @@ Violation check_clearance_or_leaving(const Motion& motion, const Footprint& foot
   const Violation strict = check_clearance(motion, footprint, field, margin_m, from_s);
   if (!strict) return strict;
   const auto gap_at = [&](double t) {
-    return clearance_bound_m(motion.at(t).pose, footprint, field) - kSlack_m;
+    return clearance_m(motion.at(t).pose, footprint, field) - kSlack_m;
   };
   std::vector<Stage> stages = {{std::max(from_s, motion.start_time()), 0.0, gap_at(from_s)}};
   if (stages[0].gap_m >= margin_m || stages[0].gap_m + kSlack_m <= -kCellsOverstated_m)
@@ -80,7 +79,7 @@ Violation check_clearance_or_leaving(const Motion& motion, const Footprint& foot
   for (;;) {
     const Stage& here = stages.back();
     const double required_m = required_gap_m(stages, margin_m, leaving);
-    if (required_m >= margin_m)
+    if (required_m >= margin_m || here.gap_m >= margin_m)
       return check_clearance(motion, footprint, field, margin_m, here.time_s);
     Stage next = stage_after(here, motion, arm_m);
     const Violation closer =

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "safety/certificate.h"
 
 namespace mocha {
@@ -8,13 +10,21 @@ namespace mocha {
 // peer stopped near by.
 
 /// How a motion that begins closer to obstacles than its margin may go on: the gap grows along the
-/// way as on an arc that leaves a wall, with the square of the way, to all of the margin after a
-/// metre. That is asked from every place of the way on, and of every turn in place; so room that
-/// was gained is never lost, and what is certified once is certified at every later moment, too.
+/// way, as on an arc that leaves a wall, with the square of the way. That is asked from every place
+/// of the way on, and of every turn in place; so room that was gained is never lost, and what is
+/// certified once is certified at every later moment, too.
 struct Leaving {
-  /// The gap [m] that it has to have after 0.3 m already: the tracking error, below which a
-  /// contact cannot be excluded.
-  double floor_m = 0.0;
+  /// What a gap may lose [m]: a body beside a wall cannot turn away from it with less.
+  static constexpr double kTurnAway_m = 0.006;
+
+  double way_m = 1.0;  ///< after which the gap is the margin; above 0
+
+  /// The gap [m] to have `way_m` after a place where it was `gap_m`.
+  double required_m(double gap_m, double after_m, double margin_m) const {
+    const double share = std::min(after_m / way_m, 1.0);
+    const double least_m = std::min(gap_m - kTurnAway_m, margin_m);
+    return least_m + share * share * (margin_m - least_m);
+  }
 };
 
 /// Clearance as check_clearance() proves it, with that exception. It does not hold for a robot

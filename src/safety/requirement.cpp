@@ -12,6 +12,9 @@ constexpr double kShareOfTrigger = 0.75;  // of the same, below which paper (37)
 // soon as they do.
 constexpr double kReserve_s = 1.0;
 constexpr double kHorizon_s = 10.0;  // of what never comes to rest
+// A body that begins too close has the margin after so many times its reach about the base: a long
+// one has to go farther until it can turn away from a wall.
+constexpr double kLeavingReaches = 6.0;
 
 }  // namespace
 
@@ -78,7 +81,7 @@ Requirements::Requirements(const RobotModel& robot) {
   Requirement plan;
   plan.limits = robot.limits;
   plan.obstacle_margin_m = margins.static_margin_m();
-  plan.leaving = Leaving{margins.tracking_m};
+  plan.leaving = Leaving{kLeavingReaches * robot.footprint.circumscribed_radius_m()};
   at(Name::kPlan) = plan;
 
   Requirement detour = plan;

@@ -136,7 +136,7 @@ class ClosedLoop {
       true_cells_ = world.cells;
       true_field_ = occupied_field(world);
     }
-    return clearance_bound_m(pose_, robot_.footprint, *true_field_);
+    return mocha::clearance_m(pose_, robot_.footprint, *true_field_);
   }
 
   double footprint_radius_m() const { return robot_.footprint.circumscribed_radius_m(); }

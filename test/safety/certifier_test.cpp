@@ -93,8 +93,8 @@ std::vector<OneField> one_by_one(const Scene& open) {
   add("unseen_margin_m", ahead(), ViolatedTerm::kUnseenSpace, [](Requirement& r) {
     r.unseen_margin_m.reset();
   }).unseen = field({{{4.0, 0.0}, 0.5}});
-  add("leaving", straight_drive(kNow_s, {0.0, 0.0}, -0.1, 4.0, 0.9, 0.5), ViolatedTerm::kClearance,
-      [](Requirement& r) { r.leaving = Leaving{}; })
+  add("leaving", straight_drive(kNow_s, {0.0, 0.0}, -0.02, 4.0, 0.9, 0.5), ViolatedTerm::kClearance,
+      [](Requirement& r) { r.leaving.way_m = 20.0; })
       .obstacles = field({{{0.0, 1000.32}, 1000.0}});
   add("peer_distance_m", ahead(), ViolatedTerm::kSeparation, [](Requirement& r) {
     r.peer_distance_m.reset();

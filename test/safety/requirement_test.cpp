@@ -39,7 +39,7 @@ bool asks_no_more(const Requirement& less, const Requirement& more) {
   return acceleration_of(less) >= acceleration_of(more) &&
          less.obstacle_margin_m <= more.obstacle_margin_m &&
          of(less.unseen_margin_m) <= of(more.unseen_margin_m) &&
-         less.leaving.floor_m <= more.leaving.floor_m &&
+         less.leaving.way_m >= more.leaving.way_m &&
          of(less.peer_distance_m) <= of(more.peer_distance_m) &&
          of(less.predicted_distance_m) <= of(more.predicted_distance_m) &&
          less.course >= more.course && less.reserve_s >= more.reserve_s;
@@ -97,7 +97,8 @@ TEST_P(RequirementsTest, TheMarginsAreThoseOfTheBudget) {
     const double map_m = name == Name::kRenewal ? margins_.map_m : 0.0;
     EXPECT_NEAR(required.obstacle_margin_m, margins_.static_margin_m() - map_m, 1e-12)
         << to_text(name);
-    EXPECT_EQ(required.leaving.floor_m, margins_.tracking_m) << to_text(name);
+    EXPECT_EQ(required.leaving.way_m, 6.0 * robot_.footprint.circumscribed_radius_m())
+        << to_text(name);
   }
   const double people_m = *requirements_[Name::kPromise].predicted_distance_m;
   EXPECT_NEAR(people_m, body_m_ + margins_.own_margin_m() + robot_.moving_clearance_m, 1e-12);

@@ -7,6 +7,7 @@
 
 #include "planning/candidates/path_clearance.h"
 #include "planning/candidates/peer_discs.h"
+#include "planning/global/parking_out.h"
 #include "trajectory/stopping.h"
 #include "world/margin_budget.h"
 
@@ -120,15 +121,30 @@ GlobalSeeds FrontEnd::seeds(const PlanQuery& query, const PlanningScene& scene,
 GlobalSeeds FrontEnd::after_braking(const PlanQuery& query, const PlanningScene& scene,
                                     const Vector2& goal) const {
   if (query.committed.at(query.start_time_s).at_rest) return {};
-  const std::vector<Phase> brake =
-      brake_along(query.committed, query.start_time_s, Braking(rest_acceleration(robot_.limits)));
-  const Motion stop(query.start_time_s, brake);
+  return after(
+      brake_along(query.committed, query.start_time_s, Braking(rest_acceleration(robot_.limits))),
+      query, scene, goal);
+}
+
+GlobalSeeds FrontEnd::after_parking_out(const PlanQuery& query, const PlanningScene& scene,
+                                        const Vector2& goal) const {
+  const MotionState start = query.committed.at(query.start_time_s);
+  if (!start.at_rest) return {};
+  const std::vector<Phase> way_out =
+      park_out(start.pose, robot_, *scene.static_map, options_.travel);
+  if (way_out.empty()) return {};
+  return after(way_out, query, scene, goal);
+}
+
+GlobalSeeds FrontEnd::after(const std::vector<Phase>& before, const PlanQuery& query,
+                            const PlanningScene& scene, const Vector2& goal) const {
+  const Motion lead_in(query.start_time_s, before);
   HomotopyPaths found =
-      paths(path_of(stop, query.start_time_s, robot_.limits.max_speed), query, scene, goal);
+      paths(path_of(lead_in, query.start_time_s, robot_.limits.max_speed), query, scene, goal);
   GlobalSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
   for (const HomotopyPath& path : found.paths) {
     result.list.push_back(seed_of(
-        path, start_maneuvers_.from_rest(brake, stop.end_pose(), path.points), result.driven));
+        path, start_maneuvers_.from_rest(before, lead_in.end_pose(), path.points), result.driven));
   }
   return result;
 }

@@ -36,6 +36,10 @@ class FrontEnd {
   GlobalSeeds after_braking(const PlanQuery& query, const PlanningScene& scene,
                             const Vector2& goal) const;
 
+  /// Those after a way out of a tight place, for a robot that rests in one; else none.
+  GlobalSeeds after_parking_out(const PlanQuery& query, const PlanningScene& scene,
+                                const Vector2& goal) const;
+
   /// Whether there is any path, team-mates aside.
   bool reaches(const Vector2& start, const Vector2& goal, const StaticMap& static_map) const;
 
@@ -50,6 +54,9 @@ class FrontEnd {
  private:
   HomotopyPaths paths(std::vector<Vector2> lead_in, const PlanQuery& query,
                       const PlanningScene& scene, const Vector2& goal) const;
+  /// Those from where what comes before ends at rest.
+  GlobalSeeds after(const std::vector<Phase>& before, const PlanQuery& query,
+                    const PlanningScene& scene, const Vector2& goal) const;
   /// What the path costs is at least the time that its least length takes at the robot's limits of
   /// speed and acceleration.
   Seed seed_of(const HomotopyPath& path, std::vector<StartManeuver> start_maneuvers,

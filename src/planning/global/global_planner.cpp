@@ -145,8 +145,9 @@ PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scen
   result.goal = *goal;
   run(query, front_end_.seeds(query, scene, *goal), scene, should_stop, result);
   if (result.reason == PlanReason::kSolved) return result;
-  if (!start.at_rest) {
-    run(query, front_end_.after_braking(query, scene, *goal), scene, should_stop, result);
+  for (const auto& other_start : {&FrontEnd::after_braking, &FrontEnd::after_parking_out}) {
+    const GlobalSeeds seeds = (front_end_.*other_start)(query, scene, *goal);
+    if (!seeds.list.empty()) run(query, seeds, scene, should_stop, result);
     if (result.reason == PlanReason::kSolved) return result;
   }
   if (!result.candidates.empty()) return result;

@@ -249,7 +249,7 @@ TEST_F(GlobalPlannerTest, StandingInAWallIsNamed) {
   EXPECT_TRUE(result.motion.empty());
 }
 
-TEST_F(GlobalPlannerTest, BacksOutOfADeadEndTheWayItCame) {
+TEST_F(GlobalPlannerTest, BacksOutOfADeadEnd) {
   OccupancyGrid grid = open_;
   // A corridor closed at its end; too narrow to turn in for a robot with a long footprint.
   fill_box(grid, {0.0, 0.42}, {4.0, 0.62});
@@ -260,9 +260,16 @@ TEST_F(GlobalPlannerTest, BacksOutOfADeadEndTheWayItCame) {
   const GlobalPlanner planner(robot, default_options());
   PlanQuery query = from_standing({3.2, 0.0}, 0.0, {8.0, 0.0});
   const PlanningScene scene{static_map_of(grid), {}};
-  const PlanResult stuck = planner.plan(query, scene, kGoOn);
+  const PlanResult backs_out = planner.plan(query, scene, kGoOn);
+  ASSERT_EQ(backs_out.reason, PlanReason::kSolved) << backs_out.message;
+  EXPECT_EQ(std::get<DrivePhase>(backs_out.motion.phases().front()).direction, -1);
+  EXPECT_FALSE(check_clearance(backs_out.motion, robot.footprint, scene.static_map->field(),
+                               MarginBudget::of(robot).static_margin_m(), kStart_s));
+  robot.limits.can_reverse = false;
+  const PlanResult stuck = GlobalPlanner(robot, default_options()).plan(query, scene, kGoOn);
   EXPECT_NE(stuck.reason, PlanReason::kSolved);
-  EXPECT_TRUE(stuck.motion.empty());  // that is for the goal executive to decide
+  EXPECT_TRUE(stuck.motion.empty());
+  robot.limits.can_reverse = true;
   std::vector<Vector2> trail;
   for (double x = -1.0; x < 3.2; x += 0.1) trail.push_back({x, 0.01 * std::sin(5.0 * x)});
   const auto back = back_out_along(trail, {{3.2, 0.0}, 0.0}, kStart_s, 1.0, robot.limits);

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "topology/static_map/static_map.h"
+#include "topology/static_map/travel_cost.h"
+#include "trajectory/motion.h"
+#include "world/robot_model.h"
+
+namespace mocha {
+
+/// Drives and turns by which a robot that rests at `start` gets to where it can turn round on the
+/// spot, as near as can be; from rest to rest, slowly. Empty where it can turn round already, and
+/// where no way out is found. `travel` says where the base may be on the map.
+std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const StaticMap& static_map,
+                            const TravelOptions& travel);
+
+}  // namespace mocha

