@@ -8,14 +8,14 @@
 namespace mocha {
 namespace {
 
-/// But for knots close to where a drive was cut, which are left out.
-void expect_same(const Motion& a, const Motion& b) {
+void expect_same(const Motion& a, const Motion& b, double position_m = 1e-9,
+                 double velocity_mps = 1e-8) {
   ASSERT_EQ(a.phases().size(), b.phases().size());
   EXPECT_NEAR(a.end_time(), b.end_time(), 1e-9);
   for (int i = 0; i <= 1000; ++i) {
     const double t = a.start_time() + (a.end_time() - a.start_time()) * i / 1000.0;
-    EXPECT_LT((a.at(t).pose.position - b.at(t).pose.position).norm(), 1e-6) << t;
-    EXPECT_LT((a.at(t).velocity - b.at(t).velocity).norm(), 1e-5) << t;
+    EXPECT_LT((a.at(t).pose.position - b.at(t).pose.position).norm(), position_m) << t;
+    EXPECT_LT((a.at(t).velocity - b.at(t).velocity).norm(), velocity_mps) << t;
     EXPECT_NEAR(wrap_angle(a.at(t).pose.yaw_rad - b.at(t).pose.yaw_rad), 0.0, 1e-5) << t;
   }
 }
@@ -36,7 +36,8 @@ TEST(Descriptor, RebuildsSlices) {
     for (const double share : {0.05, 0.37, 0.8}) {
       const double t = share * motion.end_time();
       const Motion part(t, motion.phases_between(t, motion.end_time()));
-      expect_same(part, rebuild(describe(part)));
+      // A knot close to the cut may be left out.
+      expect_same(part, rebuild(describe(part)), 1e-6, 1e-5);
     }
   }
 }

@@ -130,7 +130,7 @@ GoalExecutive::Output GoalExecutive::step(double now_s, const RobotState& measur
 }
 
 GoalExecutive::Ending GoalExecutive::note_arrival(const Input& input) {
-  // To make room is no lack of progress, nor is a pause.
+  // Making room and pausing do not count as lack of progress.
   if (errand_.pull_over || state_ == S::kPaused) goals_.wait(input.now_s);
   if (state_ == S::kPaused) return Ending::kNone;
   switch (goals_.update(input.now_s, input.measured)) {

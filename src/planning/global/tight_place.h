@@ -17,7 +17,7 @@ struct Stretch {
 /// Where a stretch that begins at `pose` leads after a share of it, from 0 to 1.
 Pose along(const Pose& pose, const Stretch& stretch, double share);
 
-/// Where a robot stands that can neither turn round nor set off. Map frame.
+/// The place of a robot that can neither turn round nor set off. Map frame.
 struct TightPlace {
   Pose start;
   double reach_m;   ///< of the body about the base
