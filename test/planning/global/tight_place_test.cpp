@@ -154,13 +154,17 @@ TEST_P(TightPlaceTest, LeavesAWallForwardWhereItCannotReverse) {
   ASSERT_FALSE(way.empty());
   for (const Stretch& stretch : way) EXPECT_GE(stretch.length_m, 0.0);
   EXPECT_TRUE(tight.is_out(driven(tight, way).end));
-  // Nose to it, long bodies cannot turn: in a slot of their width only the way back is left.
-  const Wall right{{1.0, 0.0}, 0.5 * body_.width_m + 0.02};
-  const Wall left{{-1.0, 0.0}, 0.5 * body_.width_m + 0.02};
-  TightPlace slot =
-      beside(body_, {kBelow, right, left}, {{0.0, 0.5 * body_.length_m + 0.02}, -0.5 * M_PI});
+}
+
+TEST_P(TightPlaceTest, StaysInASlotWhereItCannotReverse) {
+  // Nose in; there is no room to turn.
+  const double half_m = 0.5 * body_.width_m + body_.margin_m + 0.005;
+  TightPlace slot = beside(body_, {kBelow, {{1.0, 0.0}, half_m}, {{-1.0, 0.0}, half_m}},
+                           {{0.0, 0.5 * body_.length_m + body_.margin_m + 0.005}, -0.5 * M_PI});
+  slot.is_out = [](const Pose& pose) { return pose.position.y() > 1.5; };
+  slot.exit = {0.0, 1.5};
+  EXPECT_FALSE(find_way_out(slot, kMaxExpansions).empty());
   slot.can_reverse = false;
-  slot.is_out = [](const Pose& pose) { return pose.position.y() > 2.0; };
   EXPECT_TRUE(find_way_out(slot, kMaxExpansions).empty());
 }
 
