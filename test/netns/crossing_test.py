@@ -17,14 +17,15 @@ class CrossingTest(unittest.TestCase):
     def test_robots_that_cross_keep_apart(self):
         key = new_key("netns_logs/fleet.key")
         with SeparateFleet(WORLD, list(GOALS), "netns_logs/crossing", dict.fromkeys(GOALS, key), NETWORK) as fleet:
-            for robot, peer in (fleet.robots, reversed(fleet.robots)):
-                self.assertIn(peer.name, robot.peers, "they do not hear each other")
+            pairs = (fleet.robots, fleet.robots[::-1])
+            fleet.run_until(lambda: all(peer.name in robot.peers for robot, peer in pairs), 10.0, "they hear each other")
+            for robot, _ in pairs:
                 robot.send(*GOALS[robot.name])
             fleet.run_until(lambda: all(robot.stands_at(*GOALS[robot.name]) for robot in fleet.robots), 60.0, "both arrive")
             self.assertEqual([robot.truth.contacts for robot in fleet.robots], [0, 0])
             self.assertGreaterEqual(fleet.min_separation_m, SEPARATION_M)
             fleet.run(3.0)
-            for robot, peer in (fleet.robots, reversed(fleet.robots)):
+            for robot, peer in pairs:
                 self.assertEqual(str(robot.peers[peer.name].sequence), peer.diagnosis["binding sequence"])
             for name, count in fleet.relay.tell(fleet.now).items():
                 self.assertAlmostEqual(count["lost"] / (count["lost"] + count["delivered"]), NETWORK["loss"], delta=0.05, msg=name)

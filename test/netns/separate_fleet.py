@@ -23,6 +23,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 LCM_URL = "udpm://239.255.76.67:7667?ttl=1"
 DELTA_DC_S = 0.25  # longer than any message takes in these tests
 ACK_TIMEOUT_S = 3.0  # [wall] after which the simulator goes on without a robot
+STACK_NODES = ("perception", "global_planner", "local_replanner", "trajectory_broadcaster", "trajectory_tracker")
 CHUNK_S = 0.1  # of simulated time between two looks at a condition
 STUCK_WALL_S = 60.0
 STANDING_MPS, STANDING_RADPS = 0.03, 0.05
@@ -44,13 +45,12 @@ class Robot:
     def __init__(self, name):
         self.name = name
         self.truth = None
-        self.acked_s = 0.0  # newest step that all its nodes have done
         self.peers = {}  # name -> newest binding Trajectory that it knows
         self.diagnosis = {}  # of its broadcaster
         self.complaints = {}  # subject -> summary, of its broadcaster
         self.planner = ""
         self._goal = None  # sent, but its planner has said nothing since
-        self._acked = {}
+        self._acked = dict.fromkeys(STACK_NODES, 0.0)  # newest step that each has done
         self._goals = rospy.Publisher(f"/{name}/move_base_simple/goal", PoseStamped, queue_size=10)
         rospy.Subscriber(f"/{name}/fleet/trajectories", FleetTrajectories, self._on_fleet)
         rospy.Subscriber(f"/{name}/planner_status", PlannerStatus, self._on_planner)
@@ -63,8 +63,13 @@ class Robot:
         self._goal = None
 
     def on_ack(self, ack):
-        self._acked[ack.node] = ack.stamp.to_sec()
-        self.acked_s = min(self._acked.values())
+        if ack.node in self._acked:
+            self._acked[ack.node] = ack.stamp.to_sec()
+
+    @property
+    def acked_s(self):
+        """The newest step that its whole stack has done."""
+        return min(self._acked.values())
 
     def on_diagnostics(self, status):
         self.diagnosis.update({value.key: value.value for value in status.values})
@@ -159,9 +164,8 @@ class SeparateFleet:
         rospy.Subscriber("/clock", Clock, self._on_clock, tcp_nodelay=True)
         wait_until(lambda: self._stamp is not None and self._acks.get_num_connections() > 0, "the simulator", STUCK_WALL_S)
         self.run(3.0)
-        for robot in self.robots:
-            if robot.acked_s == 0.0:
-                raise AssertionError(f"{robot.name} has not started")
+        for name in self._names:
+            self.wait_for(name)
 
     # --- hosts ---
 
@@ -217,8 +221,7 @@ class SeparateFleet:
             self.robot(truth.name).truth = truth
 
     def _on_ack(self, ack):
-        if ack.node != "judge":
-            self.robot(ack.robot).on_ack(ack)
+        self.robot(ack.robot).on_ack(ack)
 
     def _on_diagnostics(self, message):
         for status in message.status:
@@ -260,11 +263,11 @@ class SeparateFleet:
                     robot.send_again()
 
     def wait_for(self, name):
-        """Lets a little time go on until the robot's whole stack takes part again."""
+        """Lets a little time go on until the robot's whole stack takes part, or does so again."""
         since = self.now
 
-        def has_come_back():
+        def takes_part():
             self.run(0.02)
             return self.robot(name).acked_s > since
 
-        wait_until(has_come_back, f"{name} has come back", STUCK_WALL_S)
+        wait_until(takes_part, f"{name} takes part", STUCK_WALL_S)
