@@ -26,6 +26,8 @@ endforeach()
 # Two robots as they are on the floor: through serial lines, finding out where they are for themselves.
 add_test(NAME drive_corridor_rovers COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/drive_test.py corridor_rovers
   --emulated-bases --map ${PROJECT_SOURCE_DIR}/config/maps/corridor.bt)
+# A robot whose world file gives it a larger footprint than its model has.
+add_test(NAME drive_own_footprint COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/drive_test.py own_footprint)
 # Fleets that have to agree on who goes first, through the whole stack.
 foreach(world two_swap five four_corners narrow_corridor passing_place ten_through_a_door)
   add_test(NAME drive_${world} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/drive_test.py ${world})

@@ -2,7 +2,7 @@
 """Drives the robots of a world through the whole stack, as scripts/demo does: all arrive, without contact, and the centres of no two
 robots ever come closer than the paper's safety distance.
 
-    drive_test.py WORLD [OPTION ...]     (a file in config/worlds, without .yaml, and options of scripts/demo)"""
+    drive_test.py WORLD [OPTION ...]     (a file in config/worlds or test/worlds, without .yaml, and options of scripts/demo)"""
 import json
 import os
 import pathlib
@@ -13,6 +13,11 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SAFETY_DISTANCE_M = 0.8  # of the paper's Table III: two radii and 0.2 m
 LIMIT_S = 240.0  # simulated
+
+
+def file_of(world):
+    path, = [path for folder in ("config/worlds", "test/worlds") if (path := ROOT / folder / f"{world}.yaml").exists()]
+    return str(path)
 
 
 def faults(results):
@@ -32,7 +37,7 @@ def main(world, options):
         table = os.path.join(out, "table.json")
         environment = dict(os.environ, ROS_HOME=out, PYTHONPATH=f"{ROOT}/scripts:{os.environ.get('PYTHONPATH', '')}")
         demo = subprocess.run(["/usr/bin/python3", "-m", "mocha_scripts.demo", "--headless", "--rate", "0", "--no-plots",
-                               "--world", str(ROOT / f"config/worlds/{world}.yaml"), "--limit", str(LIMIT_S), "--json", table, "--out", out, *options],
+                               "--world", file_of(world), "--limit", str(LIMIT_S), "--json", table, "--out", out, *options],
                               env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=600.0)
         print(demo.stdout)
         with open(table) as file:

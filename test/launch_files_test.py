@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Every launch file can be loaded, whatever its switches say; its arguments are explained; its nodes exist, and are given only parameters
 that they have."""
+import importlib.machinery
 import itertools
 import pathlib
 import unittest
@@ -69,6 +70,33 @@ class LaunchFiles(unittest.TestCase):
                         set_here = {name[len(mine):] for name in config.params if name.startswith(mine)}
                         schema = yaml.safe_load((ROOT / f"config/{node.type}.yaml").read_text())
                         self.assertLessEqual(set_here, {name for name, entry in schema.items() if "gone" not in entry})
+
+
+class OwnFootprints(unittest.TestCase):
+    """What a world file says of one robot's footprint gets to all nodes of that robot, as parameters of its model."""
+    FILE = ROOT / "launch/agent.launch"
+    ROBOT = {"name": "ugv3", "model": "rover"}
+
+    def values(self, **own):
+        script = importlib.machinery.SourceFileLoader("launch_agents", str(ROOT / "scripts/launch_agents")).load_module()
+        config = load(self.FILE, script.arguments({**self.ROBOT, **own}, "/world.yaml"))
+        mine = "/ugv3/robot/"
+        return {name[len(mine):]: param.value for name, param in config.params.items() if name.startswith(mine)}
+
+    def test_a_world_file_gives_it(self):
+        self.assertEqual(self.values(), {})
+        self.assertEqual(self.values(radius=1), {"footprint": "disc", "footprint_radius": 1.0})
+        self.assertEqual(self.values(footprint=[0.9, 0.6]), {"footprint": "rectangle", "footprint_length": 0.9, "footprint_width": 0.6})
+        self.assertEqual(self.values(footprint=[[0.5, 0], [-0.2, 0.3], [-0.2, -0.3]]),
+                         {"footprint": "polygon", "footprint_corners": "[[0.5, 0], [-0.2, 0.3], [-0.2, -0.3]]"})
+
+    def test_they_are_values_of_the_model(self):
+        schema = yaml.safe_load((ROOT / "config/robot.yaml").read_text())
+        for own in ({"radius": 1}, {"footprint": [0.9, 0.6]}, {"footprint": [[0.5, 0], [-0.2, 0.3], [-0.2, -0.3]]}):
+            self.assertLessEqual(set(self.values(**own)), set(schema))
+
+    def test_another_start_forgets_them(self):
+        self.assertIn("/ugv3/robot/", load(self.FILE).clear_params)
 
 
 class RobotLaunch(unittest.TestCase):

@@ -35,7 +35,7 @@ class BaseDriverNode {
  public:
   BaseDriverNode(ros::NodeHandle& node, const ParameterTable& values)
       : robot_(robot_identity()),
-        model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        model_(own_robot_model(values)),
         low_battery_v_(values.number("low_battery")),
         base_(WaveshareBase::Options::from(values, model_)),
         watchdog_(model_.cmd_timeout_s),

@@ -126,7 +126,7 @@ class BaseEmulatorNode {
  public:
   BaseEmulatorNode(ros::NodeHandle& node, const ParameterTable& values)
       : robot_(robot_identity()),
-        model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        model_(own_robot_model(values)),
         firmware_(ros::Time::now().toSec(), values.flag("holds_emergency_stop")),
         terminal_(link_of(values)),
         restart_(

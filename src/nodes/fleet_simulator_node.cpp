@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ros_bridge/messages/simulation_messages.h"
+#include "ros_bridge/runtime/footprint_check.h"
 #include "ros_bridge/runtime/lockstep.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/transport.h"
@@ -113,14 +114,16 @@ class FleetSimulatorNode {
       : step_(values.number("step")),
         publish_map_to_odom_(values.flag("publish_map_to_odom")),
         emulated_bases_(values.flag("emulated_bases")),
+        has_stacks_(ros::Time::isSimTime() && !values.text("lockstep_nodes").empty()),
+        world_path_(values.text("world")),
         now_(start_time()),
         simulator_(load_fleet(values), now_.toSec(), values.integer("seed")),
         pace_(values.number("rate"), now_),
-        lockstep_(node,
-                  lockstep_roster(simulator_.world(),
-                                  ros::Time::isSimTime() ? values.text("lockstep_nodes") : ""),
-                  ros::WallDuration(values.number("start_timeout")),
-                  ros::WallDuration(values.number("ack_timeout"))),
+        lockstep_(
+            node,
+            lockstep_roster(simulator_.world(), has_stacks_ ? values.text("lockstep_nodes") : ""),
+            ros::WallDuration(values.number("start_timeout")),
+            ros::WallDuration(values.number("ack_timeout"))),
         truth_(node.advertise<mocha_ugv::GroundTruth>("/fleet_simulator/ground_truth", 100)),
         contacts_(node.advertise<mocha_ugv::Contact>("/fleet_simulator/contacts", 100)),
         markers_(
@@ -142,6 +145,7 @@ class FleetSimulatorNode {
 
   void run() {
     lockstep_.await_nodes(now_);
+    if (has_stacks_) check_footprints(simulator_.world(), world_path_);
     while (ros::ok()) {
       pace_.wait(step_.toSec());
       now_ += step_;
@@ -241,6 +245,8 @@ class FleetSimulatorNode {
   ros::Duration step_;
   bool publish_map_to_odom_;
   bool emulated_bases_;
+  bool has_stacks_;  // for which the clock waits
+  std::string world_path_;
   ros::Time now_;
   WorldSimulator simulator_;
   Pace pace_;

@@ -38,7 +38,7 @@ class GlobalPlannerNode {
  public:
   GlobalPlannerNode(ros::NodeHandle& node, const ParameterTable& values)
       : identity_(robot_identity()),
-        model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        model_(own_robot_model(values)),
         values_(values),
         planning_(model_, values,
                   {false, neighbour_parameters("trajectory_broadcaster").integer("priority"),

@@ -38,7 +38,7 @@ class LocalReplannerNode {
  public:
   LocalReplannerNode(ros::NodeHandle& node, const ParameterTable& values)
       : identity_(robot_identity()),
-        model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        model_(own_robot_model(values)),
         max_prediction_age_s_(values.number("max_prediction_age")),
         prediction_horizon_(values.number("prediction_horizon")),
         replanning_(model_, values,

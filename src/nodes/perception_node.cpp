@@ -48,7 +48,7 @@ class PerceptionNode {
   PerceptionNode(ros::NodeHandle& node, const ParameterTable& values)
       : values_(values),
         robot_(robot_identity()),
-        model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        model_(own_robot_model(values)),
         map_(OccupancyMapOptions::from(values, model_.map_resolution_m)),
         peers_(values.number("peer_margin"), values.number("peer_timeout")),
         filter_(MovingObjectFilterOptions::from(values)),

@@ -61,7 +61,7 @@ class ScanLocalizerNode {
   ScanLocalizerNode(ros::NodeHandle& node, const ParameterTable& values)
       : node_(node),
         robot_(robot_identity()),
-        model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        model_(own_robot_model(values)),
         mapping_(values.flag("mapping")),
         max_range_m_(values.number("max_range")),
         hit_spacing_m_(values.number("hit_spacing")),

@@ -60,7 +60,7 @@ class TrajectoryBroadcasterNode {
  public:
   TrajectoryBroadcasterNode(ros::NodeHandle& node, const ParameterTable& values)
       : robot_(robot_identity()),
-        model_(load_robot_model(config_path(""), values.text("robot_model"))),
+        model_(own_robot_model(values)),
         epoch_file_(memory_file(values.text("epoch_file"), robot_.name, ".epoch")),
         commitment_(CommitmentOptions::from(values, model_, robot_.name, next_epoch(epoch_file_))),
         keeping_(model_, neighbour_parameters("local_replanner").number("lease"), commitment_),

@@ -25,6 +25,7 @@ circles: [[0.1, 0.0, 0.5]]
 robots: [{name: ugv1, model: rover, start: [0.0, 0.0, 0.0], goal: [3.0, 0.0]}]
 """
 NOT_A_NUMBER = WALLED_IN.replace("0.1, 0.0, 0.5", "3.0, .nan, 0.5")
+OWN_FOOTPRINT = WALLED_IN.replace("0.1, 0.0, 0.5", "3.0, 0.0, 0.5").replace("model: rover", "model: rover, radius: 0.5")
 MISSPELT = WALLED_IN.replace("circles", "circels")
 
 
@@ -83,6 +84,26 @@ class RefusalsTest(unittest.TestCase):
                                   ("local_replanner", "answer_timeout", "follows from `settle_time`")):
             with self.subTest(node):
                 self.check_node(node, ["parameter `%s` is gone" % name, words], "_%s:=1" % name)
+
+    def test_footprints_that_the_stack_does_not_know(self):
+        rospy.set_param("/use_sim_time", True)
+        try:
+            with tempfile.NamedTemporaryFile("w", suffix=".yaml") as world:
+                world.write(OWN_FOOTPRINT)
+                world.flush()
+                self.check_node("fleet_simulator", [world.name, "ugv1 has a footprint of its own", "/ugv1/robot"],
+                                "_world:=" + world.name, "_start_timeout:=0.1")
+        finally:
+            rospy.delete_param("/use_sim_time")
+
+    def test_footprints_that_cannot_be(self):
+        rospy.set_param("/ugv1/robot/footprint_radius", 7.0)
+        try:
+            for node in NODES[:-1] + ("base_driver",):
+                with self.subTest(node):
+                    self.check_node(node, ["/ugv1/robot: footprint_radius = 7: expected a value from 0.01 to 5"])
+        finally:
+            rospy.delete_param("/ugv1/robot")
 
     def check_demo(self, words, world):
         """The demo with a master of its own. Its own script builds first; here, what it then runs."""

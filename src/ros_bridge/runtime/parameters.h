@@ -5,6 +5,7 @@
 #include <string>
 
 #include "config/parameter_table.h"
+#include "world/robot_model.h"
 
 namespace mocha {
 
@@ -19,6 +20,14 @@ ParameterTable neighbour_parameters(const std::string& node);
 /// The parameters of this node, of that schema. Throws ParameterError also where they cannot work
 /// together with its neighbours', as check_timing() says.
 ParameterTable checked_parameters(const std::string& node);
+
+/// The model of a robot: config/robots/<model>.yaml, and over it what is set in the namespace
+/// `values` (`/ugv1/robot`), such as the footprint that a world file gives this robot. Throws
+/// ParameterError.
+RobotModel read_robot_model(const ros::NodeHandle& values, const std::string& model);
+
+/// The same of this node's robot: `robot_model` of its parameters, and `robot` in its namespace.
+RobotModel own_robot_model(const ParameterTable& parameters);
 
 /// Absolute path of a file below this package's `config/`, in devel and install space.
 std::string config_path(const std::string& relative);
