@@ -21,6 +21,18 @@ double sinc(double angle) {
 
 double TrackingError::position_m() const { return std::hypot(along_m, across_m); }
 
+FeedbackGains FeedbackGains::from(const ParameterTable& values) {
+  FeedbackGains gains;
+  gains.along = values.number("along_gain");
+  gains.across = values.number("across_gain");
+  gains.max_bandwidth = values.number("max_bandwidth");
+  gains.damping = values.number("damping");
+  gains.heading = values.number("heading_gain");
+  gains.settle_start_rad = values.number("settle_start");
+  gains.settle_stop_rad = values.number("settle_stop");
+  return gains;
+}
+
 TrackingError tracking_error(const Pose& pose, const Pose& reference) {
   const Vector2 offset = in_frame(reference, pose.position);
   return {offset.x(), offset.y(), wrap_angle(pose.yaw_rad - reference.yaw_rad)};

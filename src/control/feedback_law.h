@@ -1,5 +1,6 @@
 #pragma once
 
+#include "config/parameter_table.h"
 #include "trajectory/motion.h"
 #include "trajectory/unicycle.h"
 
@@ -25,6 +26,9 @@ struct FeedbackGains {
   double heading = 3.0;            ///< [1/s] of the heading error, at least
   double settle_start_rad = 0.05;  ///< standing, a larger heading error starts a correction ...
   double settle_stop_rad = 0.01;   ///< ... that ends below this one
+
+  /// Values of config/trajectory_tracker.yaml.
+  static FeedbackGains from(const ParameterTable& values);
 };
 
 /// The speed and yaw rate that bring a robot at `pose` back onto a moving reference: Kanayama's and

@@ -46,6 +46,15 @@ Motion join(const Motion& current, const Motion& next, double t) {
 
 }  // namespace
 
+TrackerParameters TrackerParameters::from(const ParameterTable& values) {
+  TrackerParameters parameters;
+  parameters.gains = FeedbackGains::from(values);
+  parameters.max_heading_error_rad = values.number("max_heading_error");
+  parameters.max_pose_age_s = values.number("max_pose_age");
+  parameters.command_delay_s = values.number("command_delay");
+  return parameters;
+}
+
 TrajectoryTracker::TrajectoryTracker(const TrackerParameters& parameters, const RobotModel& robot)
     : parameters_(parameters),
       max_position_error_m_(robot.margins.tracking_m),

@@ -19,6 +19,9 @@ struct TrackerParameters {
   double max_pose_age_s = 0.25;        ///< a pose older than this is not used
   double command_delay_s =
       0.01;  ///< from the pose to the command at the wheels, without their own lag
+
+  /// Values of config/trajectory_tracker.yaml.
+  static TrackerParameters from(const ParameterTable& values);
 };
 
 /// Drives committed motions, 50 times a second, and stops where it may not or cannot. It never

@@ -25,27 +25,6 @@ namespace {
 
 constexpr double kPeriod_s = 0.02;
 
-FeedbackGains feedback_gains(const ParameterTable& values) {
-  FeedbackGains gains;
-  gains.along = values.number("along_gain");
-  gains.across = values.number("across_gain");
-  gains.max_bandwidth = values.number("max_bandwidth");
-  gains.damping = values.number("damping");
-  gains.heading = values.number("heading_gain");
-  gains.settle_start_rad = values.number("settle_start");
-  gains.settle_stop_rad = values.number("settle_stop");
-  return gains;
-}
-
-TrackerParameters tracker_parameters(const ParameterTable& values) {
-  TrackerParameters parameters;
-  parameters.gains = feedback_gains(values);
-  parameters.max_heading_error_rad = values.number("max_heading_error");
-  parameters.max_pose_age_s = values.number("max_pose_age");
-  parameters.command_delay_s = values.number("command_delay");
-  return parameters;
-}
-
 /// Drives the committed motion: trajectories, leases and poses in, velocity commands out.
 class TrajectoryTrackerNode {
  public:
@@ -53,7 +32,7 @@ class TrajectoryTrackerNode {
       : values_(values),
         robot_(robot_identity()),
         max_lease_(values.number("max_lease")),
-        tracker_(tracker_parameters(values), own_robot_model(values)),
+        tracker_(TrackerParameters::from(values), own_robot_model(values)),
         stop_(node),
         pose_(node, robot_, values.number("max_pose_age"), values.number("max_transform_age")),
         commands_(node.advertise<geometry_msgs::Twist>("cmd_vel", 1)),
@@ -61,8 +40,9 @@ class TrajectoryTrackerNode {
         trajectories_(node.subscribe("committed_trajectory", 5,
                                      &TrajectoryTrackerNode::on_trajectory, this, at_once())),
         leases_(node.subscribe("lease", 10, &TrajectoryTrackerNode::on_lease, this, at_once())),
-        parameters_(values_,
-                    [this](const ParameterTable& v) { tracker_.set_gains(feedback_gains(v)); }),
+        parameters_(
+            values_,
+            [this](const ParameterTable& v) { tracker_.set_gains(FeedbackGains::from(v)); }),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
     diagnostics_.setHardwareID(robot_.name);
     diagnostics_.add("tracking", this, &TrajectoryTrackerNode::diagnose);
