@@ -36,3 +36,7 @@ foreach(name table3 fleet_delay fleet_scale deadlock)
   mocha_benchmark(${name} test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp
     test/benchmarks/one_phase.cpp)
 endforeach()
+
+mocha_benchmark(leaving test/benchmarks/leaving_scene.cpp test/benchmarks/leaving_oracle.cpp test/benchmarks/leaving_run.cpp
+  test/benchmarks/lidar_robot.cpp test/benchmarks/lidar_perception.cpp)
+target_link_libraries(benchmark_leaving mocha_perception mocha_simulation)

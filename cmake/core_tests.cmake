@@ -21,8 +21,10 @@ target_link_libraries(test_planning mocha_stack)
 target_sources(test_stack PRIVATE test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp
   test/benchmarks/one_phase.cpp test/benchmarks/benchmark_world.cpp)
 
-# The map that perception makes where a robot starts.
-target_link_libraries(test_stack mocha_perception)
+# The robots and the judge of scripts/bench leaving, which drive on what a simulated lidar sees.
+target_sources(test_stack PRIVATE test/benchmarks/leaving_scene.cpp test/benchmarks/leaving_oracle.cpp test/benchmarks/leaving_run.cpp
+  test/benchmarks/lidar_robot.cpp test/benchmarks/lidar_perception.cpp)
+target_link_libraries(test_stack mocha_perception mocha_simulation)
 
 # Simulated drives for the localiser.
 target_link_libraries(test_perception mocha_simulation)

@@ -1,0 +1,46 @@
+#include "benchmarks/lidar_perception.h"
+
+#include "stack/timing.h"
+#include "trajectory/frame_change.h"
+#include "world/margin_budget.h"
+
+namespace mocha {
+namespace {
+
+Eigen::Isometry3d in_space(const Pose& pose, double height_m) {
+  return Eigen::Translation3d(pose.position.x(), pose.position.y(), height_m) *
+         Eigen::AngleAxisd(pose.yaw_rad, Eigen::Vector3d::UnitZ());
+}
+
+}  // namespace
+
+LidarPerception::LidarPerception(const RobotModel& robot)
+    : robot_(robot),
+      map_(OccupancyMapOptions::from(values_, robot.map_resolution_m)),
+      filter_(MovingObjectFilterOptions::from(values_)) {}
+
+void LidarPerception::take(const PlanarScan& scan, const Pose& first, const Pose& last) {
+  const LidarModel& lidar = robot_.lidar;
+  const auto sensor_at = [&](const Pose& base) {
+    return in_space(composed(base, lidar.mount), lidar.height_m);
+  };
+  auto beams = to_beams(scan, {sensor_at(first), sensor_at(last)},
+                        {values_.number("max_range"), values_.number("max_clearing_range")});
+  filter_.sort(beams, map_);
+  map_.insert_scan(beams);
+  map_.mark_standing(last.position, standing_radius_m(robot_));
+  stamp_s_ = scan.end_time_s();
+}
+
+std::optional<OccupancyGrid> LidarPerception::publish(double now_s) {
+  const double since_s = now_s - published_s_;
+  const bool changed = map_.version() != published_version_;
+  const bool fresh = stamp_s_ > published_stamp_s_ && since_s >= kMapPeriod_s;
+  if (!(changed || fresh) || since_s < 1.0 / values_.number("map_rate")) return std::nullopt;
+  published_s_ = now_s;
+  published_stamp_s_ = stamp_s_;
+  published_version_ = map_.version();
+  return map_.slice(values_.number("map_border"));
+}
+
+}  // namespace mocha

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "benchmarks/lidar_perception.h"
+#include "control/trajectory_tracker.h"
+#include "fleet/protocol/commitment_protocol.h"
+#include "simulation/world_simulator.h"
+#include "stack/robot_stack.h"
+#include "world/distance_field.h"
+
+namespace mocha {
+
+/// One robot with all that its nodes do, from its simulated lidar to its wheels, in simulated time
+/// and without ROS. It is told where it is, and knows of the world what its lidar has seen. All
+/// parameters are those of config/, but for retry_period: 2 s.
+class LidarRobot {
+ public:
+  static constexpr double kTick_s = 0.01;
+
+  /// The first robot of a world; `seed`: of the lidar's noise.
+  LidarRobot(const World& world, std::uint64_t seed);
+
+  void go_to(const Vector2& goal);
+  /// Everything moves on by kTick_s.
+  void tick();
+
+  double now_s() const;
+  const SimulatedRobot& truth() const { return simulator_.robots()[0]; }
+  /// Of its goal.
+  GoalExecutive::Ending ending() const { return ending_; }
+  /// What it said last that keeps it from its goal, and what it was doing.
+  const std::string& words() const { return words_; }
+  double slowest_plan_s() const { return slowest_plan_s_; }  ///< wall time
+
+ private:
+  void simulate();
+  void perceive(const Scan& scan);
+  void take_map(const OccupancyGrid& grid);
+  void pursue();
+  void replan();
+  void drive();
+  void note();
+  RobotState measured() const;
+  LocalScene scene() const;
+
+  const RobotModel robot_;
+  WorldSimulator simulator_;
+  LidarPerception perception_;
+  const ParameterTable local_values_ = ParameterTable::from_schema("config/local_replanner.yaml");
+  CommitmentProtocol protocol_;
+  RobotStack stack_;
+  TrajectoryTracker tracker_;
+
+  int ticks_ = 0;
+  std::vector<Vector2> places_;  // that the map is to hold: the robot's, and its goal
+  std::shared_ptr<const StaticMap> static_map_;
+  std::shared_ptr<const DistanceField> unseen_;
+  std::vector<std::shared_ptr<const MovingObstacle>> confident_;
+  std::vector<std::shared_ptr<const MovingObstacle>> likely_;
+  MotionId offered_;
+  GoalExecutive::Ending ending_ = GoalExecutive::Ending::kNone;
+  std::string words_;
+  double slowest_plan_s_ = 0.0;
+};
+
+}  // namespace mocha

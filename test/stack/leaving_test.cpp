@@ -1,0 +1,110 @@
+// Robots leave where they stand, through the whole stack: some starts of scripts/bench leaving, and
+// the search that says who can.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <string>
+
+#include "benchmarks/leaving_oracle.h"
+#include "benchmarks/leaving_run.h"
+#include "benchmarks/leaving_scene.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kNoseIn_rad = -0.5 * M_PI;
+constexpr double kNoseOut_rad = 0.5 * M_PI;
+
+struct Start {
+  const char* name;
+  const char* model;
+  TightKind kind;
+  double gap_m;
+  double heading_deg;
+};
+
+std::ostream& operator<<(std::ostream& out, const Start& start) { return out << start.name; }
+
+World world_of(const Start& start) {
+  return leaving_world(leaving_model(start.model),
+                       {start.kind, start.gap_m, start.heading_deg * M_PI / 180.0});
+}
+
+class Leaving : public ::testing::TestWithParam<Start> {};
+
+TEST_P(Leaving, ArrivesWithoutContact) {
+  const World world = world_of(GetParam());
+  EXPECT_EQ(leavable(world), Leavable::kYes);
+  const LeavingRun run = run_leaving(world, 1);
+  EXPECT_TRUE(run.arrived) << run.words;
+  EXPECT_FALSE(run.contact);
+  EXPECT_TRUE(run.left_s);
+  EXPECT_GT(run.clearance_m, 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Starts, Leaving,
+    ::testing::Values(Start{"JackalNoseToAWall", "jackal", TightKind::kWall, 0.3, 270.0},
+                      Start{"RoverAlongAWall", "waveshare_rover", TightKind::kWall, 0.1, 0.0},
+                      Start{"RoverAslantInACorner", "waveshare_rover", TightKind::kCorner, 0.15,
+                            60.0},
+                      Start{"OwnBodyInACorner", "own", TightKind::kCorner, 0.1, 270.0}),
+    [](const auto& start) { return start.param.name; });
+
+TEST(LeavingRun, IsTheSameEachTime) {
+  const World world = world_of({"", "waveshare_rover", TightKind::kWall, 0.3, 45.0});
+  const LeavingRun once = run_leaving(world, 3);
+  const LeavingRun again = run_leaving(world, 3);
+  EXPECT_EQ(once.took_s, again.took_s);
+  EXPECT_EQ(once.clearance_m, again.clearance_m);
+}
+
+TEST(LeavingRun, SaysWhyARobotDoesNotArrive) {
+  World world = world_of({"", "waveshare_rover", TightKind::kWall, 0.3, 90.0});
+  const Vector2 goal = world.robots[0].goal->position;
+  const auto box_about = [](const Vector2& centre, double half_m) {
+    return Polygon{{centre + Vector2(-half_m, -half_m), centre + Vector2(half_m, -half_m),
+                    centre + Vector2(half_m, half_m), centre + Vector2(-half_m, half_m)}};
+  };
+  world.polygons.push_back(box_about(goal, 0.6));
+  const LeavingRun run = run_leaving(world, 1);
+  EXPECT_FALSE(run.arrived);
+  EXPECT_FALSE(run.contact);
+  EXPECT_FALSE(run.words.empty());
+}
+
+class LeavingOracle : public ::testing::Test {
+ protected:
+  static World slot(double yaw_rad, bool can_reverse) {
+    RobotModel robot = leaving_model("own");
+    robot.limits.can_reverse = can_reverse;
+    return leaving_world(robot, {TightKind::kDeadEnd, 0.05, yaw_rad});
+  }
+};
+
+TEST_F(LeavingOracle, OutOfASlotForwardOrBackward) {
+  EXPECT_EQ(leavable(slot(kNoseOut_rad, true)), Leavable::kYes);
+  EXPECT_EQ(leavable(slot(kNoseIn_rad, true)), Leavable::kYes);
+}
+
+TEST_F(LeavingOracle, WhatCannotReverseStaysNoseInWhereItCannotTurn) {
+  EXPECT_EQ(leavable(slot(kNoseOut_rad, false)), Leavable::kYes);
+  EXPECT_EQ(leavable(slot(kNoseIn_rad, false)), Leavable::kNo);
+}
+
+TEST_F(LeavingOracle, NotOutOfAClosedBox) {
+  World world = slot(kNoseOut_rad, true);
+  const double top_m = world.polygons.back().corners[2].y();
+  world.polygons.push_back(
+      Polygon{{{-1.0, top_m - 0.1}, {1.0, top_m - 0.1}, {1.0, top_m}, {-1.0, top_m}}});
+  EXPECT_EQ(leavable(world), Leavable::kNo);
+}
+
+TEST_F(LeavingOracle, NotWhereItTouches) {
+  EXPECT_EQ(leavable(world_of({"", "jackal", TightKind::kWall, 0.001, 0.0})), Leavable::kTouches);
+  EXPECT_EQ(leavable(world_of({"", "jackal", TightKind::kWall, 0.02, 0.0})), Leavable::kYes);
+}
+
+}  // namespace
+}  // namespace mocha
