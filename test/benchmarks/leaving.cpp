@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <map>
 #include <string>
 
@@ -37,6 +38,17 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// An exception of the stack is a failure like any other: its node would die.
+LeavingRun run_or_words(const World& world, std::uint64_t seed) {
+  try {
+    return run_leaving(world, seed);
+  } catch (const std::exception& error) {
+    LeavingRun run;
+    run.words = std::string("an exception: ") + error.what();
+    return run;
+  }
+}
+
 void print_row(const RobotModel& robot, const TightStart& start, std::uint64_t seed) {
   const World world = leaving_world(robot, start);
   auto begin = std::chrono::steady_clock::now();
@@ -47,7 +59,7 @@ void print_row(const RobotModel& robot, const TightStart& start, std::uint64_t s
               text(can == Leavable::kTouches), search_s);
   if (can != Leavable::kTouches) {
     begin = std::chrono::steady_clock::now();
-    const LeavingRun run = run_leaving(world, seed);
+    const LeavingRun run = run_or_words(world, seed);
     std::printf(", \"left\": %s, \"contact\": %s, \"left_s\": %s, \"took_s\": %.2f",
                 text(run.arrived), text(run.contact),
                 run.left_s ? std::to_string(*run.left_s).c_str() : "null", run.took_s);
