@@ -38,7 +38,7 @@ class ObstaclePenalty : public Penalty<D> {
         soft_speed2_(soft_speed * soft_speed) {
     for (const Cover& each : cover_) {
       reach_m_ = std::max(reach_m_, std::hypot(each.ahead_m, each.left_m) + each.safety_distance_m);
-      if (!is_at_base(each)) wanted_ = kPosition | kVelocity;
+      if (each.ahead_m != 0.0 || each.left_m != 0.0) wanted_ = kPosition | kVelocity;
     }
   }
 
@@ -51,27 +51,26 @@ class ObstaclePenalty : public Penalty<D> {
   void add(const PieceSamples<D>& samples, PenaltyRows<D>& rows) const override {
     const double step_m = std::sqrt(samples.bounds.max_speed2) * samples.bounds.duration_s /
                           std::max(1, samples.size() - 1);
+    bool is_near = false;  // the sample before: then this one most likely has no room either
     for (int j = 0; j < samples.size();) {
-      const double room_m = field_.room(samples.position().row(j), reach_m_);
+      const double room_m = is_near ? 0.0 : field_.room(samples.position().row(j), reach_m_);
       if (room_m > 0.0) {
         const bool to_the_end = !(room_m < step_m * samples.size());
         j += to_the_end ? samples.size() : 1 + static_cast<int>(room_m / step_m);
         continue;
       }
-      for (const Cover& cover : cover_) {
-        if (is_at_base(cover)) {
-          add_at_base(samples, j, cover, rows);
-        } else {
-          add_off_base(samples, j, cover, rows);
-        }
+      const double before = rows.value[j];
+      if (wanted_ == kPosition) {
+        add_at_base(samples, j, rows);
+      } else {
+        add_off_base(samples, j, rows);
       }
+      is_near = rows.value[j] != before;
       ++j;
     }
   }
 
  private:
-  static bool is_at_base(const Cover& cover) { return cover.ahead_m == 0.0 && cover.left_m == 0.0; }
-
   /// J h of a vector in the plane.
   static Vector left_of(const Vector& h) {
     static_assert(D == 2);
@@ -91,25 +90,30 @@ class ObstaclePenalty : public Penalty<D> {
     return by_centre;
   }
 
-  void add_at_base(const PieceSamples<D>& samples, int j, const Cover& cover,
-                   PenaltyRows<D>& rows) const {
-    const Vector centre = samples.position().row(j);
-    rows.by_position().row(j) += add_at(centre, cover.safety_distance_m, rows.value[j]);
+  /// Where all discs are at the base, which need no heading.
+  void add_at_base(const PieceSamples<D>& samples, int j, PenaltyRows<D>& rows) const {
+    const Vector base = samples.position().row(j);
+    for (const Cover& cover : cover_)
+      rows.by_position().row(j) += add_at(base, cover.safety_distance_m, rows.value[j]);
   }
 
-  void add_off_base(const PieceSamples<D>& samples, int j, const Cover& cover,
-                    PenaltyRows<D>& rows) const {
+  void add_off_base(const PieceSamples<D>& samples, int j, PenaltyRows<D>& rows) const {
+    const Vector base = samples.position().row(j);
     const Vector velocity = samples.velocity().row(j);
-    const double soft_speed = std::sqrt(velocity.squaredNorm() + soft_speed2_);
-    const Vector heading = velocity / soft_speed;
-    Vector offset = cover.ahead_m * heading;
-    if constexpr (D == 2) offset += cover.left_m * left_of(heading);
-    const Vector centre = samples.position().row(j).transpose() + offset;
-    const Vector by_centre = add_at(centre, cover.safety_distance_m, rows.value[j]);
-    rows.by_position().row(j) += by_centre;
-    Vector by_heading = cover.ahead_m * by_centre;
-    if constexpr (D == 2) by_heading -= cover.left_m * left_of(by_centre);
-    rows.by_velocity().row(j) += (by_heading - heading.dot(by_heading) * heading) / soft_speed;
+    const double inverse_speed = 1.0 / std::sqrt(velocity.squaredNorm() + soft_speed2_);
+    const Vector heading = inverse_speed * velocity;
+    Vector by_base = Vector::Zero();
+    Vector by_heading = Vector::Zero();
+    for (const Cover& cover : cover_) {
+      Vector centre = base + cover.ahead_m * heading;
+      if constexpr (D == 2) centre += cover.left_m * left_of(heading);
+      const Vector by_centre = add_at(centre, cover.safety_distance_m, rows.value[j]);
+      by_base += by_centre;
+      by_heading += cover.ahead_m * by_centre;
+      if constexpr (D == 2) by_heading -= cover.left_m * left_of(by_centre);
+    }
+    rows.by_position().row(j) += by_base;
+    rows.by_velocity().row(j) += inverse_speed * (by_heading - heading.dot(by_heading) * heading);
   }
 
   double weight_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "world/obstacle.h"
 
@@ -206,6 +207,22 @@ std::vector<CoverDisc> disc_cover(const std::vector<Vector2>& corners, double to
     cells.take(best);
     cover.push_back(best);
   }
+  return cover;
+}
+
+std::vector<CoverDisc> soft_disc_cover(const std::vector<Vector2>& corners, double tolerance_m) {
+  constexpr int kHalvings = 6;
+  // Discs that all hold the body when they grow by the tolerance leave out no more than that.
+  std::vector<CoverDisc> cover = disc_cover(corners, 2.0 * tolerance_m);
+  double too_little_m = 0.0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle_m = 0.5 * (too_little_m + tolerance_m);
+    std::vector<CoverDisc> closer = disc_cover(corners, 2.0 * middle_m);
+    const bool is_enough = closer.size() <= cover.size();
+    (is_enough ? tolerance_m : too_little_m) = middle_m;
+    if (is_enough) cover = std::move(closer);
+  }
+  for (CoverDisc& disc : cover) disc.radius_m -= tolerance_m;
   return cover;
 }
 

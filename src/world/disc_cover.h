@@ -20,4 +20,9 @@ struct CoverDisc {
 /// farthest out and not held yet gets the largest such disc that holds it.
 std::vector<CoverDisc> disc_cover(const std::vector<Vector2>& corners, double tolerance_m);
 
+/// Fewer discs, which leave corners out: no point of the polygon is farther than `tolerance_m` > 0
+/// from all of them, and none reaches farther than that out of it. Of the covers with as few discs
+/// as the tolerance allows disc_cover(), nearly the closest that it finds.
+std::vector<CoverDisc> soft_disc_cover(const std::vector<Vector2>& corners, double tolerance_m);
+
 }  // namespace mocha

@@ -51,6 +51,7 @@ void add_rim(std::vector<float>& sites, int columns, int rows) {
 
 DistanceField::DistanceField(const OccupancyGrid& grid, Solid solid)
     : resolution_m_(grid.resolution_m),
+      cells_per_m_(1.0 / grid.resolution_m),
       origin_(grid.origin),
       columns_(grid.width + 1),
       rows_(grid.height + 1),
@@ -73,27 +74,32 @@ DistanceField::DistanceField(const OccupancyGrid& grid, Solid solid)
   }
 }
 
+inline DistanceField::Sample DistanceField::interpolated(const Vector2& at) const {
+  const int i = std::min(static_cast<int>(at.x()), columns_ - 2);
+  const int j = std::min(static_cast<int>(at.y()), rows_ - 2);
+  const double u = at.x() - i;
+  const double v = at.y() - j;
+  const double d00 = at_corner(i, j);
+  const double d01 = at_corner(i, j + 1);
+  const double along_below = at_corner(i + 1, j) - d00;
+  const double along_above = at_corner(i + 1, j + 1) - d01;
+  const double below = d00 + u * along_below;
+  const double up = d01 + u * along_above - below;
+  const double along = along_below + v * (along_above - along_below);
+  return {below + v * up, cells_per_m_ * Vector2(along, up)};
+}
+
 DistanceField::Sample DistanceField::sample(const Vector2& p) const {
+  const Vector2 at = cells_per_m_ * (p - origin_);
+  if (at.x() >= 0.0 && at.x() <= columns_ - 1.0 && at.y() >= 0.0 && at.y() <= rows_ - 1.0)
+    return interpolated(at);
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   if (!p.allFinite()) return {kNan, Vector2(kNan, kNan)};
-  const Vector2 at = (p - origin_) / resolution_m_;
-  const double x = std::clamp(at.x(), 0.0, columns_ - 1.0);
-  const double y = std::clamp(at.y(), 0.0, rows_ - 1.0);
-  const int i = std::min(static_cast<int>(x), columns_ - 2);
-  const int j = std::min(static_cast<int>(y), rows_ - 2);
-  const double u = x - i;
-  const double v = y - j;
-  const double d00 = at_corner(i, j);
-  const double d10 = at_corner(i + 1, j);
-  const double d01 = at_corner(i, j + 1);
-  const double d11 = at_corner(i + 1, j + 1);
-  Sample sample;
-  sample.distance_m = (1 - v) * ((1 - u) * d00 + u * d10) + v * ((1 - u) * d01 + u * d11);
-  sample.gradient.x() = ((1 - v) * (d10 - d00) + v * (d11 - d01)) / resolution_m_;
-  sample.gradient.y() = ((1 - u) * (d01 - d00) + u * (d11 - d10)) / resolution_m_;
-  const Vector2 beyond = resolution_m_ * (at - Vector2(x, y));
+  const Vector2 inside(std::clamp(at.x(), 0.0, columns_ - 1.0),
+                       std::clamp(at.y(), 0.0, rows_ - 1.0));
+  Sample sample = interpolated(inside);
+  const Vector2 beyond = resolution_m_ * (at - inside);
   const double beyond_m = beyond.norm();
-  if (!(beyond_m > 0.0)) return sample;
   // Outside, what counts is what distance_bound() can prove there.
   const Vector2 outwards = beyond / beyond_m;
   for (int axis = 0; axis < 2; ++axis) {

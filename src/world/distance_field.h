@@ -43,7 +43,11 @@ class DistanceField : public ObstacleField<2> {
   Vector2 corner(int x, int y) const { return origin_ + resolution_m_ * Vector2(x, y); }
 
  private:
+  /// Of a place in cells from the origin, inside the lattice.
+  Sample interpolated(const Vector2& at) const;
+
   double resolution_m_;
+  double cells_per_m_;
   Vector2 origin_;
   int columns_;
   int rows_;

@@ -43,7 +43,7 @@ Footprint Footprint::polygon(std::vector<Vector2> corners) {
     footprint.circumscribed_radius_m_ = std::max(footprint.circumscribed_radius_m_, corner.norm());
   footprint.cover_ =
       DiscTree(disc_cover(footprint.corners_, kCoverTolerance_m), footprint.cover_reach_m());
-  footprint.soft_cover_ = disc_cover(footprint.corners_, kSoftCoverTolerance_m);
+  footprint.soft_cover_ = soft_disc_cover(footprint.corners_, kSoftCoverTolerance_m);
   return footprint;
 }
 

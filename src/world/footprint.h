@@ -10,9 +10,10 @@ namespace mocha {
 /// The shape of a robot about its base, and discs that cover it.
 class Footprint {
  public:
-  /// By so much do the discs of cover() and of soft_cover() reach out of a polygon, at most.
+  /// By so much do the discs of cover() reach out of a polygon, at most.
   static constexpr double kCoverTolerance_m = 0.008;
-  static constexpr double kSoftCoverTolerance_m = 0.035;
+  /// By so much do those of soft_cover() reach out, at most, or leave out of the body.
+  static constexpr double kSoftCoverTolerance_m = 0.055;
 
   /// A disc. Throws std::invalid_argument unless the radius is positive.
   static Footprint disc(double radius_m);
@@ -27,7 +28,7 @@ class Footprint {
 
   /// For proofs: every point of the body is in one of its discs.
   const DiscTree& cover() const { return cover_; }
-  /// The same with fewer discs, for penalties.
+  /// For penalties: few discs, roughly the body.
   const std::vector<CoverDisc>& soft_cover() const { return soft_cover_; }
 
   /// Radius of the disc about the base that the robot sweeps when it turns in place.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "world/obstacle.h"
@@ -95,6 +96,46 @@ TEST(DiscCover, NeedsFewDiscs) {
   const std::vector<Vector2> angle = {{-0.3, -0.3}, {0.6, -0.3}, {0.6, 0.1},
                                       {0.1, 0.1},   {0.1, 0.5},  {-0.3, 0.5}};
   EXPECT_LE(count(angle, 0.01), 40u);
+}
+
+/// How far p is from the discs, at most 0 inside.
+double gap_m(const Vector2& p, const std::vector<CoverDisc>& cover) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (const CoverDisc& disc : cover)
+    least_m = std::min(least_m, (p - disc.offset_m).norm() - disc.radius_m);
+  return least_m;
+}
+
+TEST(SoftDiscCover, LeavesOutAndReachesOutNoMoreThanItsTolerance) {
+  for (int seed = 0; seed < 20; ++seed) {
+    const std::vector<Vector2> corners = random_polygon(seed);
+    for (const double tolerance_m : {0.02, 0.055}) {
+      SCOPED_TRACE(::testing::Message() << "polygon " << seed << ", " << tolerance_m << " m");
+      std::vector<CoverDisc> cover = soft_disc_cover(corners, tolerance_m);
+      expect_within(corners, cover, tolerance_m);
+      for (CoverDisc& disc : cover) {
+        EXPECT_GT(disc.radius_m, 0.0);
+        disc.radius_m += tolerance_m;
+      }
+      expect_covered(corners, cover);
+      EXPECT_LE(cover.size(), disc_cover(corners, 2.0 * tolerance_m).size());
+    }
+  }
+}
+
+TEST(SoftDiscCover, OfARobotIsFewDiscsThatFavourNoSide) {
+  const auto expect = [](double length_m, double width_m, std::size_t most) {
+    const std::vector<Vector2> corners = rectangle(length_m, width_m);
+    const std::vector<CoverDisc> cover = soft_disc_cover(corners, 0.055);
+    EXPECT_LE(cover.size(), most);
+    for (double x = -1.0; x <= 1.0; x += 0.125) {
+      const Vector2 left(0.5 * length_m * x, 0.5 * width_m + 0.1);
+      EXPECT_NEAR(gap_m(left, cover), gap_m({left.x(), -left.y()}, cover), 0.015) << left.x();
+    }
+  };
+  expect(0.508, 0.430, 2);
+  expect(0.271, 0.251, 1);
+  expect(0.9, 0.6, 4);
 }
 
 TEST(DiscCover, CoversWhatIsSmallerThanItsTolerance) {
