@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "trajectory/minco.h"
 
@@ -173,6 +175,12 @@ std::vector<Phase> brake_from(const Pose& pose, double speed, double yaw_rate,
 }
 
 Motion with_brake(const Motion& motion, double t0, double t_brake, const Braking& braking) {
+  MotionOrFault braked = try_brake(motion, t0, t_brake, braking);
+  if (!braked) throw std::invalid_argument(std::string("with_brake: ") + describe(braked.fault));
+  return std::move(braked.motion);
+}
+
+MotionOrFault try_brake(const Motion& motion, double t0, double t_brake, const Braking& braking) {
   const double start = std::max(t0, motion.start_time());
   t_brake = motion.clean_cut(before_crawling(motion, t_brake));
   if (t_brake > start && t_brake - start < kSliver_s) t_brake = start;
@@ -181,7 +189,7 @@ Motion with_brake(const Motion& motion, double t0, double t_brake, const Braking
   if (phases.empty() || switch_s == t_brake) {
     for (Phase& phase : brake_along(motion, switch_s, braking)) phases.push_back(std::move(phase));
   }
-  return Motion(start, std::move(phases));
+  return Motion::make(start, std::move(phases));
 }
 
 }  // namespace mocha

@@ -32,4 +32,8 @@ std::vector<Phase> brake_from(const Pose& pose, double speed, double yaw_rate,
 /// thrown.
 Motion with_brake(const Motion& motion, double t0, double t_brake, const Braking& braking);
 
+/// The same; where its parts do not join, it is none and the fault says why. with_brake() throws
+/// std::invalid_argument there.
+MotionOrFault try_brake(const Motion& motion, double t0, double t_brake, const Braking& braking);
+
 }  // namespace mocha

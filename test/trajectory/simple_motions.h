@@ -62,6 +62,12 @@ inline Motion straight_drive(double start_s, const Vector2& from, double yaw_rad
   return Motion(start_s, {DrivePhase{1, minco.curve()}});
 }
 
+/// A motion of one drive, so many times as slow.
+inline Motion slowed(const Motion& motion, double factor) {
+  const DrivePhase& drive = std::get<DrivePhase>(motion.phases().front());
+  return Motion(motion.start_time(), {DrivePhase{drive.direction, drive.path.stretched(factor)}});
+}
+
 /// Round a circle to the left of the origin, from rest to rest, at about `speed` [m/s] between.
 inline Motion round_a_circle(double radius_m, double speed) {
   constexpr int kPieces = 24;

@@ -60,8 +60,9 @@ class Cutter {
   }
 
   std::optional<CertifiedPart> braking_at(double t, const Violation& cut_by) {
-    return promised(with_brake(onward_, onward_.start_time(), t, maneuver_.braking.value()), t,
-                    cut_by);
+    const MotionOrFault braked =
+        try_brake(onward_, onward_.start_time(), t, maneuver_.braking.value());
+    return braked ? promised(braked.motion, t, cut_by) : std::nullopt;
   }
 
   /// A motion from the maneuver's joining on, as it will be heard, if it is certified.
