@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "world/margin_budget.h"
+
 namespace mocha {
 namespace {
 
@@ -57,13 +59,14 @@ TrackerParameters TrackerParameters::from(const ParameterTable& values) {
 
 TrajectoryTracker::TrajectoryTracker(const TrackerParameters& parameters, const RobotModel& robot)
     : parameters_(parameters),
-      max_position_error_m_(robot.margins.tracking_m),
+      max_position_error_(MarginBudget::of(robot).tracking()),
+      max_speed_(robot.limits.max_speed),
       lag_s_(robot.actuator_lag_s),
       lead_s_(robot.actuator_lag_s + parameters.command_delay_s),
       braking_(robot.braking()),
       catch_up_acceleration_(robot.max_wheel_acceleration),
       limiter_(robot) {
-  require_positive(max_position_error_m_, "margin_tracking");
+  require_positive(max_position_error_.still_m, "margin_tracking_still");
   require_positive(parameters.max_heading_error_rad, "max_heading_error");
   require_positive(parameters.max_pose_age_s, "max_pose_age");
   set_gains(parameters.gains);
@@ -149,8 +152,8 @@ void TrajectoryTracker::take_up_offer(double t, const Pose& pose, double speed) 
   }
   const MotionState reference = next.motion.at(t);
   const TrackingError error = tracking_error(pose, reference.pose);
-  if (why.empty()) why = misfit(error);
-  if (why.empty()) why = too_fast(error, speed, reference.speed);
+  if (why.empty()) why = misfit(error, reference);
+  if (why.empty()) why = too_fast(error, speed, reference);
   if (!why.empty()) {
     ++refused_;
     refusal_ = format("motion %u/%u does not fit the robot: %s", next.id.epoch, next.id.sequence,
@@ -161,10 +164,16 @@ void TrajectoryTracker::take_up_offer(double t, const Pose& pose, double speed) 
   handle(TrackerEvent::kAdopted, t, "");
 }
 
-std::string TrajectoryTracker::misfit(const TrackingError& error) const {
-  if (error.position_m() > max_position_error_m_) {
-    return format("%.2f m off the path's pose (%.2f along, %.2f across), allowed %.2f m",
-                  error.position_m(), error.along_m, error.across_m, max_position_error_m_);
+/// A robot that stands hits nothing: it is offered another motion before it sets off.
+double TrajectoryTracker::allowed_m(const MotionState& reference) const {
+  return max_position_error_.at(reference.at_rest ? max_speed_ : std::abs(reference.speed));
+}
+
+std::string TrajectoryTracker::misfit(const TrackingError& error,
+                                      const MotionState& reference) const {
+  if (error.position_m() > allowed_m(reference)) {
+    return format("%.2f m off the path's pose (%.2f along, %.2f across), allowed %.3f m",
+                  error.position_m(), error.along_m, error.across_m, allowed_m(reference));
   }
   if (std::abs(error.heading_rad) > parameters_.max_heading_error_rad) {
     return format("heading off by %.2f rad, allowed %.2f rad", error.heading_rad,
@@ -176,11 +185,11 @@ std::string TrajectoryTracker::misfit(const TrackingError& error) const {
 /// A robot that first has to catch up in speed falls behind; this says so if it would fall out of
 /// the error bound.
 std::string TrajectoryTracker::too_fast(const TrackingError& error, double speed,
-                                        double wanted_speed) const {
-  const double gap = std::abs(wanted_speed - speed);
+                                        const MotionState& reference) const {
+  const double gap = std::abs(reference.speed - speed);
   const double lost = gap * (lag_s_ + 0.5 * gap / catch_up_acceleration_);
-  if (error.position_m() + lost <= max_position_error_m_) return "";
-  return format("it moves at %.2f m/s, the robot at %.2f m/s", wanted_speed, speed);
+  if (error.position_m() + lost <= allowed_m(reference)) return "";
+  return format("it moves at %.2f m/s, the robot at %.2f m/s", reference.speed, speed);
 }
 
 /// At rest now and when a command of now takes effect.
@@ -203,8 +212,9 @@ void TrajectoryTracker::update_mode(double t, const std::optional<Pose>& pose) {
     return;
   }
   handle(TrackerEvent::kPoseBack, t, "");
-  error_ = tracking_error(*pose, active_.motion.at(t).pose);
-  const std::string strayed = misfit(*error_);
+  const MotionState reference = active_.motion.at(t);
+  error_ = tracking_error(*pose, reference.pose);
+  const std::string strayed = misfit(*error_, reference);
   if (!strayed.empty()) handle(TrackerEvent::kStrayed, t, strayed);
   if (t >= active_.motion.end_time()) handle(TrackerEvent::kArrived, t, stop_reason_);
 }

@@ -10,6 +10,7 @@
 #include "control/tracker_mode.h"
 #include "trajectory/motion.h"
 #include "world/robot_model.h"
+#include "world/speed_margin.h"
 
 namespace mocha {
 
@@ -79,14 +80,18 @@ class TrajectoryTracker {
   void take_up_offer(double t, const Pose& pose, double speed);
   void update_mode(double t, const std::optional<Pose>& pose);
   void handle(TrackerEvent event, double t, const std::string& reason);
-  std::string misfit(const TrackingError& error) const;
-  std::string too_fast(const TrackingError& error, double speed, double wanted_speed) const;
+  /// How far off the reference the base may be [m].
+  double allowed_m(const MotionState& reference) const;
+  std::string misfit(const TrackingError& error, const MotionState& reference) const;
+  std::string too_fast(const TrackingError& error, double speed,
+                       const MotionState& reference) const;
   UnicycleState wanted(double t, const Pose& pose);
   double settling_yaw_rate(double heading_error_rad);
   bool stands(double t) const;
 
   TrackerParameters parameters_;
-  double max_position_error_m_;  // e_track, for which the motions were certified
+  SpeedMargin max_position_error_;  // e_track, for which the motions were certified
+  double max_speed_;
   double lag_s_;
   double lead_s_;  // a command takes effect this much later
   Braking braking_;

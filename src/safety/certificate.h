@@ -8,6 +8,7 @@
 #include "world/moving_obstacle.h"
 #include "world/obstacle_field.h"
 #include "world/robot_model.h"
+#include "world/speed_margin.h"
 
 namespace mocha {
 
@@ -24,9 +25,10 @@ Violation check_limits(const Motion& motion, const MotionLimits& limits, double 
 /// where it overlaps them, or its cover does.
 double clearance_m(const Pose& pose, const Footprint& footprint, const ObstacleField<2>& field);
 
-/// The footprint's cover discs keep `margin_m` >= 0 to all obstacles of the field, until `until_s`.
+/// The footprint's cover discs keep the margin of the base's speed to all obstacles of the field,
+/// until `until_s`.
 Violation check_clearance(const Motion& motion, const Footprint& footprint,
-                          const ObstacleField<2>& field, double margin_m, double from_s,
+                          const ObstacleField<2>& field, const SpeedMargin& margin, double from_s,
                           double until_s = std::numeric_limits<double>::infinity());
 
 /// The disc of `own_radius_m` keeps `clearance_m` to the obstacle's disc, until both rest or

@@ -33,12 +33,11 @@ Violation certify(const Motion& motion, const Footprint& footprint, const Scene&
         check_limits(motion, *requirement.limits, std::max(from_s, requirement.limits_from_s)));
   }
   first.consider(check_clearance_or_leaving(motion, footprint, *scene.obstacles,
-                                            requirement.obstacle_margin_m, requirement.leaving,
+                                            requirement.obstacle_margin, requirement.leaving,
                                             from_s));
-  if (requirement.unseen_margin_m) {
-    Violation unseen =
-        check_clearance_or_leaving(motion, footprint, *scene.unseen, *requirement.unseen_margin_m,
-                                   requirement.leaving, from_s);
+  if (requirement.unseen_margin) {
+    Violation unseen = check_clearance_or_leaving(
+        motion, footprint, *scene.unseen, *requirement.unseen_margin, requirement.leaving, from_s);
     if (unseen) unseen.term = ViolatedTerm::kUnseenSpace;
     first.consider(unseen);
   }

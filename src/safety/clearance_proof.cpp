@@ -17,12 +17,14 @@ constexpr double kReportLength_s = 2.0;
 
 /// Bounds on where a robot is during an interval of time: the base within `travel_m` of `place`,
 /// the heading's unit vector within `swing` of `heading` (infinite where the heading is not
-/// defined).
+/// defined), no faster than `max_speed`.
 struct Sweep {
   Vector2 place;
   Vector2 heading;
   double travel_m;
   double swing;
+  double max_speed;     ///< [m/s]
+  double speed_change;  ///< [m/s] in the interval, about
 };
 
 /// An interval of a drive.
@@ -40,7 +42,9 @@ struct DriveArc : CurveArc<2, 5> {
   Sweep sweep(const DriveArc& second_half) const {
     const auto path = CurveArc::sweep(second_half);
     const Vector2 along = second_half.course.col(0);
-    Sweep sweep{path.place, drive_direction * along.normalized(), path.travel_m, 0.0};
+    const auto [slowest, fastest] = speeds();
+    Sweep sweep{path.place,       drive_direction * along.normalized(), path.travel_m, 0.0, fastest,
+                fastest - slowest};
     for (int j = 0; j < course.cols(); ++j) {
       // The courses between lie within the widest angle to a control point; a chord is shorter than
       // the tangent.
@@ -50,6 +54,20 @@ struct DriveArc : CurveArc<2, 5> {
       sweep.swing = std::max(sweep.swing, tangent);
     }
     return sweep;
+  }
+
+  /// Of the control points of the velocity: the base is no faster than the second.
+  std::pair<double, double> speeds() const {
+    constexpr int kDegree = 5;
+    double least2 = std::numeric_limits<double>::infinity();
+    double most2 = 0.0;
+    for (int j = 0; j < kDegree; ++j) {
+      const double step2 = (position.col(j + 1) - position.col(j)).squaredNorm();
+      least2 = std::min(least2, step2);
+      most2 = std::max(most2, step2);
+    }
+    const double rate = kDegree / duration_s;
+    return {rate * std::sqrt(least2), rate * std::sqrt(most2)};
   }
 };
 
@@ -74,7 +92,9 @@ struct TurnArc {
     return {turn->start.position,
             {std::cos(yaw), std::sin(yaw)},
             0.0,
-            part * std::abs(turn->yaw_change_rad)};
+            part * std::abs(turn->yaw_change_rad),
+            0.0,
+            0.0};
   }
 
   static double progress(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
@@ -83,30 +103,33 @@ struct TurnArc {
 /// What has to stay clear of what.
 class Keepout {
  public:
-  Keepout(const Footprint& footprint, const ObstacleField<2>& field, double margin_m)
-      : footprint_(footprint), field_(field), margin_m_(margin_m) {
+  Keepout(const Footprint& footprint, const ObstacleField<2>& field, const SpeedMargin& margin)
+      : footprint_(footprint), field_(field), margin_(margin) {
     for (const CoverDisc& disc : footprint.cover().discs())
       arm_m_ = std::max(arm_m_, disc.offset_m.norm());
   }
 
   bool clear(const Pose& pose) const {
-    return clear({pose.position, {std::cos(pose.yaw_rad), std::sin(pose.yaw_rad)}, 0.0, 0.0});
+    return clear(
+        {pose.position, {std::cos(pose.yaw_rad), std::sin(pose.yaw_rad)}, 0.0, 0.0, 0.0, 0.0});
   }
 
   /// A proof that all cover discs keep the margin throughout the interval.
   bool clear(const Sweep& sweep) const {
+    const double margin_m = margin_.at(sweep.max_speed);
     return footprint_.cover().all([&](const DiscTree::Node& disc) {
-      const double needed_m = disc.radius_m + margin_m_ + moved_m(sweep, disc.arm_m);
+      const double needed_m = disc.radius_m + margin_m + moved_m(sweep, disc.arm_m);
       return field_.distance_bound(sweep.place + turned(disc.offset_m, sweep.heading)) >= needed_m;
     });
   }
 
-  /// How far the discs move in the interval, at most.
-  double sweep_m(const Sweep& sweep) const { return moved_m(sweep, arm_m_); }
+  /// How far the discs move in the interval, and by how much their margin changes.
+  double sweep_m(const Sweep& sweep) const {
+    return moved_m(sweep, arm_m_) + margin_.per_speed_s * sweep.speed_change;
+  }
 
   double clearance_at(const Pose& pose) const { return clearance_m(pose, footprint_, field_); }
-
-  double margin_m() const { return margin_m_; }
+  double margin_at(double speed) const { return margin_.at(std::abs(speed)); }
 
  private:
   /// How far a point moves in the interval, at most, that is `arm_m` off the base.
@@ -116,7 +139,7 @@ class Keepout {
 
   const Footprint& footprint_;
   const ObstacleField<2>& field_;
-  double margin_m_;
+  SpeedMargin margin_;
   double arm_m_ = 0.0;  // of the disc farthest off the base
 };
 
@@ -141,16 +164,25 @@ std::optional<double> first_contact(const Motion& motion, int phase, const Keepo
   return std::nullopt;
 }
 
-/// The violation that begins at `t`, with the least clearance of the stretch that begins there.
+/// The violation that begins at `t`, with what lacks the most in the stretch that begins there.
 Violation report(const Motion& motion, const Keepout& keepout, double t) {
-  const auto value = [&](double when) { return keepout.clearance_at(motion.at(when).pose); };
   Violation violation;
   violation.term = ViolatedTerm::kClearance;
   violation.time_s = t;
   violation.place = motion.position(t);
-  violation.limit = keepout.margin_m();
-  violation.value = worst_value(value, std::less<>(), violation.limit, t,
-                                std::min(t + kReportLength_s, motion.end_time()));
+  double least_spare_m = std::numeric_limits<double>::infinity();
+  const auto spare_m = [&](double when) {
+    const MotionState state = motion.at(when);
+    const double clearance_m = keepout.clearance_at(state.pose);
+    const double margin_m = keepout.margin_at(state.speed);
+    if (clearance_m - margin_m < least_spare_m) {
+      least_spare_m = clearance_m - margin_m;
+      violation.value = clearance_m;
+      violation.limit = margin_m;
+    }
+    return clearance_m - margin_m;
+  };
+  worst_value(spare_m, std::less<>(), 0.0, t, std::min(t + kReportLength_s, motion.end_time()));
   return violation;
 }
 
@@ -163,9 +195,9 @@ double clearance_m(const Pose& pose, const Footprint& footprint, const ObstacleF
 }
 
 Violation check_clearance(const Motion& motion, const Footprint& footprint,
-                          const ObstacleField<2>& field, double margin_m, double from_s,
+                          const ObstacleField<2>& field, const SpeedMargin& margin, double from_s,
                           double until_s) {
-  const Keepout keepout(footprint, field, margin_m);
+  const Keepout keepout(footprint, field, margin);
   if (from_s >= motion.end_time()) {
     return keepout.clear(motion.end_pose()) ? Violation{} : report(motion, keepout, from_s);
   }

@@ -23,19 +23,21 @@ constexpr double kTurned_m = 0.005;
 /// Where a leaving robot is looked at.
 struct Stage {
   double time_s;
-  double way_m;  ///< so far
-  double gap_m = 0.0;
+  double way_m = 0.0;     ///< so far
+  double turned_m = 0.0;  ///< by a corner, so far
+  double room_m = 0.0;
 };
 
-/// The gap to ask for from the last of these stages on.
-double required_gap_m(const std::vector<Stage>& stages, double margin_m, const Leaving& leaving) {
+/// The room to ask for from the last of these stages on, until a corner has turned by `turned_m`.
+double required_room_m(const std::vector<Stage>& stages, double turned_m, double margin_m,
+                       const Leaving& leaving) {
   constexpr double kRounding_m = 1e-9;
   const double way_m = stages.back().way_m + kRounding_m;
   if (way_m >= leaving.way_m) return margin_m;
   double required_m = -std::numeric_limits<double>::infinity();
   for (const Stage& stage : stages) {
-    required_m =
-        std::max(required_m, leaving.required_m(stage.gap_m, way_m - stage.way_m, margin_m));
+    required_m = std::max(required_m, leaving.required_m(stage.room_m, way_m - stage.way_m,
+                                                         turned_m - stage.turned_m, margin_m));
   }
   return required_m;
 }
@@ -51,11 +53,13 @@ Stage stage_after(const Stage& stage, const Motion& motion, double arm_m) {
     const double step = step_m / kStage_m + turned_m / kTurned_m;
     if (step >= left) {
       next.way_m += step_m * left / step;
+      next.turned_m += turned_m * left / step;
       next.time_s += kWayStep_s * left / step;
       break;
     }
     left -= step;
     next.way_m += step_m;
+    next.turned_m += turned_m;
     pose = then;
   }
   next.time_s = std::min(next.time_s, motion.end_time());
@@ -65,27 +69,27 @@ Stage stage_after(const Stage& stage, const Motion& motion, double arm_m) {
 }  // namespace
 
 Violation check_clearance_or_leaving(const Motion& motion, const Footprint& footprint,
-                                     const ObstacleField<2>& field, double margin_m,
+                                     const ObstacleField<2>& field, const SpeedMargin& margin,
                                      const Leaving& leaving, double from_s) {
-  const Violation strict = check_clearance(motion, footprint, field, margin_m, from_s);
+  const Violation strict = check_clearance(motion, footprint, field, margin, from_s);
   if (!strict) return strict;
-  const auto gap_at = [&](double t) {
-    return clearance_m(motion.at(t).pose, footprint, field) - kSlack_m;
+  const auto gap_at = [&](double t) { return clearance_m(motion.at(t).pose, footprint, field); };
+  const auto room_at = [&](double t) {
+    return gap_at(t) - margin.per_speed_s * std::abs(motion.at(t).speed) - kSlack_m;
   };
-  std::vector<Stage> stages = {{std::max(from_s, motion.start_time()), 0.0, gap_at(from_s)}};
-  if (stages[0].gap_m >= margin_m || stages[0].gap_m + kSlack_m <= -kCellsOverstated_m)
-    return strict;
+  std::vector<Stage> stages = {{std::max(from_s, motion.start_time()), 0.0, 0.0, room_at(from_s)}};
+  if (stages[0].room_m >= margin.still_m || gap_at(from_s) <= -kCellsOverstated_m) return strict;
   const double arm_m = footprint.is_disc() ? 0.0 : footprint.circumscribed_radius_m();
   for (;;) {
     const Stage& here = stages.back();
-    const double required_m = required_gap_m(stages, margin_m, leaving);
-    if (required_m >= margin_m || here.gap_m >= margin_m)
-      return check_clearance(motion, footprint, field, margin_m, here.time_s);
     Stage next = stage_after(here, motion, arm_m);
-    const Violation closer =
-        check_clearance(motion, footprint, field, required_m, here.time_s, next.time_s);
+    const double required_m = required_room_m(stages, next.turned_m, margin.still_m, leaving);
+    if (required_m >= margin.still_m || here.room_m >= margin.still_m)
+      return check_clearance(motion, footprint, field, margin, here.time_s);
+    const Violation closer = check_clearance(
+        motion, footprint, field, {required_m, margin.per_speed_s}, here.time_s, next.time_s);
     if (closer || next.time_s >= motion.end_time()) return closer;
-    next.gap_m = gap_at(next.time_s);
+    next.room_m = room_at(next.time_s);
     stages.push_back(next);
   }
 }

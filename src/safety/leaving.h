@@ -9,20 +9,32 @@ namespace mocha {
 // Proofs for robots that may already be closer than they should, because the map got better or a
 // peer stopped near by.
 
-/// How a motion that begins closer to obstacles than its margin may go on: the gap grows along the
-/// way, as on an arc that leaves a wall, with the square of the way. That is asked from every place
-/// of the way on, and of every turn in place; so room that was gained is never lost, and what is
-/// certified once is certified at every later moment, too.
+/// How a motion that begins closer to obstacles than its margin may go on. What counts is the room
+/// that it has: the gap, less what the margin asks for the speed; so a robot that is too close may
+/// gain room by driving away and by slowing down, and leaves slowly. The room grows along the way,
+/// as the gap does on an arc that leaves a wall, with the square of the way. That is asked from
+/// every place of the way on, and of every turn in place; so room that was gained is never lost,
+/// and what is certified once is certified at every later moment, too.
 struct Leaving {
-  /// What a gap may lose [m]: a body beside a wall cannot turn away from it with less.
+  /// What the room may lose [m] while the body turns: beside a wall it cannot turn away with less.
   static constexpr double kTurnAway_m = 0.006;
+  /// And however it moves, for the speed that it needs in order to move at all.
+  static constexpr double kSetOff_m = 0.002;
 
-  double way_m = 1.0;  ///< after which the gap is the margin; above 0
+  /// One motion after the other may lose as much, but none gets closer than this [m] ...
+  static constexpr double kLeast_m = 0.004;
+  /// ... or than this, where the map has obstacles in the place of the robot: it overstates them.
+  static constexpr double kLeastInside_m = -0.03;
 
-  /// The gap [m] to have `way_m` after a place where it was `gap_m`.
-  double required_m(double gap_m, double after_m, double margin_m) const {
+  double way_m = 1.0;  ///< after which the room is the margin at rest; above 0
+
+  /// The room [m] to have `after_m` of way, on which a corner turned by `turned_m`, after a place
+  /// where it was `room_m`, for a margin at rest.
+  double required_m(double room_m, double after_m, double turned_m, double margin_m) const {
     const double share = std::min(after_m / way_m, 1.0);
-    const double least_m = std::min(gap_m - kTurnAway_m, margin_m);
+    const double lost_m = std::min(kTurnAway_m, kSetOff_m + turned_m);
+    const double floor_m = room_m > -kLeast_m ? kLeast_m : kLeastInside_m;
+    const double least_m = std::min(std::max(room_m - lost_m, std::min(room_m, floor_m)), margin_m);
     return least_m + share * share * (margin_m - least_m);
   }
 };
@@ -30,7 +42,7 @@ struct Leaving {
 /// Clearance as check_clearance() proves it, with that exception. It does not hold for a robot
 /// whose cover reaches more than 4 cm into an obstacle.
 Violation check_clearance_or_leaving(const Motion& motion, const Footprint& footprint,
-                                     const ObstacleField<2>& field, double margin_m,
+                                     const ObstacleField<2>& field, const SpeedMargin& margin,
                                      const Leaving& leaving, double from_s);
 
 /// Separation as check_separation() proves it until `until_s`, with one exception: until the robot

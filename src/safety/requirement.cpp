@@ -12,9 +12,8 @@ constexpr double kShareOfTrigger = 0.75;  // of the same, below which paper (37)
 // soon as they do.
 constexpr double kReserve_s = 1.0;
 constexpr double kHorizon_s = 10.0;  // of what never comes to rest
-// A body that begins too close has the margin after so many times its reach about the base: a long
-// one has to go farther until it can turn away from a wall.
-constexpr double kLeavingReaches = 6.0;
+constexpr double kLeaving_m =
+    1.0;  // of way, after which a body that begins too close has the margin
 
 }  // namespace
 
@@ -80,8 +79,8 @@ Requirements::Requirements(const RobotModel& robot) {
   };
   Requirement plan;
   plan.limits = robot.limits;
-  plan.obstacle_margin_m = margins.static_margin_m();
-  plan.leaving = Leaving{kLeavingReaches * robot.footprint.circumscribed_radius_m()};
+  plan.obstacle_margin = margins.static_margin();
+  plan.leaving = Leaving{kLeaving_m};
   at(Name::kPlan) = plan;
 
   Requirement detour = plan;
@@ -90,7 +89,7 @@ Requirements::Requirements(const RobotModel& robot) {
   at(Name::kDetour) = at(Name::kDetourLikely) = detour;
 
   Requirement promise = detour;
-  promise.unseen_margin_m = margins.static_margin_m();
+  promise.unseen_margin = margins.static_margin();
   if (robot.stops_checked) promise.stops = StopOptions{robot.braking(), robot.peer_reaction_s};
   promise.stop_clearance_m = margins.peer_margin_m() + kPeerSlack_m;
   at(Name::kPromise) = at(Name::kPromiseLikely) = promise;
@@ -106,11 +105,11 @@ Requirements::Requirements(const RobotModel& robot) {
   at(Name::kEmergency) = at(Name::kEscape) = emergency;
   at(Name::kEscape).predicted_distance_m.reset();
   at(Name::kEmergencyDetour) = emergency;
-  at(Name::kEmergencyDetour).unseen_margin_m.reset();
+  at(Name::kEmergencyDetour).unseen_margin.reset();
 
   Requirement renewal = emergency;
-  renewal.obstacle_margin_m -= margins.map_m;
-  *renewal.unseen_margin_m -= margins.map_m;
+  renewal.obstacle_margin = margins.without_map();
+  renewal.unseen_margin = margins.without_map();
   renewal.peer_distance_m = distance_to_peers_m(robot) - kPeerSlack_m;
   renewal.predicted_distance_m = from_people_m(kShareInForce);
   renewal.reserve_s = kReserve_s;

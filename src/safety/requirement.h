@@ -10,6 +10,7 @@
 #include "safety/scene.h"
 #include "safety/stop_proof.h"
 #include "world/robot_model.h"
+#include "world/speed_margin.h"
 
 namespace mocha {
 
@@ -57,9 +58,9 @@ const char* to_text(RequirementName name);
 /// Requirements, and a caller sets the stretch of time.
 struct Requirement {
   std::optional<MotionLimits> limits;  ///< none: not asked
-  double obstacle_margin_m = 0.0;      ///< of the footprint, to occupied space
+  SpeedMargin obstacle_margin;         ///< of the footprint, to occupied space
   /// Of the footprint, to space that was never seen; none: such space counts as free.
-  std::optional<double> unseen_margin_m;
+  std::optional<SpeedMargin> unseen_margin;
   Leaving leaving;  ///< how a motion that begins closer than these margins may go on
   /// Of the centre, to the rim of a peer's disc; none: peers are not asked for.
   std::optional<double> peer_distance_m;

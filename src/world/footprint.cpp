@@ -47,6 +47,11 @@ Footprint Footprint::polygon(std::vector<Vector2> corners) {
   return footprint;
 }
 
+double Footprint::depth_m(const Vector2& in_body) const {
+  if (is_disc()) return circumscribed_radius_m_ - in_body.norm();
+  return -gap(in_body, Polygon{corners_}).distance_m;
+}
+
 double Footprint::cover_reach_m() const {
   return circumscribed_radius_m_ + (is_disc() ? 0.0 : kCoverTolerance_m);
 }

@@ -35,6 +35,8 @@ class Footprint {
   double circumscribed_radius_m() const { return circumscribed_radius_m_; }
   /// Radius of the largest disc about the base inside the body: less room lets no motion pass.
   double inscribed_radius_m() const { return inscribed_radius_m_; }
+  /// How far a point of the body frame is below the outline [m]; negative outside.
+  double depth_m(const Vector2& in_body) const;
   /// Radius of the disc about the base that holds all discs of cover().
   double cover_reach_m() const;
 

@@ -13,15 +13,17 @@ std::vector<std::pair<std::string, double>> contributions(const MarginBudget& bu
           {"localisation_m", budget.localisation_m},
           {"map_m", budget.map_m},
           {"clock_s", budget.clock_s},
-          {"max_speed_mps", budget.max_speed}};
+          {"max_speed_mps", budget.max_speed},
+          {"tracking_still_m", budget.tracking_still_m},
+          {"map_still_m", budget.map_still_m}};
 }
 
 }  // namespace
 
 MarginBudget MarginBudget::of(const RobotModel& robot) {
   const Margins& margins = robot.margins;
-  return {margins.tracking_m, margins.localisation_m, margins.map_m, margins.clock_s,
-          robot.limits.max_speed};
+  return {margins.tracking_m,     margins.localisation_m,   margins.map_m,      margins.clock_s,
+          robot.limits.max_speed, margins.tracking_still_m, margins.map_still_m};
 }
 
 void MarginBudget::validate() const {
@@ -42,6 +44,7 @@ double MarginBudget::peer_margin_m(const MarginBudget& peer) const {
 std::vector<std::pair<std::string, double>> MarginBudget::listed() const {
   auto list = contributions(*this);
   list.emplace_back("static_margin_m", static_margin_m());
+  list.emplace_back("static_margin_still_m", static_margin().still_m);
   list.emplace_back("peer_margin_m", peer_margin_m());
   return list;
 }

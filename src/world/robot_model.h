@@ -28,10 +28,12 @@ struct MotionLimits {
 
 /// Contributions to the room that is kept around the body.
 struct Margins {
-  double tracking_m;      ///< e_track: base off its motion
-  double localisation_m;  ///< pose off the truth
-  double map_m;           ///< obstacle nearer than its map cells
-  double clock_s;         ///< own clock against the fleet's
+  double tracking_m;        ///< e_track: base off its motion, at the highest speed
+  double localisation_m;    ///< pose off the truth
+  double map_m;             ///< obstacle nearer than its map cells, met at the highest speed
+  double clock_s;           ///< own clock against the fleet's
+  double tracking_still_m;  ///< as tracking_m, at rest; between, it grows with the speed
+  double map_still_m;       ///< as map_m, the same
 };
 
 struct LidarModel {
@@ -78,9 +80,9 @@ struct RobotModel {
 
 /// Loads `<config_directory>/robots/<model>.yaml` under the schema `<config_directory>/robot.yaml`.
 /// Throws ParameterError for unknown models and keys, values out of range, a speed or a yaw rate
-/// that the wheels cannot deliver, a footprint that is none, sweeps that overlap, and a base that
-/// cannot turn in place (min_turning_radius): plans begin, end and change course with turns in
-/// place.
+/// that the wheels cannot deliver, a footprint that is none, sweeps that overlap, margins that are
+/// larger at rest than at speed, and a base that cannot turn in place (min_turning_radius): plans
+/// begin, end and change course with turns in place.
 RobotModel load_robot_model(const std::string& config_directory, const std::string& model);
 
 }  // namespace mocha

@@ -56,6 +56,19 @@ void check_turning_in_place(const ParameterTable& values, const std::string& pat
   throw ParameterError(message.str());
 }
 
+void check_margins(const ParameterTable& values, const std::string& source) {
+  const auto check = [&](const char* name, double still_m, double fast_m) {
+    if (still_m <= fast_m) return;
+    std::ostringstream message;
+    message << source << ": " << name << "_still = " << still_m << " m is above " << name << " = "
+            << fast_m << " m";
+    throw ParameterError(message.str());
+  };
+  check("margin_tracking", values.number("margin_tracking_still"),
+        values.number("margin_tracking"));
+  check("margin_map", values.number("margin_map_still"), values.number("margin_map"));
+}
+
 void check_wheels(const RobotModel& model, const std::string& path) {
   const MotionLimits& limits = model.limits;
   const auto check = [&](const char* name, double needed) {
@@ -110,6 +123,7 @@ ParameterTable load_robot_values(const std::string& config_directory, const std:
 RobotModel robot_model_of(const ParameterTable& values, const std::string& name,
                           const std::string& source) {
   check_turning_in_place(values, source);
+  check_margins(values, source);
   RobotModel robot;
   robot.name = name;
   robot.limits = {values.number("max_speed"),       values.number("max_acceleration"),
@@ -127,8 +141,12 @@ RobotModel robot_model_of(const ParameterTable& values, const std::string& name,
                          ": " + error.what());
   }
   robot.lidar = read_lidar(values);
-  robot.margins = {values.number("margin_tracking"), values.number("margin_localisation"),
-                   values.number("margin_map"), values.number("margin_clock")};
+  robot.margins = {values.number("margin_tracking"),
+                   values.number("margin_localisation"),
+                   values.number("margin_map"),
+                   values.number("margin_clock"),
+                   values.number("margin_tracking_still"),
+                   values.number("margin_map_still")};
   robot.peer_clearance_m = values.number("peer_clearance");
   robot.stops_checked = values.flag("stops_checked");
   robot.peer_reaction_s = values.number("peer_reaction");

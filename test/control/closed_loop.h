@@ -31,6 +31,8 @@ class SimulatedRobot {
     }
   }
 
+  void push(const Vector2& by_m) { pose_.position += by_m; }
+
   const Pose& pose() const { return pose_; }
   UnicycleState twist() const { return from_wheel_speeds(wheels_, model_.limits.track_m); }
 

@@ -91,7 +91,8 @@ TEST(TrackingAccuracy, WrongModelStaysWithinTheErrorBound) {
       loop.tracker.offer({1, 1}, motion, kForever);
       const auto samples = loop.run(motion.end_time() + 1.0);
       figures.add(samples);
-      EXPECT_EQ(loop.tracker.mode(), TrackerMode::kHolding) << "run " << run;
+      EXPECT_EQ(loop.tracker.mode(), TrackerMode::kHolding)
+          << "run " << run << ": " << loop.tracker.stop_reason();
       EXPECT_LT(worst_position_error(samples), model.margins.tracking_m);
     }
   }
@@ -101,6 +102,7 @@ TEST(TrackingAccuracy, WrongModelStaysWithinTheErrorBound) {
 TEST(TrackingAccuracy, OffsetAtTheStartConverges) {
   RobotModel model = rover();
   model.margins.tracking_m = 0.1;  // room for the noise on top of the offset
+  model.margins.tracking_still_m = 0.1;
   for (const int direction : {1, -1}) {
     const DrivePhase drive = straight({{0.0, 0.0}, 0.4}, direction, 4.0, 9.0);
     for (const Vector2& offset :

@@ -229,6 +229,30 @@ TEST(TrajectoryTracker, LargeErrorStopsUntilAMotionFitsTheRealPose) {
   EXPECT_NEAR((loop.robot.pose().position - here.position).norm(), 1.0, 0.03);
 }
 
+TEST(TrajectoryTracker, ToleratesLessWhereItDrivesSlowly) {
+  // Pushed aside by 4 cm: within the bound at 0.9 m/s, not at 0.1 m/s.
+  for (const double speed : {0.9, 0.1}) {
+    ClosedLoop loop(rover(), {}, 1);
+    const Motion motion(0.0, {straight({}, 1, 7.0 * speed, 10.0)});
+    loop.tracker.offer({1, 1}, motion, kForever);
+    loop.run(5.0);
+    ASSERT_EQ(loop.tracker.mode(), TrackerMode::kTracking);
+    loop.robot.push({0.0, 0.04});
+    loop.run(6.0);
+    EXPECT_EQ(loop.tracker.mode(),
+              speed > 0.5 ? TrackerMode::kTracking : TrackerMode::kErrorBraking);
+  }
+}
+
+TEST(TrajectoryTracker, AStandingRobotMayBeOffAsFarAsAFastOne) {
+  Pose start;
+  start.position.y() = 0.045;
+  ClosedLoop loop(rover(), start, 1);
+  loop.tracker.offer({1, 1}, Motion(0.0, {StandPhase{Pose{}, 1.0}}), kForever);
+  loop.run(3.0);
+  EXPECT_EQ(loop.tracker.mode(), TrackerMode::kHolding);
+}
+
 TEST(TrajectoryTracker, AnEmergencyStopBrakesAsHardAsTheWheelsCanOnTheCurve) {
   for (const RobotModel& model : {rover(), jackal()}) {
     std::mt19937 random(11);

@@ -84,17 +84,17 @@ std::vector<OneField> one_by_one(const Scene& open) {
   const double passes_s = time_at(ahead(), 4.0);
   add("limits", straight_drive(kNow_s, {0.0, 0.0}, 0.0, 8.0, 1.2, 0.5), ViolatedTerm::kSpeed,
       [](Requirement& r) { r.limits.reset(); });
-  add("obstacle_margin_m", ahead(), ViolatedTerm::kClearance, [](Requirement& r) {
-    r.obstacle_margin_m = 0.0;
+  add("obstacle_margin", ahead(), ViolatedTerm::kClearance, [](Requirement& r) {
+    r.obstacle_margin = 0.0;
   }).obstacles = field({{{4.0, 0.85}, 0.5}});
-  add("unseen_margin_m", ahead(), ViolatedTerm::kUnseenSpace, [](Requirement& r) {
-    r.unseen_margin_m = 0.0;
+  add("unseen_margin", ahead(), ViolatedTerm::kUnseenSpace, [](Requirement& r) {
+    r.unseen_margin = 0.0;
   }).unseen = field({{{4.0, 0.85}, 0.5}});
-  add("unseen_margin_m", ahead(), ViolatedTerm::kUnseenSpace, [](Requirement& r) {
-    r.unseen_margin_m.reset();
+  add("unseen_margin", ahead(), ViolatedTerm::kUnseenSpace, [](Requirement& r) {
+    r.unseen_margin.reset();
   }).unseen = field({{{4.0, 0.0}, 0.5}});
-  add("leaving", straight_drive(kNow_s, {0.0, 0.0}, -0.02, 4.0, 0.9, 0.5), ViolatedTerm::kClearance,
-      [](Requirement& r) { r.leaving.way_m = 20.0; })
+  add("leaving", slowed(straight_drive(kNow_s, {0.0, 0.0}, -0.02, 1.5, 0.8, 0.8), 10.0),
+      ViolatedTerm::kClearance, [](Requirement& r) { r.leaving.way_m = 20.0; })
       .obstacles = field({{{0.0, 1000.32}, 1000.0}});
   add("peer_distance_m", ahead(), ViolatedTerm::kSeparation, [](Requirement& r) {
     r.peer_distance_m.reset();
@@ -209,13 +209,15 @@ TEST_F(CertifierTest, SpaceThatWasNeverSeenHasTheStaticMargin) {
     scene.unseen = field({{{4.0, 0.3 + gap_m + 0.5}, 0.5}});
     return scene;
   };
-  const double margin_m = margins_.static_margin_m();
+  const double speed = ahead().velocity(time_at(ahead(), 4.0)).norm();
+  const double margin_m = margins_.static_margin().at(speed);
+  const double in_force_m = margins_.without_map().at(speed);
   EXPECT_FALSE(certified(ahead(), passing(margin_m + 0.002), promise_));
   EXPECT_EQ(certified(ahead(), passing(margin_m - 0.005), promise_).term,
             ViolatedTerm::kUnseenSpace);
   const Requirement renewal = requirements_[Name::kRenewal].from(kNow_s);
-  EXPECT_FALSE(certified(ahead(), passing(margin_m - margins_.map_m + 0.002), renewal));
-  EXPECT_TRUE(certified(ahead(), passing(margin_m - margins_.map_m - 0.005), renewal));
+  EXPECT_FALSE(certified(ahead(), passing(in_force_m + 0.002), renewal));
+  EXPECT_TRUE(certified(ahead(), passing(in_force_m - 0.005), renewal));
 }
 
 TEST_F(CertifierTest, APromiseInForceMayUseUpTheMarginOfTheMap) {
@@ -224,12 +226,14 @@ TEST_F(CertifierTest, APromiseInForceMayUseUpTheMarginOfTheMap) {
     scene.obstacles = field({{{4.0, 0.3 + gap_m + 0.5}, 0.5}});
     return scene;
   };
-  const double margin_m = margins_.static_margin_m();
+  const double speed = ahead().velocity(time_at(ahead(), 4.0)).norm();
+  const double margin_m = margins_.static_margin().at(speed);
+  const double in_force_m = margins_.without_map().at(speed);
   const Requirement renewal = requirements_[Name::kRenewal].from(kNow_s);
   EXPECT_FALSE(certified(ahead(), beside(margin_m + 0.002), promise_));
   EXPECT_TRUE(certified(ahead(), beside(margin_m - 0.02), promise_));
   EXPECT_FALSE(certified(ahead(), beside(margin_m - 0.02), renewal));
-  EXPECT_TRUE(certified(ahead(), beside(margin_m - margins_.map_m - 0.005), renewal));
+  EXPECT_TRUE(certified(ahead(), beside(in_force_m - 0.005), renewal));
 }
 
 TEST_F(CertifierTest, NothingAllowsABaseThatCannotReverseToDriveBackward) {

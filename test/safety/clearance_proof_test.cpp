@@ -94,6 +94,44 @@ TEST(ClearanceProof, AgreesWithDenseSampling) {
   EXPECT_GT(refused, 50);
 }
 
+TEST(ClearanceProof, TheMarginIsThatOfTheSpeed) {
+  constexpr int kSamples = 5000;
+  const Footprint footprints[] = {Footprint::disc(0.3), Footprint::rectangle(0.508, 0.43)};
+  int accepted = 0;
+  int refused = 0;
+  int slow_ones = 0;  // refused at a place that is not the closest: there it is slower
+  for (int seed = 0; seed < 80; ++seed) {
+    const Motion motion = winding(seed);
+    const Footprint& footprint = footprints[seed % 2];
+    const CircleField field = clutter(motion, seed, 0.2 + 0.004 * seed);
+    const double per_speed_s = 0.01 + 0.002 * seed;
+    const double from = seed % 5 == 0 ? 103.0 : 100.0;
+    // What is left of the gap for the margin at rest.
+    double least_m = std::numeric_limits<double>::infinity();
+    double least_gap_m = least_m;
+    for (int i = 0; i <= kSamples; ++i) {
+      const double t = from + (motion.end_time() - from) * i / kSamples;
+      const double gap_m = sampled_clearance(motion, footprint, field, t);
+      least_gap_m = std::min(least_gap_m, gap_m);
+      least_m = std::min(least_m, gap_m - per_speed_s * motion.velocity(t).norm());
+    }
+    if (least_m < 0.01) continue;
+    for (const double still_m : {least_m - 0.004, least_m + 0.001}) {
+      const SpeedMargin margin(still_m, per_speed_s);
+      const Violation violation = check_clearance(motion, footprint, field, margin, from);
+      ++(violation ? refused : accepted);
+      EXPECT_EQ(bool(violation), still_m > least_m) << seed << " " << describe(violation);
+      if (!violation) continue;
+      EXPECT_LT(violation.value, violation.limit + 0.002) << seed;
+      EXPECT_GT(violation.limit, still_m - 1e-9) << seed;
+      slow_ones += violation.value > least_gap_m + 0.01;
+    }
+  }
+  EXPECT_GT(accepted, 30);
+  EXPECT_EQ(refused, accepted);
+  EXPECT_GT(slow_ones, 5);
+}
+
 Motion ahead(double length_m, double duration_s) {
   PlanarPath::Piece piece = PlanarPath::Piece::Zero();
   piece.col(3) = Vector2(10.0 * length_m, 0.0);

@@ -8,6 +8,7 @@
 #include "trajectory/random_motion.h"
 #include "trajectory/rover_braking.h"
 #include "trajectory/simple_motions.h"
+#include "trajectory/stopping.h"
 
 namespace mocha {
 namespace {
@@ -83,6 +84,30 @@ TEST(Leaving, ABodyBesideAWallMayTurnAwayFromIt) {
   EXPECT_EQ(turned(-0.04).term, ViolatedTerm::kClearance);
 }
 
+TEST(Leaving, RoomIsLostInTurnsOnly) {
+  EXPECT_NEAR(kLeaving.required_m(0.05, 0.0, 0.0, 0.1), 0.048, 1e-12);
+  EXPECT_NEAR(kLeaving.required_m(0.05, 0.0, 0.003, 0.1), 0.045, 1e-12);
+  EXPECT_NEAR(kLeaving.required_m(0.05, 0.0, 0.5, 0.1), 0.044, 1e-12);
+  EXPECT_NEAR(kLeaving.required_m(0.05, 0.5, 0.5, 0.1), 0.044 + 0.25 * 0.056, 1e-12);
+  EXPECT_NEAR(kLeaving.required_m(0.05, 1.0, 0.5, 0.1), 0.1, 1e-12);
+  // Straight on towards a wall, 5 mm closer in the end.
+  const Footprint body = Footprint::rectangle(0.6, 0.4);
+  const Motion nearer = slowed(straight_drive(0.0, {0.0, 0.0}, 0.05, 0.1, 0.5, 0.5), 20.0);
+  const double corner_m = 0.3 * std::sin(0.05) + 0.2 * std::cos(0.05);
+  EXPECT_EQ(
+      check_clearance_or_leaving(nearer, body, wall(corner_m + 0.03), kMargin_m, kLeaving, 0.0)
+          .term,
+      ViolatedTerm::kClearance);
+}
+
+TEST(Leaving, RepeatedLossesEnd) {
+  for (const double first_m : {0.02, -0.025}) {
+    double room_m = first_m;
+    for (int i = 0; i < 20; ++i) room_m = kLeaving.required_m(room_m, 0.0, 0.5, 0.1);
+    EXPECT_NEAR(room_m, first_m > 0.0 ? Leaving::kLeast_m : Leaving::kLeastInside_m, 1e-12);
+  }
+}
+
 TEST(Leaving, AfterAMetreItHasAllOfTheMargin) {
   // 65 mm at first.
   const CircleField near = wall(0.365);
@@ -91,13 +116,13 @@ TEST(Leaving, AfterAMetreItHasAllOfTheMargin) {
 }
 
 TEST(Leaving, TheGapGrowsWithTheWay) {
-  // 65 mm at first, and it stays at that: after 0.4 m, 2 mm are missing of the arc to 100 mm.
+  // 65 mm at first, and it stays at that: after 0.36 m, 2 mm are missing of the arc to 100 mm.
   for (const double speed : {0.2, 0.9, 2.0}) {
     const Motion parallel = straight_drive(0.0, {0.0, 0.0}, 0.0, 8.0, speed, 2.0);
     const Violation violation = clearance(parallel, wall(0.365));
     ASSERT_TRUE(violation) << speed;
     EXPECT_NEAR(violation.value, 0.065, 1e-3) << speed;
-    EXPECT_NEAR(parallel.position(violation.time_s).x(), 0.42, 0.06) << speed;
+    EXPECT_NEAR(parallel.position(violation.time_s).x(), 0.36, 0.06) << speed;
   }
 }
 
@@ -164,6 +189,30 @@ TEST(Leaving, OnceClearItMustStayClear) {
   EXPECT_EQ(clearance(drive(-M_PI / 2.0), nearly).term, ViolatedTerm::kClearance);
   const CircleField farther({{{0.0, 1000.35}, 1000.0}, {{0.0, -3.0}, 0.5}});
   EXPECT_FALSE(clearance(drive(-M_PI / 2.0), farther));
+}
+
+TEST(Leaving, ARobotThatIsTooCloseLeavesSlowly) {
+  // 20 mm at first of 35 mm; driving away from the wall, it may be the faster the farther it is.
+  const SpeedMargin margin(0.035, 0.065);
+  const auto leaves = [&](double yaw_rad, double speed) {
+    const Motion motion =
+        slowed(straight_drive(0.0, {0.0, 0.0}, yaw_rad, 2.0, 0.8, 0.5), 0.8 / speed);
+    return !check_clearance_or_leaving(motion, kDisc, wall(0.32), margin, kLeaving, 0.0);
+  };
+  EXPECT_TRUE(leaves(-0.1, 0.08));
+  EXPECT_FALSE(leaves(-0.1, 0.8));
+  EXPECT_TRUE(leaves(-1.5, 0.6));
+}
+
+TEST(Leaving, ARobotThatIsTooFastForItsGapMaySlowDown) {
+  // At 0.8 m/s it needs 87 mm, and has 60: enough for 0.38 m/s.
+  const SpeedMargin margin(0.035, 0.065);
+  const Motion fast = straight_drive(0.0, {0.0, 0.0}, 0.0, 8.0, 0.8, 0.5);
+  const auto along_a_wall = [&](const Motion& motion) {
+    return check_clearance_or_leaving(motion, kDisc, wall(0.36), margin, kLeaving, 5.0);
+  };
+  EXPECT_EQ(along_a_wall(fast).term, ViolatedTerm::kClearance);
+  EXPECT_FALSE(along_a_wall(with_brake(fast, 5.0, 5.0, test::kRoverBraking)));
 }
 
 TEST(Leaving, DeepInsideAnObstacleThereIsNoLeaving) {

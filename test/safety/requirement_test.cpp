@@ -30,6 +30,22 @@ std::shared_ptr<const MovingObstacle> person(double radius_m) {
 /// A distance that is not asked for is less than any.
 double of(const std::optional<double>& distance_m) { return distance_m.value_or(-kInfinity); }
 
+bool asks_no_more(const SpeedMargin& less, const SpeedMargin& more) {
+  constexpr double kRounding = 1e-12;
+  return less.still_m <= more.still_m + kRounding &&
+         less.per_speed_s <= more.per_speed_s + kRounding;
+}
+
+/// A margin that is not asked for is less than any.
+bool asks_no_more(const std::optional<SpeedMargin>& less, const std::optional<SpeedMargin>& more) {
+  return !less || (more && asks_no_more(*less, *more));
+}
+
+void expect_equal(const SpeedMargin& margin, const SpeedMargin& expected, const char* name) {
+  EXPECT_NEAR(margin.still_m, expected.still_m, 1e-12) << name;
+  EXPECT_NEAR(margin.per_speed_s, expected.per_speed_s, 1e-12) << name;
+}
+
 double acceleration_of(const Requirement& requirement) {
   return requirement.limits ? requirement.limits->max_acceleration : kInfinity;
 }
@@ -37,8 +53,8 @@ double acceleration_of(const Requirement& requirement) {
 /// In each field.
 bool asks_no_more(const Requirement& less, const Requirement& more) {
   return acceleration_of(less) >= acceleration_of(more) &&
-         less.obstacle_margin_m <= more.obstacle_margin_m &&
-         of(less.unseen_margin_m) <= of(more.unseen_margin_m) &&
+         asks_no_more(less.obstacle_margin, more.obstacle_margin) &&
+         asks_no_more(less.unseen_margin, more.unseen_margin) &&
          less.leaving.way_m >= more.leaving.way_m &&
          of(less.peer_distance_m) <= of(more.peer_distance_m) &&
          of(less.predicted_distance_m) <= of(more.predicted_distance_m) &&
@@ -55,18 +71,17 @@ class RequirementsTest : public ::testing::TestWithParam<const char*> {
 
 TEST_P(RequirementsTest, ThoseOfPlansAndDetoursTakeUnseenSpaceForFree) {
   for (const Name name : {Name::kPlan, Name::kDetour, Name::kDetourLikely, Name::kEmergencyDetour})
-    EXPECT_FALSE(requirements_[name].unseen_margin_m) << to_text(name);
+    EXPECT_FALSE(requirements_[name].unseen_margin) << to_text(name);
 }
 
 TEST_P(RequirementsTest, PromisesKeepTheStaticMarginFromUnseenSpaceToo) {
   for (const Name name : {Name::kPromise, Name::kPromiseLikely, Name::kEmergency, Name::kEscape,
                           Name::kTrigger, Name::kTriggerLikely}) {
-    ASSERT_TRUE(requirements_[name].unseen_margin_m) << to_text(name);
-    EXPECT_EQ(*requirements_[name].unseen_margin_m, margins_.static_margin_m()) << to_text(name);
+    ASSERT_TRUE(requirements_[name].unseen_margin) << to_text(name);
+    expect_equal(*requirements_[name].unseen_margin, margins_.static_margin(), to_text(name));
   }
-  ASSERT_TRUE(requirements_[Name::kRenewal].unseen_margin_m);
-  EXPECT_NEAR(*requirements_[Name::kRenewal].unseen_margin_m,
-              margins_.tracking_m + margins_.localisation_m, 1e-12);
+  ASSERT_TRUE(requirements_[Name::kRenewal].unseen_margin);
+  expect_equal(*requirements_[Name::kRenewal].unseen_margin, margins_.without_map(), "renewal");
 }
 
 TEST_P(RequirementsTest, ThePlanAsksForNothingThatMoves) {
@@ -94,11 +109,10 @@ TEST_P(RequirementsTest, EachAsksForLimits) {
 TEST_P(RequirementsTest, TheMarginsAreThoseOfTheBudget) {
   for (const Name name : kNames) {
     const Requirement& required = requirements_[name];
-    const double map_m = name == Name::kRenewal ? margins_.map_m : 0.0;
-    EXPECT_NEAR(required.obstacle_margin_m, margins_.static_margin_m() - map_m, 1e-12)
-        << to_text(name);
-    EXPECT_EQ(required.leaving.way_m, 6.0 * robot_.footprint.circumscribed_radius_m())
-        << to_text(name);
+    const bool in_force = name == Name::kRenewal;
+    expect_equal(required.obstacle_margin,
+                 in_force ? margins_.without_map() : margins_.static_margin(), to_text(name));
+    EXPECT_EQ(required.leaving.way_m, 1.0) << to_text(name);
   }
   const double people_m = *requirements_[Name::kPromise].predicted_distance_m;
   EXPECT_NEAR(people_m, body_m_ + margins_.own_margin_m() + robot_.moving_clearance_m, 1e-12);

@@ -17,14 +17,26 @@ TEST(MarginBudget, AddsUpEveryContributionOnce) {
   EXPECT_NEAR(budget.peer_margin_m(peer), peer.peer_margin_m(budget), 1e-12);
 }
 
+TEST(MarginBudget, TheStaticMarginGrowsWithTheSpeed) {
+  const MarginBudget budget{0.05, 0.02, 0.015, 0.01, 2.0, 0.01, 0.005};
+  EXPECT_NEAR(budget.static_margin().at(0.0), 0.035, 1e-12);
+  EXPECT_NEAR(budget.static_margin().at(2.0), budget.static_margin_m(), 1e-12);
+  EXPECT_NEAR(budget.without_map().at(0.0), 0.03, 1e-12);
+  EXPECT_NEAR(budget.without_map().at(2.0), 0.07, 1e-12);
+  EXPECT_NEAR(budget.tracking().at(0.0), 0.01, 1e-12);
+  EXPECT_NEAR(budget.tracking().at(1.0), 0.03, 1e-12);
+  EXPECT_NEAR(budget.own_margin_m(), 0.07, 1e-12);
+}
+
 TEST(MarginBudget, ListsItselfForDiagnostics) {
-  const MarginBudget budget{0.05, 0.02, 0.015, 0.01, 2.0};
+  const MarginBudget budget{0.05, 0.02, 0.015, 0.01, 2.0, 0.01, 0.005};
   const auto listed = budget.listed();
   const std::map<std::string, double> values(listed.begin(), listed.end());
-  EXPECT_EQ(values.size(), 7u);
+  EXPECT_EQ(values.size(), 10u);
   EXPECT_EQ(values.at("tracking_m"), 0.05);
   EXPECT_EQ(values.at("clock_s"), 0.01);
   EXPECT_EQ(values.at("static_margin_m"), budget.static_margin_m());
+  EXPECT_EQ(values.at("static_margin_still_m"), budget.static_margin().still_m);
   EXPECT_EQ(values.at("peer_margin_m"), budget.peer_margin_m());
 }
 
@@ -43,6 +55,8 @@ TEST(MarginBudget, RefusesNegativeAndNotFiniteNamingTheContribution) {
   refused({0, 0, INFINITY, 0, 0}, "map_m");
   refused({0, 0, 0, -1, 0}, "clock_s");
   refused({0, 0, 0, 0, -2}, "max_speed_mps");
+  refused({0, 0, 0, 0, 0, -0.02}, "tracking_still_m");
+  refused({0, 0, 0, 0, 0, 0, NAN}, "map_still_m");
 }
 
 TEST(MarginBudget, ComesFromTheRobotModel) {
@@ -51,6 +65,9 @@ TEST(MarginBudget, ComesFromTheRobotModel) {
   EXPECT_EQ(budget.max_speed, robot.limits.max_speed);
   EXPECT_EQ(budget.static_margin_m(),
             robot.margins.tracking_m + robot.margins.localisation_m + robot.margins.map_m);
+  EXPECT_EQ(budget.static_margin().still_m,
+            robot.margins.tracking_still_m + robot.margins.localisation_m +
+                robot.margins.map_still_m);
   EXPECT_EQ(budget.clock_s, robot.margins.clock_s);
   EXPECT_NO_THROW(budget.validate());
 }

@@ -53,6 +53,14 @@ TEST_F(RobotModelTest, EveryShippedRobotLoads) {
   EXPECT_GE(count, 2);
 }
 
+TEST_F(RobotModelTest, MarginsAreNoLargerAtRestThanAtSpeed) {
+  EXPECT_EQ(load("margin_tracking: 0.02\nmargin_map: 0.005\n").margins.tracking_still_m, 0.02);
+  EXPECT_NE(refusal("margin_tracking: 0.015").find("margin_tracking_still = 0.02 m is above"),
+            std::string::npos);
+  EXPECT_NE(refusal("margin_map_still: 0.04").find("margin_map_still = 0.04 m is above"),
+            std::string::npos);
+}
+
 TEST_F(RobotModelTest, TheJackalIsThatOfTheBarnChallenge) {
   const RobotModel jackal = load_robot_model("config", "jackal");
   EXPECT_EQ(jackal.limits.max_speed, 2.0);

@@ -106,6 +106,8 @@ class LocalReplanner {
   static void ask_for_plan(const Violation& violation, const std::string& why, Output& output);
 
   bool off_track(double now_s, const RobotState& measured) const;
+  /// How far off its promise the robot may be [m].
+  double max_error_m(double now_s) const;
   void stand_or_stop(double now_s, const RobotState& measured, Output& output);
   void stop_here(double now_s, const RobotState& measured, Output& output);
   /// What is in force is where the robot is, and at rest no later than it will be.

@@ -2,6 +2,7 @@
 
 #include "config/parameter_table.h"
 #include "world/robot_model.h"
+#include "world/speed_margin.h"
 
 namespace mocha {
 
@@ -12,9 +13,10 @@ struct LocalReplannerOptions {
   double horizon_s;         ///< promises reach about this far, then brake
   double extend_every_s;    ///< a promise is extended when this much of its horizon is used up
   double answer_timeout_s;  ///< a proposal without answer is given up after this time
-  double max_error_m;       ///< actual against promised position
-  double max_error_rad;     ///< the same for the heading
-  double mu_pre_s;          ///< paper (37): so far ahead the plan is held against what moves
+  SpeedMargin max_error;    ///< actual against promised position, under way
+  double max_standing_error_m;
+  double max_error_rad;  ///< the same for the heading
+  double mu_pre_s;       ///< paper (37): so far ahead the plan is held against what moves
 
   static LocalReplannerOptions from(const ParameterTable& values, const RobotModel& robot);
 };

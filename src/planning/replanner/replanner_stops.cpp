@@ -46,8 +46,14 @@ bool LocalReplanner::off_track(double now_s, const RobotState& measured) const {
   // what it has.
   if (now_s < committed_.start_time()) return false;
   const Pose promised = committed_.at(now_s).pose;
-  return (promised.position - measured.pose.position).norm() > options_.max_error_m ||
+  return (promised.position - measured.pose.position).norm() > max_error_m(now_s) ||
          std::abs(wrap_angle(promised.yaw_rad - measured.pose.yaw_rad)) > options_.max_error_rad;
+}
+
+double LocalReplanner::max_error_m(double now_s) const {
+  const MotionState promised = committed_.at(now_s);
+  return promised.at_rest ? options_.max_standing_error_m
+                          : options_.max_error.at(std::abs(promised.speed));
 }
 
 void LocalReplanner::stand_or_stop(double now_s, const RobotState& measured, Output& output) {
@@ -67,7 +73,7 @@ void LocalReplanner::stop_here(double now_s, const RobotState& measured, Output&
   text.precision(3);
   if (!committed_.empty()) {
     const double error_m = (committed_.at(now_s).pose.position - measured.pose.position).norm();
-    text << "is " << error_m << " m off its promised motion (allowed: " << options_.max_error_m
+    text << "is " << error_m << " m off its promised motion (allowed: " << max_error_m(now_s)
          << " m): brakes from where it is";
   } else {
     text << "moves without a promise: brakes";
@@ -114,7 +120,7 @@ bool LocalReplanner::is_promised(const Motion& stop, double now_s) const {
   if (committed_.empty() || committed_.end_time() > stop.end_time()) return false;
   const Pose promised = committed_.at(now_s).pose;
   const Pose real = stop.at(now_s).pose;
-  return (promised.position - real.position).norm() < kShareOfError * options_.max_error_m &&
+  return (promised.position - real.position).norm() < kShareOfError * max_error_m(now_s) &&
          std::abs(wrap_angle(promised.yaw_rad - real.yaw_rad)) <
              kShareOfError * options_.max_error_rad;
 }

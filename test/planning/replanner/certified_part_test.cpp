@@ -42,7 +42,8 @@ class CertifiedPartTest : public ManeuverTest {
     }
   }
 
-  const double margin_m_ = MarginBudget::of(robot_).static_margin_m();
+  /// Where it comes to rest.
+  const double margin_m_ = MarginBudget::of(robot_).static_margin().still_m;
   const OccupancyGrid open_ = free_grid({-2.0, -3.0}, {12.0, 3.0});
   const Motion ahead_ = straight_drive(kStart_s, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5);
 };

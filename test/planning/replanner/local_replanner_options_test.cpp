@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planning/worlds.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {
@@ -10,9 +11,13 @@ namespace {
 TEST(LocalReplannerOptions, APromiseIsGivenUpOnlyAfterTheTrackerHasBraked) {
   const ParameterTable values = ParameterTable::from_schema("config/local_replanner.yaml");
   for (const RobotModel& robot : {rover(), jackal()}) {
-    const double max_error_m = LocalReplannerOptions::from(values, robot).max_error_m;
-    EXPECT_GT(max_error_m, robot.margins.tracking_m) << robot.name;
-    EXPECT_LE(max_error_m, 2.0 * robot.margins.tracking_m) << robot.name;
+    const auto options = LocalReplannerOptions::from(values, robot);
+    const SpeedMargin tracking = MarginBudget::of(robot).tracking();
+    for (const double speed : {0.0, 0.3, robot.limits.max_speed}) {
+      EXPECT_GT(options.max_error.at(speed), tracking.at(speed)) << robot.name;
+      EXPECT_LE(options.max_error.at(speed), 2.0 * tracking.at(speed)) << robot.name;
+    }
+    EXPECT_EQ(options.max_standing_error_m, options.max_error.at(robot.limits.max_speed));
   }
 }
 

@@ -39,7 +39,7 @@ TEST_F(LocalReplannerTest, BrakesAtOnceForAnObstacleThatIsClose) {
   const double now_s = kNow_s + 4.0;
   const double here_x = ahead_.at(now_s).pose.position.x();
   // Farther than the stopping distance after emergency_time, but not after settle_time.
-  block(std::ceil((here_x + 0.3 + 0.1 + 0.9 * 0.1 + 0.9 * 0.9 / (2.0 * 0.48) + 0.15) * 20.0) /
+  block(std::ceil((here_x + 0.3 + 0.035 + 0.9 * 0.1 + 0.9 * 0.9 / (2.0 * 0.48) + 0.15) * 20.0) /
         20.0);
   const auto output = step_on_track(now_s);
   ASSERT_TRUE(output.proposal);

@@ -134,10 +134,10 @@ TEST_F(ReplannerManeuversTest, APlanThatIsOverIsNotPromised) {
 }
 
 TEST_F(ReplannerManeuversTest, ADetourThatLeadsNowhereIsNotProposed) {
-  replanner_.set_committed(1, standing(kNow_s - 5.0, {-0.003, 0.2}, 0.0));
+  replanner_.set_committed(1, standing(kNow_s - 5.0, {0.012, 0.2}, 0.0));
   replanner_.set_plan(plan_from(kNow_s + 0.5));
   OccupancyGrid grid = open_;
-  fill_box(grid, {0.4, -3.0}, {12.0, 3.0}, OccupancyGrid::kUnknown);
+  fill_box(grid, {0.35, -3.0}, {12.0, 3.0}, OccupancyGrid::kUnknown);
   scene_ = scene_of(grid);
   const auto output = step_on_track(kNow_s);
   ASSERT_TRUE(output.local);

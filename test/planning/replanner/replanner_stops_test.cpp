@@ -37,7 +37,7 @@ TEST_F(ReplannerStopsTest, OffItsTrackItBrakesFromWhereItIs) {
   replanner_.set_committed(1, ahead_);
   const double now_s = kNow_s + 4.0;
   RobotState off = state(ahead_, now_s);
-  off.pose.position.y() += options_.max_error_m + 0.01;
+  off.pose.position.y() += options_.max_standing_error_m + 0.01;
   const auto output = replanner_.step(now_s, off, scene_);
   EXPECT_FALSE(output.renew_lease);
   EXPECT_TRUE(output.request_plan);
