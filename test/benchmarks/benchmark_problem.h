@@ -45,7 +45,7 @@ InitialKnots<D> knots_on(const std::vector<Eigen::Matrix<double, D, 1>>& path, d
   limits.max_speed = options.max_speed;
   limits.max_acceleration = options.max_acceleration;
   limits.max_yaw_rate = std::numeric_limits<double>::infinity();
-  const SpeedProfile<D> profile(path, 0.0, limits, spacing_m);
+  const SpeedProfile<D> profile(path, 0.0, limits, spacing_m, {});
   return profile.knots(static_cast<int>(std::round(length_m<D>(path) / spacing_m)));
 }
 

@@ -71,7 +71,7 @@ PlanCandidate plan_straight(const Task& task, const PlannerOptions& options) {
   const PlanQuery query = query_of(task);
   const PlanningScene scene{task.static_map, {}};
   const DriveOptimizer optimizer(task.robot, options,
-                                 MarginBudget::of(task.robot).static_margin_m());
+                                 MarginBudget::of(task.robot).static_margin());
   const GlobalRules rules(task.robot, options, query, scene);
   return CandidatePipeline(optimizer, task.static_map->field(), rules)
       .optimise_and_certify(straight, [] { return false; });

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "fleet/protocol/motions.h"
+#include "optimization/clearance_penalty.h"
 #include "optimization/dynamics_penalty.h"
 #include "optimization/moving_penalty.h"
 #include "optimization/obstacle_penalty.h"
@@ -239,6 +240,31 @@ TEST(ObstaclePenalty, GradientMatchesDifferencesAlsoNearStandstill) {
   for (int i = 0; i < 200; ++i) {
     expect_gradient(penalty, samples.next(1.0), 1e-7, 1e-5);
     expect_gradient(penalty, samples.next(0.02), 1e-7, 1e-5);
+  }
+}
+
+TEST(ClearancePenalty, AsksForMoreRoomAtSpeed) {
+  const CircleField field({{{0.0, 0.0}, 1.0}});
+  const ClearancePenalty<2> disc(10.0, field, {{0.0, SpeedMargin(0.2, 0.1), 1.0}}, 1e-6);
+  const auto value = [&](double distance_m, double speed) {
+    return value_of(disc, sample_at({1.0 + distance_m, 0.0}, {0.0, speed}, kZero));
+  };
+  EXPECT_EQ(value(0.21, 0.0), 0.0);
+  EXPECT_EQ(value(0.24, 0.3), 0.0);
+  EXPECT_NEAR(value(0.295, 1.0), 10.0 * 0.125 / (1.0 + 0.125 / 8.0), 1e-3);
+  EXPECT_NEAR(value(0.19, 0.0), 10.0 / (1.0 + 1.0 / 8.0), 1e-3);
+  EXPECT_NEAR(value(0.0, 0.0), 80.0, 0.1) << "level";
+}
+
+TEST(ClearancePenalty, GradientMatchesDifferencesAlsoNearStandstill) {
+  const CircleField field({{{0.3, 0.2}, 0.4}, {{-1.2, 1.0}, 0.3}});
+  const SpeedMargin required(0.5, 0.1);
+  const ClearancePenalty<2> penalty(
+      1e-3, field, {{0.3, required, 2.0}, {0.0, required, 2.0}, {0.1, required, 2.0, 0.3}}, 0.05);
+  RandomSamples samples;
+  for (int i = 0; i < 200; ++i) {
+    expect_gradient(penalty, samples.next(1.0), 1e-6, 1e-3);
+    expect_gradient(penalty, samples.next(0.02), 1e-6, 1e-3);
   }
 }
 

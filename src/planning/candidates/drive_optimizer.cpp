@@ -6,10 +6,12 @@
 
 #include "camouflage/camouflage_map.h"
 #include "camouflage/reference_point.h"
+#include "optimization/clearance_penalty.h"
 #include "optimization/dynamics_penalty.h"
 #include "optimization/obstacle_penalty.h"
 #include "optimization/turning_penalty.h"
 #include "optimization/wheel_penalty.h"
+#include "planning/candidates/path_clearance.h"
 #include "planning/candidates/start_maneuver.h"
 
 namespace mocha {
@@ -21,6 +23,7 @@ constexpr double kShareOfSpeed = 0.97;
 constexpr double kShareOfAcceleration = 0.95;
 constexpr double kShareOfYawRate = 0.92;
 constexpr double kShareOfWheelSpeed = 0.97;
+constexpr double kShareOfRoom_m = 0.005;
 constexpr double kRelativeCost = 1e-4;  // falling by less, the search has converged
 constexpr double kSpacingOfRoom = 1.5;  // knots apart, over the room beside the path
 constexpr double kLeastPieces = 10.0;   // of a drive, for its ramps
@@ -56,7 +59,7 @@ bool is_sound(const DriveQuery& query) {
 void undo(const Effort& effort, OptimizedTrajectory<2, 3>& found) {
   found.cost = 0.0;
   for (auto& [name, value] : found.terms) {
-    if (name == "obstacle") value /= effort.obstacle_weight;
+    if (name == "obstacle" || name == "clearance") value /= effort.obstacle_weight;
     if (name == "moving") value /= effort.moving_weight;
     if (name == "dynamics" || name == "turning" || name == "wheels") value /= effort.limit_weight;
     found.cost += value;
@@ -115,8 +118,8 @@ InitialKnots<2> even_knots(const DriveQuery& query, int pieces, double window_s)
 }  // namespace
 
 DriveOptimizer::DriveOptimizer(const RobotModel& robot, const DriveOptions& options,
-                               double static_margin_m)
-    : robot_(robot), options_(options), static_margin_m_(static_margin_m) {}
+                               const SpeedMargin& static_margin)
+    : robot_(robot), options_(options), static_margin_(static_margin) {}
 
 Effort raised(const Effort& effort, const Violation& violation, double factor) {
   Effort more = effort;
@@ -176,14 +179,23 @@ std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQu
                                                                    const ObstacleField<2>& field,
                                                                    const Effort& effort) const {
   const MotionLimits& limits = limits_of(query);
-  std::vector<ObstaclePenalty<2>::Cover> cover;
+  const double max_speed = robot_.limits.max_speed;
+  const double wished_m = static_margin_.at(max_speed) + options_.soft_margin_m;
+  std::vector<ObstacleCover> wished;
+  std::vector<ClearanceCover> required;
   for (const CoverDisc& disc : robot_.footprint.soft_cover()) {
-    cover.push_back({disc.offset_m.x(), disc.radius_m + static_margin_m_ + options_.soft_margin_m,
-                     disc.offset_m.y()});
+    const double inside_m = std::min(disc.radius_m, robot_.footprint.depth_m(disc.offset_m));
+    const SpeedMargin least(inside_m + static_margin_.still_m + kShareOfRoom_m,
+                            static_margin_.per_speed_s);
+    wished.push_back({disc.offset_m.x(), disc.radius_m + wished_m, disc.offset_m.y()});
+    required.push_back({disc.offset_m.x(), least, max_speed, disc.offset_m.y()});
   }
   std::vector<std::unique_ptr<Penalty<2>>> penalties;
-  penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
-      options_.weight_obstacle * effort.obstacle_weight, field, std::move(cover), kSoftSpeed));
+  const double weight = options_.weight_obstacle * effort.obstacle_weight;
+  penalties.push_back(
+      std::make_unique<ObstaclePenalty<2>>(weight, field, std::move(wished), kSoftSpeed));
+  penalties.push_back(
+      std::make_unique<ClearancePenalty<2>>(weight, field, std::move(required), kSoftSpeed));
   penalties.push_back(
       std::make_unique<DynamicsPenalty<2>>(options_.weight_dynamics * effort.limit_weight,
                                            kShareOfSpeed * effort.speed * limits.max_speed,
@@ -206,6 +218,12 @@ std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQu
   return penalties;
 }
 
+double DriveOptimizer::fastest_at(const Vector2& place, const ObstacleField<2>& field) const {
+  const double room_m = field.distance_bound(place) - robot_.footprint.inscribed_radius_m();
+  if (room_m < static_margin_.still_m) return robot_.limits.max_speed;
+  return std::max(kCreep_mps, static_margin_.fastest(room_m - kShareOfRoom_m));
+}
+
 InitialKnots<2> DriveOptimizer::initial_knots(const DriveQuery& query,
                                               const ObstacleField<2>& field,
                                               const Effort& effort) const {
@@ -213,7 +231,8 @@ InitialKnots<2> DriveOptimizer::initial_knots(const DriveQuery& query,
   limits.max_speed *= effort.speed;
   if (query.times_s.empty()) {
     return spread_knots<2>(query.path, query.start.col(1).norm(), limits,
-                           effort.spacing * knot_spacing_m(query.path, field));
+                           effort.spacing * knot_spacing_m(query.path, field),
+                           [&](const Vector2& place) { return fastest_at(place, field); });
   }
   const double piece_s = effort.spacing * options_.knot_spacing_m / limits.max_speed;
   const double pieces = std::ceil(query.times_s.back() / piece_s);

@@ -12,6 +12,7 @@
 #include "safety/certificate.h"
 #include "world/obstacle_field.h"
 #include "world/robot_model.h"
+#include "world/speed_margin.h"
 
 namespace mocha {
 
@@ -49,7 +50,8 @@ Effort raised(const Effort& effort, const Violation& violation, double factor);
 /// Turns front-end paths into smooth drives: MINCO through knots that camouflage moves, paper (14).
 class DriveOptimizer {
  public:
-  DriveOptimizer(const RobotModel& robot, const DriveOptions& options, double static_margin_m);
+  DriveOptimizer(const RobotModel& robot, const DriveOptions& options,
+                 const SpeedMargin& static_margin);
 
   /// `field` are the static obstacles. The result's curve is empty only if nothing finite was
   /// found (kNotFinite), or the query is none (kInvalidInput): values that are not finite or beyond
@@ -65,6 +67,9 @@ class DriveOptimizer {
 
  private:
   const MotionLimits& limits_of(const DriveQuery& query) const;
+  /// How fast the base may be there, about, in the direction in which it needs the least room
+  /// [m/s]; a place where it may not be at all says nothing.
+  double fastest_at(const Vector2& place, const ObstacleField<2>& field) const;
   InitialKnots<2> initial_knots(const DriveQuery& query, const ObstacleField<2>& field,
                                 const Effort& effort) const;
   PlanarMinco::State end_state(const DriveQuery& query) const;
@@ -76,7 +81,7 @@ class DriveOptimizer {
 
   const RobotModel robot_;
   const DriveOptions options_;
-  const double static_margin_m_;
+  const SpeedMargin static_margin_;
 };
 
 }  // namespace mocha

@@ -5,8 +5,14 @@
 namespace mocha {
 
 double path_clearance_m(const RobotModel& robot) {
-  return robot.footprint.inscribed_radius_m() + MarginBudget::of(robot).static_margin_m() +
+  return robot.footprint.inscribed_radius_m() + MarginBudget::of(robot).static_margin().still_m +
          kPathSlack_m;
+}
+
+double passable_gap_m(const RobotModel& robot) { return 2.0 * path_clearance_m(robot); }
+
+double turning_room_m(const RobotModel& robot) {
+  return 2.0 * (robot.footprint.cover_reach_m() + MarginBudget::of(robot).static_margin().still_m);
 }
 
 }  // namespace mocha

@@ -1,6 +1,5 @@
 #include "planning/candidates/path_drive.h"
 
-#include "planning/candidates/speed_profile.h"
 #include "safety/certificate.h"
 #include "trajectory/minco.h"
 #include "trajectory/time_scaling.h"
@@ -15,7 +14,8 @@ constexpr double kSlower = 1.2;
 
 std::optional<DrivePhase> drive_along(const std::vector<Vector2>& path, const PathDrive& how,
                                       const MotionLimits& limits) {
-  const InitialKnots<2> knots = spread_knots<2>(path, 0.0, how.wanted, how.spacing_m);
+  const InitialKnots<2> knots =
+      spread_knots<2>(path, 0.0, how.wanted, how.spacing_m, how.fastest_at);
   const int last = static_cast<int>(knots.path.cols()) - 1;
   const double acceleration = 0.5 * how.wanted.max_acceleration;
   PlanarMinco::State from;

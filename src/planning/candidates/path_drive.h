@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "planning/candidates/speed_profile.h"
 #include "trajectory/motion.h"
 #include "world/robot_model.h"
 
@@ -15,6 +16,7 @@ struct PathDrive {
   Vector2 last_course;   ///< the same where it ends
   double spacing_m;      ///< of the knots, about; corners are rounded over that
   MotionLimits wanted;   ///< of speed and acceleration; what the robot may do is asked for besides
+  SpeedAt<2> fastest_at = {};  ///< how fast a place lets it be; may be empty
 };
 
 /// The drive along at least two points, map frame. Slower than wanted where the path asks for more

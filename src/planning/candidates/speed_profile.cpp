@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "camouflage/bounded_maps.h"
 
@@ -14,7 +15,7 @@ constexpr double kSteps = 25.0;       // in the window that rounds corners
 constexpr double kMostSamples = 2e4;  // very long paths are sampled more coarsely
 constexpr int kMostPieces = 2000;
 constexpr double kShareOfAcceleration = 0.6;  // leaves room for the curve's own shape
-constexpr double kSlowest = 0.05;             // [m/s] of the profile, so that times stay finite
+constexpr double kSlowest = 0.01;             // [m/s] of the profile, so that times stay finite
 
 template <int D>
 using Points = std::vector<Eigen::Matrix<double, D, 1>>;
@@ -107,7 +108,7 @@ double InitialKnots<D>::metres_per_eta() const {
 
 template <int D>
 SpeedProfile<D>::SpeedProfile(const Points& points, double start_speed, const MotionLimits& limits,
-                              double window_m) {
+                              double window_m, const SpeedAt<D>& fastest_at) {
   const double length = length_m<D>(points);
   if (points.size() < 2 || !std::isfinite(length)) {
     throw std::invalid_argument("SpeedProfile: needs at least two points, all of them finite");
@@ -119,8 +120,12 @@ SpeedProfile<D>::SpeedProfile(const Points& points, double start_speed, const Mo
   const int half_window = static_cast<int>(std::clamp(0.5 * window_m / step_m, 0.0, kMostSamples));
   samples_ = resample<D>(points, step_m);
   for (int pass = 0; pass < 2; ++pass) samples_ = rounded<D>(samples_, half_window);
-  times_s_ = arrival_times<D>(
-      samples_, corner_speeds<D>(samples_, limits, std::max(1, half_window)), start_speed, limits);
+  std::vector<double> speeds = corner_speeds<D>(samples_, limits, std::max(1, half_window));
+  if (fastest_at) {
+    for (std::size_t i = 0; i < speeds.size(); ++i)
+      speeds[i] = std::min(speeds[i], fastest_at(samples_[i]));
+  }
+  times_s_ = arrival_times<D>(samples_, std::move(speeds), start_speed, limits);
 }
 
 template <int D>
@@ -141,8 +146,9 @@ InitialKnots<D> SpeedProfile<D>::knots(int pieces) const {
 
 template <int D>
 InitialKnots<D> spread_knots(const Points<D>& points, double start_speed,
-                             const MotionLimits& limits, double spacing_m) {
-  const SpeedProfile<D> profile(points, start_speed, limits, spacing_m);
+                             const MotionLimits& limits, double spacing_m,
+                             const SpeedAt<D>& fastest_at) {
+  const SpeedProfile<D> profile(points, start_speed, limits, spacing_m, fastest_at);
   const double intervals = std::ceil(profile.duration_s() * limits.max_speed / spacing_m);
   return profile.knots(static_cast<int>(std::clamp<double>(intervals, 2, kMostPieces)));
 }
@@ -151,7 +157,9 @@ template struct InitialKnots<2>;
 template struct InitialKnots<3>;
 template class SpeedProfile<2>;
 template class SpeedProfile<3>;
-template InitialKnots<2> spread_knots<2>(const Points<2>&, double, const MotionLimits&, double);
-template InitialKnots<3> spread_knots<3>(const Points<3>&, double, const MotionLimits&, double);
+template InitialKnots<2> spread_knots<2>(const Points<2>&, double, const MotionLimits&, double,
+                                         const SpeedAt<2>&);
+template InitialKnots<3> spread_knots<3>(const Points<3>&, double, const MotionLimits&, double,
+                                         const SpeedAt<3>&);
 
 }  // namespace mocha

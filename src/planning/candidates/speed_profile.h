@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "world/robot_model.h"
@@ -18,6 +19,10 @@ struct InitialKnots {
   double metres_per_eta() const;
 };
 
+/// The highest speed [m/s] that a place allows, above 0.
+template <int D>
+using SpeedAt = std::function<double(const Eigen::Matrix<double, D, 1>&)>;
+
 /// A trapezoidal speed profile along a path whose corners are rounded, slower there, to rest at the
 /// end.
 template <int D>
@@ -28,9 +33,9 @@ class SpeedProfile {
   /// Throws std::invalid_argument for fewer than two points, for points that are not finite, and
   /// for limits that are not above 0. The path begins at `start_speed` >= 0 [m/s]; corners are
   /// rounded over about `window_m`, so that knots do not carry the kinks and the jitter of a
-  /// searched path into directions in which they cannot move.
+  /// searched path into directions in which they cannot move. `fastest_at` may be empty.
   SpeedProfile(const Points& points, double start_speed, const MotionLimits& limits,
-               double window_m);
+               double window_m, const SpeedAt<D>& fastest_at);
 
   double duration_s() const { return times_s_.back(); }
 
@@ -51,11 +56,12 @@ extern template class SpeedProfile<3>;
 /// thousands.
 template <int D>
 InitialKnots<D> spread_knots(const std::vector<Eigen::Matrix<double, D, 1>>& points,
-                             double start_speed, const MotionLimits& limits, double spacing_m);
+                             double start_speed, const MotionLimits& limits, double spacing_m,
+                             const SpeedAt<D>& fastest_at = {});
 
 extern template InitialKnots<2> spread_knots<2>(const std::vector<Eigen::Vector2d>&, double,
-                                                const MotionLimits&, double);
+                                                const MotionLimits&, double, const SpeedAt<2>&);
 extern template InitialKnots<3> spread_knots<3>(const std::vector<Eigen::Vector3d>&, double,
-                                                const MotionLimits&, double);
+                                                const MotionLimits&, double, const SpeedAt<3>&);
 
 }  // namespace mocha

@@ -87,7 +87,7 @@ LocalPlanner::LocalPlanner(const RobotModel& robot, const LocalOptions& options,
       footprint_(robot.footprint),
       options_(options),
       space_time_options_(space_time_options(robot, options)),
-      optimizer_(robot, options, MarginBudget::of(robot).static_margin_m()) {}
+      optimizer_(robot, options, MarginBudget::of(robot).static_margin()) {}
 
 double LocalPlanner::rejoin_ahead_s(const LocalQuery& query) const {
   return std::max(options_.mu_s, query.rejoin_point_s - query.progress_s);

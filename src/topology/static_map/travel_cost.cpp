@@ -27,7 +27,10 @@ double TravelCost::at(const Vector2& p, double distance_m) const {
     if (apart < disc.radius_m && apart < (start_ - disc.centre).norm() - 1e-6) return kInfinity;
   }
   const double lack = std::max(0.0, 1.0 - distance_m / options_.preferred_clearance_m);
-  return 1.0 + options_.clearance_weight * lack * lack;
+  const double wary = 1.0 + options_.clearance_weight * lack * lack;
+  const double spare_m = distance_m - options_.required_clearance_m;
+  if (spare_m >= options_.room_for_speed_m) return wary;
+  return wary / std::max(options_.slowest_share, spare_m / options_.room_for_speed_m);
 }
 
 double TravelCost::blocked_room_m(const Vector2& p) const {

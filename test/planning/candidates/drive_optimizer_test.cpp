@@ -33,7 +33,7 @@ class DriveOptimizerTest : public ::testing::Test {
 
   const RobotModel robot_ = rover();
   const DriveOptimizer optimizer_{robot_, default_options(),
-                                  MarginBudget::of(robot_).static_margin_m()};
+                                  MarginBudget::of(robot_).static_margin()};
   const CircleField open_{{}};
 };
 
@@ -52,7 +52,7 @@ TEST_F(DriveOptimizerTest, KeepsClearOfWhatStandsBesideTheWay) {
   const CircleField field({{{5.0, 0.5}, 0.3}});
   const Motion motion = drive(from_rest({{0.0, 0.0}, {10.0, 0.0}}), field);
   const Violation violation = check_clearance(motion, robot_.footprint, field,
-                                              MarginBudget::of(robot_).static_margin_m(), 0.0);
+                                              MarginBudget::of(robot_).static_margin(), 0.0);
   EXPECT_FALSE(violation) << describe(violation);
 }
 
@@ -83,8 +83,7 @@ TEST(DriveOptimizerWheels, SlowDownInBendsWhereTheWheelsAskForIt) {
   RobotModel robot = rover();
   robot.limits.max_wheel_speed = robot.limits.max_speed;  // none to spare for turning
   robot.limits.track_m = 0.5;
-  const DriveOptimizer optimizer(robot, default_options(),
-                                 MarginBudget::of(robot).static_margin_m());
+  const DriveOptimizer optimizer(robot, default_options(), MarginBudget::of(robot).static_margin());
   DriveQuery query{{{0.0, 0.0}, {4.0, 0.0}, {4.0, 4.0}},
                    PlanarMinco::State::Zero(),
                    0.0,
@@ -108,7 +107,7 @@ TEST(DriveOptimizerWheels, SlowDownInBendsWhereTheWheelsAskForIt) {
   const auto violation = check_limits(motion, robot.limits, 0.0);
   EXPECT_FALSE(violation) << describe(violation);
   robot.limits.track_m = 0.01;
-  const DriveOptimizer free(robot, default_options(), MarginBudget::of(robot).static_margin_m());
+  const DriveOptimizer free(robot, default_options(), MarginBudget::of(robot).static_margin());
   EXPECT_LT(free.optimize_drive(query, open, {}, kGoOn).curve.duration(), found.curve.duration());
 }
 
@@ -119,7 +118,7 @@ TEST_F(DriveOptimizerTest, DrivesWithinTheLimitsThatAreGiven) {
   query.start.col(2) = rest_acceleration(*query.limits) * Vector2(6.0, 1.0).normalized();
   RobotModel other = robot_;
   other.limits = *query.limits;
-  const DriveOptimizer hard(other, default_options(), MarginBudget::of(robot_).static_margin_m());
+  const DriveOptimizer hard(other, default_options(), MarginBudget::of(robot_).static_margin());
   DriveQuery own = query;
   own.limits.reset();
   const auto given = optimizer_.optimize_drive(query, open_, {}, kGoOn);
@@ -170,7 +169,7 @@ TEST_F(DriveOptimizerTest, NamesTheTermsOfTheCost) {
   std::string names;
   for (const auto& term : optimizer_.optimize_drive(query, open_, {}, kGoOn).terms)
     names += term.first + " ";
-  EXPECT_EQ(names, "control_effort duration obstacle dynamics turning moving ");
+  EXPECT_EQ(names, "control_effort duration obstacle clearance dynamics turning moving ");
 }
 
 TEST_F(DriveOptimizerTest, HasNothingWhenItMayNotWork) {

@@ -81,7 +81,7 @@ TEST(DriveRobustness, StrangeQueriesGetAReasonAndNothingThatIsNotANumber) {
   const RobotModel robot = rover();
   PlannerOptions options = default_options();
   options.max_evaluations = 12;
-  const DriveOptimizer optimizer(robot, options, MarginBudget::of(robot).static_margin_m());
+  const DriveOptimizer optimizer(robot, options, MarginBudget::of(robot).static_margin());
   StrangeQueries queries(4);
   int refused = 0;
   int found = 0;
@@ -117,8 +117,8 @@ TEST(DriveRobustness, StrangeQueriesGetAReasonAndNothingThatIsNotANumber) {
 
 TEST(DriveRobustness, APathThroughAnObstacleIsNotCertified) {
   const RobotModel robot = rover();
-  const double margin_m = MarginBudget::of(robot).static_margin_m();
-  const DriveOptimizer optimizer(robot, default_options(), margin_m);
+  const SpeedMargin margin = MarginBudget::of(robot).static_margin();
+  const DriveOptimizer optimizer(robot, default_options(), margin);
   // A wall without an end: no way round.
   const Polygon wall{{{4.0, -500.0}, {4.5, -500.0}, {4.5, 500.0}, {4.0, 500.0}}};
   const PrimitiveField<2> field({wall}, 1.0);
@@ -128,7 +128,7 @@ TEST(DriveRobustness, APathThroughAnObstacleIsNotCertified) {
   const auto result = optimizer.optimize_drive(query, field, {}, [] { return false; });
   ASSERT_GT(result.curve.pieces(), 0);
   const Motion motion(0.0, {DrivePhase{1, result.curve}});
-  const Violation violation = check_clearance(motion, robot.footprint, field, margin_m, 0.0);
+  const Violation violation = check_clearance(motion, robot.footprint, field, margin, 0.0);
   ASSERT_TRUE(violation);
   EXPECT_EQ(violation.term, ViolatedTerm::kClearance);
   EXPECT_LT(violation.value, violation.limit);

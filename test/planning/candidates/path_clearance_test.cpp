@@ -10,11 +10,12 @@
 namespace mocha {
 namespace {
 
-/// A straight drive past a post, so far from its surface.
+/// A straight drive past a post, slowly, so far from its surface.
 bool is_certified(const RobotModel& robot, double distance_m) {
   const CircleField post({{{2.0, 0.5 + distance_m}, 0.5}});
-  const Motion drive = straight_drive(0.0, {0.0, 0.0}, 0.0, 4.0, 0.5, 0.5);
-  return !check_clearance(drive, robot.footprint, post, MarginBudget::of(robot).static_margin_m(),
+  const Motion drive =
+      slowed(straight_drive(0.0, {0.0, 0.0}, 0.0, 4.0, 0.5, 0.5), 0.5 / kCreep_mps);
+  return !check_clearance(drive, robot.footprint, post, MarginBudget::of(robot).static_margin(),
                           0.0);
 }
 

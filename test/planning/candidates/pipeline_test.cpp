@@ -74,7 +74,7 @@ class PipelineTest : public ::testing::Test {
 
   const RobotModel robot_ = rover();
   const DriveOptimizer optimizer_{robot_, default_options(),
-                                  MarginBudget::of(robot_).static_margin_m()};
+                                  MarginBudget::of(robot_).static_margin()};
   const PrimitiveField<2> open_{{}, 1.0};
   ToldRules rules_;
   const CandidatePipeline pipeline_{optimizer_, open_, rules_};

@@ -81,6 +81,24 @@ TEST(SpeedProfile, RespectsTheYawRate) {
   EXPECT_GT(speed(knots, static_cast<int>(knots.durations_s.size()) / 2), 0.9 * 0.2 * 2.0);
 }
 
+TEST(SpeedProfile, IsSlowerWhereAPlaceAsksForIt) {
+  const auto narrow = [](const Vector2& place) {
+    return std::abs(place.x() - 10.0) < 1.0 ? 0.5 : 9.0;
+  };
+  const InitialKnots<2> knots =
+      spread_knots<2>({{0.0, 0.0}, {20.0, 0.0}}, 0.0, kLimits, 0.4, narrow);
+  for (int k = 0; k < knots.durations_s.size(); ++k) {
+    const double first = knots.path(0, k);
+    const double last = knots.path(0, k + 1);
+    if (first > 9.1 && last < 10.9) {
+      EXPECT_NEAR(speed(knots, k), 0.5, 1e-6);
+    }
+    if (first > 5.0 && last < 6.0) {
+      EXPECT_GT(speed(knots, k), 1.9);
+    }
+  }
+}
+
 TEST(SpeedProfile, AGentleBendIsFasterThanASharpOne) {
   const auto duration_s = [](double turn_rad) {
     const Vector2 bend(10.0, 0.0);

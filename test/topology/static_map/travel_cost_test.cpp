@@ -32,6 +32,20 @@ TEST(TravelCost, IsOneInTheOpenAndMoreWhereItIsNarrow) {
   EXPECT_EQ(cost.at({5.0, 5.0}), kInfinity);
 }
 
+TEST(TravelCost, CountsThatNarrowPlacesAreDrivenSlowly) {
+  const auto static_map = circles({Circle{{5.0, 5.0}, 1.0}});
+  TravelOptions options = shipped_travel_options();
+  options.preferred_clearance_m = 0.0;
+  options.room_for_speed_m = 0.1;
+  options.slowest_share = 0.2;
+  const TravelCost cost(*static_map, {1.0, 1.0}, {}, options);
+  const double required_m = options.required_clearance_m;
+  EXPECT_EQ(cost.at({5.0, 6.0 + required_m + 0.101}), 1.0);
+  EXPECT_NEAR(cost.at({5.0, 6.0 + required_m + 0.05}), 2.0, 1e-9);
+  EXPECT_NEAR(cost.at({5.0, 6.0 + required_m + 0.01}), 5.0, 1e-9);
+  EXPECT_EQ(cost.at({5.0, 6.0 + required_m - 0.01}), kInfinity);
+}
+
 TEST(TravelCost, OfALineIsTheIntegral) {
   const auto static_map = circles({Circle{{5.0, 5.0}, 1.0}, Circle{{2.0, 7.1}, 0.3}});
   const TravelCost cost(*static_map, {1.0, 1.0}, {}, shipped_travel_options());
