@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "planning/candidates/path_clearance.h"
 #include "ros_bridge/inputs/committed_trajectory_source.h"
 #include "ros_bridge/inputs/emergency_stop_listener.h"
 #include "ros_bridge/inputs/goal_inputs.h"
@@ -70,6 +71,8 @@ class GlobalPlannerNode {
         loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }) {
     diagnostics_.setHardwareID(identity_.name);
     diagnostics_.add("planning", this, &GlobalPlannerNode::diagnose);
+    ROS_INFO("%s: passes gaps of %.2f m, turns on the spot in %.2f m", identity_.name.c_str(),
+             passable_gap_m(model_), turning_room_m(model_));
   }
 
  private:
@@ -241,6 +244,8 @@ class GlobalPlannerNode {
     status.summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                    planning_.stopped() ? stop_.reason() : doing);
     status.add("state", to_text(executive_.state()));
+    status.add("passes gaps of (m)", passable_gap_m(model_));
+    status.add("turns on the spot in (m)", turning_room_m(model_));
     status.add("plans made", plans_made_);
     status.add("plans adopted", outputs_.adopted());
     status.add("switches to another class of paths", class_switches_);

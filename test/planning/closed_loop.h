@@ -13,6 +13,7 @@
 #include "planning/worlds.h"
 #include "stack/commitment_keeping.h"
 #include "stack/local_replanning.h"
+#include "world/margin_budget.h"
 
 namespace mocha {
 
@@ -111,7 +112,8 @@ class ClosedLoop {
   int emergencies = 0;  ///< but for the first promise, to stand
   int plans = 0;
   int steps_without_lease = 0;  ///< while moving
-  double least_clearance_m = std::numeric_limits<double>::infinity();
+  /// Clearance beyond the static margin of the speed.
+  double least_spare_m = std::numeric_limits<double>::infinity();
   double largest_jump_m =
       0.0;  ///< between where the robot is and where its speed should have brought it
   std::map<PlanReason, int> reasons;
@@ -184,7 +186,9 @@ class ClosedLoop {
     state_.stamp_s = now_s;
     if (plans > 0) largest_jump_m = std::max(largest_jump_m, (pose_.position - expected).norm());
     steps_without_lease += moving && now_s > keeping_.lease_end_s();
-    least_clearance_m = std::min(least_clearance_m, clearance_m());
+    const SpeedMargin margin = MarginBudget::of(robot_).static_margin();
+    least_spare_m =
+        std::min(least_spare_m, clearance_m() - margin.at(std::abs(state_.twist.speed)));
   }
 
   void plan(const LocalScene& scene) {

@@ -12,7 +12,7 @@ namespace {
 class ReplannerLoop : public ::testing::Test {
  protected:
   const RobotModel robot_ = rover();
-  const double margin_m_ = MarginBudget::of(robot_).static_margin_m();
+  const SpeedMargin margin_ = MarginBudget::of(robot_).static_margin();
   const OccupancyGrid open_ = free_grid({-2.0, -3.0}, {12.0, 3.0});
 
   static OccupancyGrid with_pillars() {
@@ -23,7 +23,7 @@ class ReplannerLoop : public ::testing::Test {
   }
 
   void expect_sound(const ClosedLoop& loop) const {
-    EXPECT_GE(loop.least_clearance_m, margin_m_ - 1e-3);
+    EXPECT_GE(loop.least_spare_m, -1e-3);
     EXPECT_EQ(loop.steps_without_lease, 0);
     EXPECT_LT(loop.largest_jump_m, 0.01);
     EXPECT_EQ(loop.emergencies, 0);
@@ -75,7 +75,7 @@ TEST_F(ReplannerLoop, SwervesAroundAnObstacleThatAppears) {
   ASSERT_TRUE(loop.output.local);
   EXPECT_EQ(loop.output.local->reason, PlanReason::kSolved);
   EXPECT_TRUE(loop.run_to_goal(15.0)) << loop.output.message;
-  EXPECT_GE(loop.least_clearance_m, margin_m_ - robot_.margins.map_m - 1e-3);
+  EXPECT_GE(loop.least_spare_m, -robot_.margins.map_m - 1e-3);
   EXPECT_EQ(loop.steps_without_lease, 0);
 }
 
@@ -89,8 +89,8 @@ TEST_F(ReplannerLoop, StopsBeforeAWallThatAppearsAndGoesOnWhenItIsGone) {
   fill_box(loop.world, {-2.0, -3.0}, {12.0, -2.8});
   loop.run(10.0);
   EXPECT_TRUE(loop.standing());
-  EXPECT_LT(loop.state().pose.position.x(), x - 0.3 - margin_m_ + 1e-3);
-  EXPECT_GE(loop.least_clearance_m, margin_m_ - 1e-3);
+  EXPECT_LT(loop.state().pose.position.x(), x - 0.3 - margin_.still_m + 1e-3);
+  EXPECT_GE(loop.least_spare_m, -1e-3);
   EXPECT_GT(loop.reasons[PlanReason::kBraking], 0);
   loop.world = open_;
   EXPECT_TRUE(loop.run_to_goal(40.0)) << loop.output.message;
@@ -110,12 +110,12 @@ TEST_F(ReplannerLoop, DrivesIntoUnseenSpaceOnlyAsFarAsItHasSeen) {
     if (!loop.committed().empty()) {
       const DistanceField unseen(seen, DistanceField::Solid::kOccupiedOrUnknown);
       EXPECT_GE(unseen.distance_bound(loop.committed().end_pose().position),
-                0.3 + margin_m_ - 1e-3);
+                0.3 + margin_.still_m - 1e-3);
     }
     return seen;
   };
   EXPECT_TRUE(loop.run_to_goal(60.0)) << loop.output.message;
-  EXPECT_GE(loop.least_clearance_m, margin_m_ - robot_.margins.map_m - 1e-3);
+  EXPECT_GE(loop.least_spare_m, -robot_.margins.map_m - 1e-3);
   EXPECT_EQ(loop.steps_without_lease, 0);
   EXPECT_LT(loop.largest_jump_m, 0.01);
 }
@@ -127,7 +127,7 @@ TEST_F(ReplannerLoop, BlindItStopsAtTheFrontier) {
   loop.see = [seen](const Vector2&) { return seen; };
   loop.run(20.0);
   EXPECT_TRUE(loop.standing());
-  EXPECT_LT(loop.state().pose.position.x(), 5.0 - 0.3 - margin_m_ + 1e-3);
+  EXPECT_LT(loop.state().pose.position.x(), 5.0 - 0.3 - margin_.still_m + 1e-3);
   EXPECT_GT(loop.state().pose.position.x(), 5.0 - 0.3 - 0.3);
   EXPECT_LT(loop.proposals, 15);  // while it waits it says nothing new
   expect_sound(loop);
@@ -172,7 +172,7 @@ TEST_F(ReplannerLoop, RandomWorldsAreDrivenToTheEnd) {
     const Vector2 goal(7.4, 5.4);
     const OccupancyGrid grid = random_world(seed, 24, start, goal, 0.6);
     TravelOptions front_end = shipped_travel_options();
-    front_end.required_clearance_m = 0.3 + margin_m_ + 0.01;
+    front_end.required_clearance_m = 0.3 + margin_.at(robot_.limits.max_speed) + 0.01;
     if (find_path_on_grid(occupied_field(grid), start, goal, {}, front_end).outcome !=
         GridPath::Outcome::kFound)
       continue;
@@ -184,7 +184,7 @@ TEST_F(ReplannerLoop, RandomWorldsAreDrivenToTheEnd) {
     loop.peers().refused_share = 0.1;
     const bool reached = loop.run_to_goal(90.0);
     EXPECT_TRUE(reached) << seed << ": " << loop.output.message;
-    EXPECT_GE(loop.least_clearance_m, margin_m_ - robot_.margins.map_m - 1e-3) << seed;
+    EXPECT_GE(loop.least_spare_m, -robot_.margins.map_m - 1e-3) << seed;
     EXPECT_EQ(loop.steps_without_lease, 0) << seed;
   }
   EXPECT_GT(paths, 6);

@@ -35,8 +35,14 @@ bool is_under_way(const PlanQuery& query, const Vector2& goal) {
 
 HomotopyPathOptions homotopy_path_options(const RobotModel& robot, const PlannerOptions& options) {
   const double required_m = path_clearance_m(robot);
-  const TravelOptions travel{required_m, required_m + options.preferred_clearance_m,
-                             options.clearance_weight, kEscapeRadius_m};
+  const double max_speed = robot.limits.max_speed;
+  const SpeedMargin margin = MarginBudget::of(robot).static_margin();
+  const TravelOptions travel{required_m,
+                             required_m + options.preferred_clearance_m,
+                             options.clearance_weight,
+                             kEscapeRadius_m,
+                             margin.at(max_speed) - margin.still_m,
+                             std::min(1.0, kCreep_mps / max_speed)};
   return {travel, options.roadmap, options.classes, options.longest_ratio, options.prm_samples};
 }
 
@@ -154,6 +160,11 @@ bool FrontEnd::reaches(const Vector2& start, const Vector2& goal,
   const TravelCost cost(static_map, start, {}, options_.travel);
   return find_grid_path(static_map, start, goal, cost, kLatticeStep_m).outcome ==
          GridPath::Outcome::kFound;
+}
+
+std::optional<NarrowPlace> FrontEnd::narrowest(const Vector2& start, const Vector2& goal,
+                                               const StaticMap& static_map) const {
+  return narrowest_place(static_map, start, goal, kLatticeStep_m, kEscapeRadius_m);
 }
 
 Vector2 FrontEnd::nearest_reachable(const Vector2& start, const Vector2& goal,

@@ -7,6 +7,7 @@
 #include "planning/candidates/planning_scene.h"
 #include "planning/global/planner_options.h"
 #include "topology/paths/homotopy_paths.h"
+#include "topology/paths/narrowest_place.h"
 #include "world/robot_model.h"
 
 namespace mocha {
@@ -47,6 +48,11 @@ class FrontEnd {
   /// is none.
   Vector2 nearest_reachable(const Vector2& start, const Vector2& goal,
                             const StaticMap& static_map) const;
+
+  /// Where the widest way to the goal is too narrow for the robot, team-mates aside; nothing where
+  /// there is none at all.
+  std::optional<NarrowPlace> narrowest(const Vector2& start, const Vector2& goal,
+                                       const StaticMap& static_map) const;
 
   /// Distance of the robot's centre from obstacles on a path [m].
   double required_clearance_m() const { return options_.travel.required_clearance_m; }

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "planning/candidates/path_clearance.h"
 #include "planning/global/global_rules.h"
 #include "world/margin_budget.h"
 
@@ -39,7 +40,7 @@ bool is_at_goal(const MotionState& start, const PlanQuery& query) {
 GlobalPlanner::GlobalPlanner(RobotModel robot, const PlannerOptions& options)
     : robot_(std::move(robot)),
       options_(options),
-      optimizer_(robot_, options_, MarginBudget::of(robot_).static_margin_m()),
+      optimizer_(robot_, options_, MarginBudget::of(robot_).static_margin()),
       front_end_(robot_, options_) {}
 
 std::optional<Vector2> GlobalPlanner::free_goal(const Vector2& goal,
@@ -91,6 +92,21 @@ bool GlobalPlanner::leads_on(const Motion& motion, const PlanQuery& query,
   if (!goal || certify_plan(motion, robot_, obstacles, query.start_time_s)) return false;
   // Team-mates do not count: they may go away.
   return front_end_.reaches(motion.end_pose().position, *goal, *scene.static_map);
+}
+
+std::string GlobalPlanner::obstruction(const Vector2& start, const Vector2& goal,
+                                       const StaticMap& static_map) const {
+  std::ostringstream text;
+  text.precision(2);
+  text << std::fixed;
+  if (const auto narrow = front_end_.narrowest(start, goal, static_map)) {
+    text << "; the narrowest place of the widest way is " << place(narrow->place) << ", "
+         << narrow->width_m << " m wide there, and the robot needs " << passable_gap_m(robot_)
+         << " m";
+  }
+  text << "; the nearest place in reach is "
+       << place(front_end_.nearest_reachable(start, goal, static_map));
+  return text.str();
 }
 
 std::optional<PlanResult> GlobalPlanner::refusal(const PlanQuery& query,
@@ -156,8 +172,7 @@ PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scen
     result.reason = PlanReason::kPeerConflict;
     result.message = "team-mates stand on every path to " + place(*goal);
   } else {
-    result.message += "; the nearest place in reach is " +
-                      place(front_end_.nearest_reachable(start.pose.position, *goal, static_map));
+    result.message += obstruction(start.pose.position, *goal, static_map);
   }
   return result;
 }

@@ -30,6 +30,9 @@ class GlobalPlanner {
   /// Why there is nothing to plan, if so.
   std::optional<PlanResult> refusal(const PlanQuery& query, const PlanningScene& scene) const;
   std::optional<Vector2> free_goal(const Vector2& goal, const ObstacleField<2>& obstacles) const;
+  /// What is in the way to a goal to which no path leads, in words.
+  std::string obstruction(const Vector2& start, const Vector2& goal,
+                          const StaticMap& static_map) const;
   PlanResult turn_only(const PlanQuery& query, const PlanningScene& scene) const;
   /// Sets the candidates, and selects one, if there is one to be driven.
   void run(const PlanQuery& query, const GlobalSeeds& seeds, const PlanningScene& scene,

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "planning/candidates/path_drive.h"
 #include "planning/candidates/start_maneuver.h"
@@ -19,6 +21,10 @@ constexpr int kMaxExpansions = 20000;
 constexpr double kFarthestExit_m = 10.0;
 constexpr double kRounding_m = 0.005;  // so much closer than searched, a drive may be
 constexpr double kSlow_mps = 0.3;
+// Where there is the least room, so slow is the robot that it asks for so much more at most.
+constexpr double kSlowest_mps = 0.05;
+constexpr double kForSpeed_m = 0.002;
+constexpr double kShareOfSpeed = 0.8;  // for what drives overshoot between their knots
 constexpr double kPointSpacing_m = 0.01;
 constexpr double kKnotSpacing_m = 0.04;
 
@@ -33,8 +39,11 @@ int direction_of(const Stretch& stretch) {
 /// One phase for stretches of one kind, and where it ends.
 class PhaseMaker {
  public:
-  PhaseMaker(const Pose& start, const MotionLimits& limits)
-      : pose_(start), limits_(limits), slow_(limits) {
+  /// How fast a pose lets the robot be.
+  using SpeedAtPose = std::function<double(const Pose&)>;
+
+  PhaseMaker(const Pose& start, const MotionLimits& limits, SpeedAtPose fastest_at)
+      : pose_(start), limits_(limits), slow_(limits), fastest_at_(std::move(fastest_at)) {
     slow_.max_speed = std::min(slow_.max_speed, kSlow_mps);
     slow_.max_acceleration *= 0.5;
   }
@@ -43,18 +52,29 @@ class PhaseMaker {
                             std::vector<Stretch>::const_iterator last) {
     const Pose start = pose_;
     std::vector<Vector2> path = {start.position};
+    std::vector<double> fastest = {fastest_at_(start)};
     for (auto stretch = first; stretch != last; ++stretch) {
       const int parts = std::ceil(std::abs(stretch->length_m) / kPointSpacing_m);
-      for (int i = 1; i <= parts; ++i)
-        path.push_back(along(pose_, *stretch, static_cast<double>(i) / parts).position);
+      for (int i = 1; i <= parts; ++i) {
+        const Pose pose = along(pose_, *stretch, static_cast<double>(i) / parts);
+        path.push_back(pose.position);
+        fastest.push_back(fastest_at_(pose));
+      }
       pose_ = along(pose_, *stretch, 1.0);
     }
     const int direction = direction_of(*first);
     if (direction == 0) return turn(start);
-    const auto drive = drive_along(
-        path,
-        {direction, course(start, direction), course(pose_, direction), kKnotSpacing_m, slow_},
-        limits_);
+    const auto fastest_near = [&](const Vector2& place) {
+      const auto nearest =
+          std::min_element(path.begin(), path.end(), [&](const Vector2& a, const Vector2& b) {
+            return (a - place).squaredNorm() < (b - place).squaredNorm();
+          });
+      return fastest[nearest - path.begin()];
+    };
+    const auto drive = drive_along(path,
+                                   {direction, course(start, direction), course(pose_, direction),
+                                    kKnotSpacing_m, slow_, fastest_near},
+                                   limits_);
     if (!drive) return std::nullopt;
     return Phase(*drive);
   }
@@ -70,12 +90,14 @@ class PhaseMaker {
   Pose pose_;
   const MotionLimits limits_;
   MotionLimits slow_;
+  SpeedAtPose fastest_at_;
 };
 
 std::vector<Phase> phases_of(const std::vector<Stretch>& way, const Pose& start,
-                             const MotionLimits& limits) {
+                             const MotionLimits& limits,
+                             const PhaseMaker::SpeedAtPose& fastest_at) {
   std::vector<Phase> phases;
-  PhaseMaker maker(start, limits);
+  PhaseMaker maker(start, limits, fastest_at);
   for (auto first = way.begin(); first != way.end();) {
     const auto last = std::find_if(first, way.end(), [&](const Stretch& stretch) {
       return direction_of(stretch) != direction_of(*first);
@@ -94,7 +116,11 @@ std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const St
                             const TravelOptions& travel) {
   const ObstacleField<2>& field = static_map.field();
   const double reach_m = robot.footprint.circumscribed_radius_m();
-  const double margin_m = MarginBudget::of(robot).static_margin_m() + kRounding_m;
+  const SpeedMargin margin = MarginBudget::of(robot).static_margin();
+  const double slowest = margin.per_speed_s * kSlowest_mps > kForSpeed_m
+                             ? kForSpeed_m / margin.per_speed_s
+                             : kSlowest_mps;
+  const double margin_m = margin.at(slowest) + kRounding_m;
   const auto can_turn = [&](const Vector2& place) {
     return field.distance_bound(place) >= reach_m + margin_m;
   };
@@ -111,7 +137,10 @@ std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const St
   tight.gap_m = [&](const Pose& pose) { return clearance_m(pose, robot.footprint, field); };
   tight.is_out = [&](const Pose& pose) { return can_turn(pose.position); };
   tight.exit = to_exit.points.back();
-  return phases_of(find_way_out(tight, kMaxExpansions), start, robot.limits);
+  const auto fastest_at = [&](const Pose& pose) {
+    return std::max(slowest, kShareOfSpeed * margin.fastest(tight.gap_m(pose) - kRounding_m));
+  };
+  return phases_of(find_way_out(tight, kMaxExpansions), start, robot.limits, fastest_at);
 }
 
 }  // namespace mocha

@@ -62,7 +62,7 @@ class WayOutSearch {
 
   std::vector<Stretch> run() {
     const double gap_m = tight_.gap_m(tight_.start);
-    add({tight_.start, 0.0, 0.0, gap_m, std::min(gap_m, tight_.margin_m), -1, {}});
+    add({tight_.start, 0.0, 0.0, 0.0, gap_m, std::min(gap_m, tight_.margin_m), -1, {}});
     for (int looked_at = 0; looked_at < max_expansions_ && !open_.empty(); ++looked_at) {
       const int index = open_.top().node;
       open_.pop();
@@ -80,9 +80,10 @@ class WayOutSearch {
   struct Node {
     Pose pose;
     double cost_m;
-    double way_m;   // driven so far
-    double gap_m;   // here
-    double kept_m;  // the most of the gap so far, up to the margin
+    double way_m;     // driven so far
+    double turned_m;  // by a corner so far
+    double gap_m;     // here
+    double kept_m;    // the most of the gap so far, up to the margin
     int parent;
     Stretch stretch;  // that leads here
   };
@@ -119,6 +120,7 @@ class WayOutSearch {
     const bool switches = next.parent >= 0 && kind_of(stretch) != kind_of(next.stretch);
     next.cost_m += cost_m(stretch) + (switches ? kSwitchCost_m : 0.0);
     next.way_m += std::abs(stretch.length_m);
+    next.turned_m += tight_.reach_m * std::abs(stretch.turn_rad);
     next.stretch = stretch;
     next.parent = parent;
     if (drive(next) && closed_.count(key(next)) == 0) add(next);
@@ -128,17 +130,17 @@ class WayOutSearch {
   /// comes too close.
   bool drive(Node& node) const {
     const Pose from = node.pose;
-    const double sweep_m =
-        std::abs(node.stretch.length_m) + tight_.reach_m * std::abs(node.stretch.turn_rad);
+    const double length_m = std::abs(node.stretch.length_m);
+    const double turn_m = tight_.reach_m * std::abs(node.stretch.turn_rad);
+    const double sweep_m = length_m + turn_m;
     const int parts = std::max(1, static_cast<int>(std::ceil(sweep_m / kCheck_m)));
-    const double way_m = node.way_m - std::abs(node.stretch.length_m);
     for (int i = 1; i <= parts; ++i) {
       const double share = static_cast<double>(i) / parts;
       node.pose = along(from, node.stretch, share);
       node.gap_m = tight_.gap_m(node.pose);
       if (node.gap_m < tight_.margin_m &&
-          node.gap_m <
-              kToSpare_m + required_m(node.parent, way_m + share * std::abs(node.stretch.length_m)))
+          node.gap_m < kToSpare_m + required_m(node.parent, node.way_m - (1.0 - share) * length_m,
+                                               node.turned_m - (1.0 - share) * turn_m))
         return false;
       node.kept_m = std::min(std::max(node.kept_m, node.gap_m), tight_.margin_m);
       // No part can use up that much.
@@ -148,13 +150,14 @@ class WayOutSearch {
   }
 
   /// The gap to have after a way that leads on from a node.
-  double required_m(int node, double way_m) const {
+  double required_m(int node, double way_m, double turned_m) const {
     if (nodes_[node].kept_m >= tight_.margin_m) return tight_.margin_m;
     double most_m = -std::numeric_limits<double>::infinity();
     for (; node >= 0; node = nodes_[node].parent) {
       const Node& before = nodes_[node];
-      most_m = std::max(
-          most_m, tight_.leaving.required_m(before.gap_m, way_m - before.way_m, tight_.margin_m));
+      most_m =
+          std::max(most_m, tight_.leaving.required_m(before.gap_m, way_m - before.way_m,
+                                                     turned_m - before.turned_m, tight_.margin_m));
     }
     return most_m;
   }

@@ -1,16 +1,14 @@
 #include "topology/paths/grid_path.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <queue>
 
+#include "topology/paths/lattice.h"
+
 namespace mocha {
 namespace {
-
-constexpr double kRounding = 1e-6;
 
 /// Over a lattice that holds the corners of a map: A* to a goal, or Dijkstra's search for a place
 /// that suits.
@@ -19,13 +17,7 @@ class LatticeSearch {
   using Suits = std::function<bool(const Vector2&)>;
 
   LatticeSearch(const StaticMap& static_map, const TravelCost& cost, double step_m)
-      : static_map_(static_map), cost_(cost) {
-    const double finest_m = 2.0 * static_map.detail_m();
-    step_m_ = finest_m * std::max(1.0, std::round(step_m / finest_m));
-    const Vector2 steps = static_map.bounds().sizes() / step_m_;
-    columns_ = static_cast<int>(steps.x() + kRounding) + 1;
-    rows_ = static_cast<int>(steps.y() + kRounding) + 1;
-  }
+      : static_map_(static_map), cost_(cost), lattice_(static_map, step_m) {}
 
   /// Start, nodes between, goal; nothing if there is no path.
   std::vector<Vector2> run(const Vector2& start, const Vector2& goal) {
@@ -53,9 +45,8 @@ class LatticeSearch {
   std::vector<Vector2> search(const Vector2& start, int to, const Suits& suits, double most_m) {
     const int from = entry_node(start);
     if (from < 0) return {};
-    const std::size_t nodes = static_cast<std::size_t>(columns_) * rows_;
-    best_.assign(nodes, std::numeric_limits<float>::infinity());
-    parent_.assign(nodes, -1);
+    best_.assign(lattice_.size(), std::numeric_limits<float>::infinity());
+    parent_.assign(lattice_.size(), -1);
     best_[from] = 0.0f;
     parent_[from] = from;
     queue_.push({heuristic(from, to), from});
@@ -73,13 +64,10 @@ class LatticeSearch {
 
   /// The node around p to which the straight line is cheapest; -1 if all are blocked.
   int entry_node(const Vector2& p) const {
-    const Vector2 at = (p - static_map_.bounds().min()) / step_m_;
     int best = -1;
     double least = TravelCost::kInfinity;
     for (int corner = 0; corner < 4; ++corner) {
-      const int x = std::clamp(static_cast<int>(at.x()) + corner % 2, 0, columns_ - 1);
-      const int y = std::clamp(static_cast<int>(at.y()) + corner / 2, 0, rows_ - 1);
-      const int node = y * columns_ + x;
+      const int node = lattice_.corner(p, corner);
       const double cost = cost_.of_line(p, position(node));
       if (cost < least) {
         least = cost;
@@ -89,42 +77,30 @@ class LatticeSearch {
     return best;
   }
 
-  Vector2 position(int node) const {
-    return static_map_.bounds().min() + step_m_ * Vector2(node % columns_, node / columns_);
-  }
+  Vector2 position(int node) const { return lattice_.position(node); }
 
   float heuristic(int node, int to) const {
     if (to == kNowhere) return 0.0f;
-    const float dx = std::abs(node % columns_ - to % columns_);
-    const float dy = std::abs(node / columns_ - to / columns_);
+    const float dx = std::abs(lattice_.column(node) - lattice_.column(to));
+    const float dy = std::abs(lattice_.row(node) - lattice_.row(to));
     const float octile = std::max(dx, dy) + 0.41421356f * std::min(dx, dy);
-    return octile * static_cast<float>(step_m_) * 0.9999f;
+    return octile * static_cast<float>(lattice_.step_m()) * 0.9999f;
   }
 
   void expand(int node, int to) {
-    const int x = node % columns_;
-    const int y = node / columns_;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const int nx = x + dx;
-        const int ny = y + dy;
-        if ((dx == 0 && dy == 0) || nx < 0 || ny < 0 || nx >= columns_ || ny >= rows_) continue;
-        const int next = ny * columns_ + nx;
-        const double length = step_m_ * (dx != 0 && dy != 0 ? M_SQRT2 : 1.0);
-        if (!(best_[node] + static_cast<float>(length) < best_[next])) continue;
-        const double distance_m = static_map_.field().sample(position(next)).distance_m;
-        const double here = cost_.at(position(next), distance_m);
-        const float reached = best_[node] + static_cast<float>(length * here);
-        if (!(reached < best_[next])) continue;
-        // The middle of a step may be closer to obstacles than both of its ends.
-        const bool roomy = distance_m >= cost_.options().required_clearance_m + length;
-        if (!roomy && cost_.of_line(position(node), position(next)) == TravelCost::kInfinity)
-          continue;
-        best_[next] = reached;
-        parent_[next] = node;
-        queue_.push({reached + heuristic(next, to), next});
-      }
-    }
+    lattice_.visit_neighbours(node, [&](int next, double length) {
+      if (!(best_[node] + static_cast<float>(length) < best_[next])) return;
+      const double distance_m = static_map_.field().sample(position(next)).distance_m;
+      const double here = cost_.at(position(next), distance_m);
+      const float reached = best_[node] + static_cast<float>(length * here);
+      if (!(reached < best_[next])) return;
+      // The middle of a step may be closer to obstacles than both of its ends.
+      const bool roomy = distance_m >= cost_.options().required_clearance_m + length;
+      if (!roomy && cost_.of_line(position(node), position(next)) == TravelCost::kInfinity) return;
+      best_[next] = reached;
+      parent_[next] = node;
+      queue_.push({reached + heuristic(next, to), next});
+    });
   }
 
   std::vector<Vector2> trace(const Vector2& start, int from, int to) const {
@@ -138,9 +114,7 @@ class LatticeSearch {
 
   const StaticMap& static_map_;
   const TravelCost& cost_;
-  int columns_;
-  int rows_;
-  double step_m_;
+  const Lattice lattice_;
   std::vector<float> best_;
   std::vector<int> parent_;
   std::priority_queue<Entry> queue_;

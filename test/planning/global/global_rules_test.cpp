@@ -44,8 +44,7 @@ const PlanCandidate& selected(const PlanResult& result) {
 }
 
 PlanCandidate candidate_of(const Task& task, const PlannerOptions& options, const Seed& seed) {
-  const DriveOptimizer optimizer(task.robot, options,
-                                 MarginBudget::of(task.robot).static_margin_m());
+  const DriveOptimizer optimizer(task.robot, options, MarginBudget::of(task.robot).static_margin());
   const GlobalRules rules(task.robot, options, task.query, task.scene);
   return CandidatePipeline(optimizer, task.scene.static_map->field(), rules)
       .optimise_and_certify(seed, kGoOn);

@@ -13,6 +13,7 @@ namespace {
 constexpr double kStart_s = 1.7e9;
 const Vector2 kStart(0.6, 0.6);
 const Vector2 kGoal(7.4, 5.4);
+constexpr double kCreeping_mps = 0.1;
 const std::function<bool()> kGoOn = [] { return false; };
 
 /// Plans through random worlds and checks whatever is called solved by the certificate itself.
@@ -21,14 +22,14 @@ class RandomWorlds : public ::testing::Test {
   void use(const RobotModel& robot) {
     robot_ = robot;
     planner_ = std::make_unique<GlobalPlanner>(robot, default_options());
-    margin_m_ = MarginBudget::of(robot).static_margin_m();
+    margin_ = MarginBudget::of(robot).static_margin();
   }
 
-  /// Is there a path on which a disc of this radius keeps the margin?
+  /// Is there a path on which a disc of this radius keeps the margin of the speed?
   bool has_path(const std::shared_ptr<const DistanceField>& field, const Vector2& from,
-                const Vector2& to, double radius_m) const {
+                const Vector2& to, double radius_m, double speed) const {
     TravelOptions options = shipped_travel_options();
-    options.required_clearance_m = radius_m + margin_m_ + 0.01;
+    options.required_clearance_m = radius_m + margin_.at(speed) + 0.01;
     return find_path_on_grid(field, from, to, {}, options).outcome == GridPath::Outcome::kFound;
   }
 
@@ -38,19 +39,24 @@ class RandomWorlds : public ::testing::Test {
     const PlanResult result = planner_->plan(query, {static_map_of(field), {}}, kGoOn);
     const MotionState start = query.committed.at(query.start_time_s);
     // Narrower ones may end where the body cannot bend with them.
-    const bool is_wide = has_path(field, start.pose.position, query.goal, half_of_body_m());
+    const bool is_wide =
+        has_path(field, start.pose.position, query.goal, half_of_body_m(), robot_.limits.max_speed);
+    const bool is_narrow = !is_wide && has_path(field, start.pose.position, query.goal,
+                                                half_of_body_m(), kCreeping_mps);
     paths_ += is_wide;
+    narrow_ += is_narrow;
     if (result.reason != PlanReason::kSolved) {
       EXPECT_TRUE(result.motion.empty()) << name;
       EXPECT_FALSE(result.message.empty()) << name;
       return result;
     }
     solved_ += is_wide;
+    narrow_solved_ += is_narrow;
     const Motion& motion = result.motion;
     const Violation limits = check_limits(motion, robot_.limits, query.start_time_s);
     EXPECT_FALSE(limits) << name << ": " << describe(limits);
     const Violation clearance =
-        check_clearance(motion, robot_.footprint, *field, margin_m_, query.start_time_s);
+        check_clearance(motion, robot_.footprint, *field, margin_, query.start_time_s);
     EXPECT_FALSE(clearance) << name << ": " << describe(clearance);
     EXPECT_LT((motion.end_pose().position - query.goal).norm(), 1e-6) << name;
     const MotionState joined = motion.at(query.start_time_s);
@@ -82,7 +88,8 @@ class RandomWorlds : public ::testing::Test {
       const auto field = occupied_field(random_world(seed, discs, kStart, kGoal, 0.6));
       std::mt19937 random(seed);
       const PlanResult result = plan(from_standing(random), field, "world " + std::to_string(seed));
-      const bool has_one = has_path(field, kStart, kGoal, robot_.footprint.inscribed_radius_m());
+      const bool has_one =
+          has_path(field, kStart, kGoal, robot_.footprint.inscribed_radius_m(), 0.0);
       EXPECT_EQ(result.reason == PlanReason::kNoPath, !has_one) << seed;
     }
     expect_share(worlds / 2, least_share);
@@ -91,15 +98,20 @@ class RandomWorlds : public ::testing::Test {
   void expect_share(int least_paths, double least_share) {
     RecordProperty("paths", paths_);
     RecordProperty("solved", solved_);
+    RecordProperty("narrow", narrow_);
+    RecordProperty("narrow_solved", narrow_solved_);
     EXPECT_GT(paths_, least_paths);
     EXPECT_GE(solved_, least_share * paths_) << solved_ << " of " << paths_;
+    EXPECT_GE(narrow_solved_, 0.85 * narrow_) << narrow_solved_ << " of " << narrow_;
   }
 
   RobotModel robot_;
   std::unique_ptr<GlobalPlanner> planner_;
-  double margin_m_ = 0.0;
+  SpeedMargin margin_ = 0.0;
   int paths_ = 0;
   int solved_ = 0;
+  int narrow_ = 0;  // with a path that has to be driven slowly, where the body can bend with it
+  int narrow_solved_ = 0;
 };
 
 TEST_F(RandomWorlds, RoverFindsItsWayAndItIsProved) {
