@@ -28,7 +28,7 @@ struct MarginBudget {
   /// Of the base off its motion.
   SpeedMargin tracking() const { return between(tracking_still_m, tracking_m); }
 
-  /// To keep from static obstacles while nothing more than the map's own margin is left of it.
+  /// To keep from static obstacles by a promise in force: the map's part may be used up.
   SpeedMargin without_map() const {
     return between(tracking_still_m + localisation_m, tracking_m + localisation_m);
   }
