@@ -164,7 +164,8 @@ void TrajectoryTracker::take_up_offer(double t, const Pose& pose, double speed) 
   handle(TrackerEvent::kAdopted, t, "");
 }
 
-/// A robot that stands hits nothing: it is offered another motion before it sets off.
+/// The bound at the highest speed holds for a robot that stands: the error moves it nowhere, and
+/// the next motion is held against its own bound as it sets off.
 double TrajectoryTracker::allowed_m(const MotionState& reference) const {
   return max_position_error_.at(reference.at_rest ? max_speed_ : std::abs(reference.speed));
 }

@@ -31,6 +31,20 @@ class BodyPenalty : public Penalty<D> {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
 
+  /// `field` must outlive the penalty. `soft_speed` e [m/s] is positive.
+  BodyPenalty(double weight, const ObstacleField<D>& field, std::vector<Cover> cover,
+              double soft_speed)
+      : weight_(weight),
+        field_(field),
+        cover_(std::move(cover)),
+        soft_speed2_(soft_speed * soft_speed) {
+    for (const Cover& each : cover_) {
+      const double arm_m = std::hypot(each.ahead_m, each.left_m);
+      reach_m_ = std::max(reach_m_, arm_m + each.reach_m());
+      if (arm_m > 0.0 || Cover::kOfSpeed) wanted_ = kPosition | kVelocity;
+    }
+  }
+
   Derivatives wanted(const PieceBounds<D>& piece) const override {
     return field_.clear(piece.box, reach_m_) ? kNone : wanted_;
   }
@@ -50,21 +64,6 @@ class BodyPenalty : public Penalty<D> {
       add_sample(samples, j, rows);
       is_near = rows.value[j] != before;
       ++j;
-    }
-  }
-
- protected:
-  /// `field` must outlive the penalty. `soft_speed` e [m/s] is positive.
-  BodyPenalty(double weight, const ObstacleField<D>& field, std::vector<Cover> cover,
-              double soft_speed)
-      : weight_(weight),
-        field_(field),
-        cover_(std::move(cover)),
-        soft_speed2_(soft_speed * soft_speed) {
-    for (const Cover& each : cover_) {
-      const double arm_m = std::hypot(each.ahead_m, each.left_m);
-      reach_m_ = std::max(reach_m_, arm_m + each.reach_m());
-      if (arm_m > 0.0 || Cover::kOfSpeed) wanted_ = kPosition | kVelocity;
     }
   }
 

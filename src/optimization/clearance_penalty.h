@@ -1,8 +1,5 @@
 #pragma once
 
-#include <utility>
-#include <vector>
-
 #include "optimization/body_penalty.h"
 #include "world/speed_margin.h"
 
@@ -37,10 +34,7 @@ class ClearancePenalty : public BodyPenalty<D, ClearanceCover> {
  public:
   using Cover = ClearanceCover;
 
-  /// `field` must outlive the penalty. `soft_speed` [m/s] is positive.
-  ClearancePenalty(double weight, const ObstacleField<D>& field, std::vector<Cover> cover,
-                   double soft_speed)
-      : BodyPenalty<D, Cover>(weight, field, std::move(cover), soft_speed) {}
+  using BodyPenalty<D, ClearanceCover>::BodyPenalty;
 
   const char* name() const override { return "clearance"; }
 };

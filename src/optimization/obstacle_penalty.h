@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <utility>
-#include <vector>
 
 #include "optimization/body_penalty.h"
 
@@ -31,10 +29,7 @@ class ObstaclePenalty : public BodyPenalty<D, ObstacleCover> {
  public:
   using Cover = ObstacleCover;
 
-  /// `field` must outlive the penalty. `soft_speed` [m/s] is positive.
-  ObstaclePenalty(double weight, const ObstacleField<D>& field, std::vector<Cover> cover,
-                  double soft_speed)
-      : BodyPenalty<D, Cover>(weight, field, std::move(cover), soft_speed) {}
+  using BodyPenalty<D, ObstacleCover>::BodyPenalty;
 
   const char* name() const override { return "obstacle"; }
 };

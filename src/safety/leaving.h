@@ -21,9 +21,9 @@ struct Leaving {
   /// And however it moves, for the speed that it needs in order to move at all.
   static constexpr double kSetOff_m = 0.002;
 
-  /// One motion after the other may lose as much, but none gets closer than this [m] ...
+  /// The room [m] below which nothing may be lost, so that losses of many motions end ...
   static constexpr double kLeast_m = 0.004;
-  /// ... or than this, where the map has obstacles in the place of the robot: it overstates them.
+  /// ... and the same where the map has obstacles in the robot's place: it overstates them.
   static constexpr double kLeastInside_m = -0.03;
 
   double way_m = 1.0;  ///< after which the room is the margin at rest; above 0

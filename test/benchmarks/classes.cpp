@@ -70,8 +70,7 @@ PlanCandidate plan_straight(const Task& task, const PlannerOptions& options) {
   const Seed straight{start_maneuvers.from_rest({}, task.start, line), {}, {}, 0.0, false};
   const PlanQuery query = query_of(task);
   const PlanningScene scene{task.static_map, {}};
-  const DriveOptimizer optimizer(task.robot, options,
-                                 MarginBudget::of(task.robot).static_margin());
+  const DriveOptimizer optimizer(task.robot, options, MarginBudget::of(task.robot).static_margin());
   const GlobalRules rules(task.robot, options, query, scene);
   return CandidatePipeline(optimizer, task.static_map->field(), rules)
       .optimise_and_certify(straight, [] { return false; });

@@ -1,5 +1,5 @@
 // Robots leave where they stand, through the whole stack: some starts of scripts/bench leaving, and
-// the search that says who can.
+// the oracle, which tells whether a robot can leave at all.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -65,9 +65,9 @@ TEST(MarginBudget, ComesFromTheRobotModel) {
   EXPECT_EQ(budget.max_speed, robot.limits.max_speed);
   EXPECT_EQ(budget.static_margin_m(),
             robot.margins.tracking_m + robot.margins.localisation_m + robot.margins.map_m);
-  EXPECT_EQ(budget.static_margin().still_m,
-            robot.margins.tracking_still_m + robot.margins.localisation_m +
-                robot.margins.map_still_m);
+  EXPECT_EQ(
+      budget.static_margin().still_m,
+      robot.margins.tracking_still_m + robot.margins.localisation_m + robot.margins.map_still_m);
   EXPECT_EQ(budget.clock_s, robot.margins.clock_s);
   EXPECT_NO_THROW(budget.validate());
 }

@@ -17,7 +17,8 @@ struct Stretch {
 /// Where a stretch that begins at `pose` leads after a share of it, from 0 to 1.
 Pose along(const Pose& pose, const Stretch& stretch, double share);
 
-/// The place of a robot that can neither turn round nor set off. Map frame.
+/// A search for a way out of where a robot can neither turn round nor set off: its pose, its body
+/// and what is around. Map frame.
 struct TightPlace {
   Pose start;
   double reach_m;   ///< of the body about the base
