@@ -11,6 +11,7 @@ WORLD = os.path.join(ROOT, "test/worlds/crossing_paths.yaml")
 MIDDLE = (0.0, 0.0)
 WEST, EAST, NORTH = (-3.5, 0.0), (3.5, 0.0), (0.0, 3.0)
 SEPARATION_M = 0.8  # two radii of 0.3 m, and peer_clearance of config/robot.yaml
+ON_ITS_WAY_S = 0.2  # a promise that arrived before the cut is known to the whole stack by then
 
 
 def end_of(trajectory):
@@ -40,6 +41,7 @@ class CutOffTest(unittest.TestCase):
             promised = lambda: lost.name in passer.peers and math.dist(end_of(passer.peers[lost.name]), MIDDLE) < 0.2
             fleet.run_until(lambda: promised() and lost.truth.speed > 0.5, 20.0, "the passer knows where the other one will stand")
             fleet.relay.change(lost.name, cut=True)
+            fleet.run(ON_ITS_WAY_S)
             promise = number_of(passer.peers[lost.name])
 
             self.assertGreater(lost.distance_to(*MIDDLE), 0.8)

@@ -8,7 +8,7 @@ from separate_fleet import ROOT, SeparateFleet, new_key
 
 WORLD = os.path.join(ROOT, "test/worlds/crossing_paths.yaml")
 LOGS = "netns_logs/emergency_stop"
-GOALS = {"ugv1": (3.5, 0.0), "ugv2": (0.0, 3.5)}
+GOALS = {"ugv1": (3.5, 0.0), "ugv2": (3.5, -3.5)}  # neither waits for the other on the way
 NETWORK = {"delay_s": [0.02, 0.07], "loss": 0.2}
 HEARD_S = 0.6  # five datagrams within 0.4 s: one in 3,000 stops takes longer
 BRAKING_S = 0.7  # from full speed
