@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <vector>
 
 namespace mocha {
 namespace {
@@ -16,54 +14,29 @@ constexpr double kWayStep_s = 0.01;  // the same, where it is the way that is me
 // a peer: all of them overstate what they stand for, the cover by kCoverTolerance_m at most.
 constexpr double kCellsOverstated_m = 0.04;
 constexpr double kPeersOverstated_m = 0.05;
-// A leaving robot is looked at after so much way, or when a corner has turned so far.
-constexpr double kStage_m = 0.02;
-constexpr double kTurned_m = 0.005;
+// With so much more room than the margin, a robot has left.
+constexpr double kLeft_m = 0.01;
+// A leaving robot is looked at after so much way of any of its points: its room changes by no more.
+constexpr double kStage_m = 0.5 * kLeft_m;
 
 /// Where a leaving robot is looked at.
 struct Stage {
   double time_s;
-  double way_m = 0.0;     ///< so far
-  double turned_m = 0.0;  ///< by a corner, so far
-  double room_m = 0.0;
+  double way_m;   ///< so far
+  double room_m;  ///< the most so far
 };
 
-/// The room to ask for from the last of these stages on, until a corner has turned by `turned_m`.
-double required_room_m(const std::vector<Stage>& stages, double turned_m, double margin_m,
-                       const Leaving& leaving) {
-  constexpr double kRounding_m = 1e-9;
-  const double way_m = stages.back().way_m + kRounding_m;
-  if (way_m >= leaving.way_m) return margin_m;
-  double required_m = -std::numeric_limits<double>::infinity();
-  for (const Stage& stage : stages) {
-    required_m = std::max(required_m, leaving.required_m(stage.room_m, way_m - stage.way_m,
-                                                         turned_m - stage.turned_m, margin_m));
-  }
-  return required_m;
-}
-
-/// The stage after this one, the motion's end at the latest; `arm_m` is that of a corner.
-Stage stage_after(const Stage& stage, const Motion& motion, double arm_m) {
-  Stage next = stage;
+/// Moves a stage on along the motion, to its end at most; `arm_m` is that of a corner.
+void advance(Stage& stage, const Motion& motion, double arm_m) {
   Pose pose = motion.at(stage.time_s).pose;
-  for (double left = 1.0; next.time_s < motion.end_time(); next.time_s += kWayStep_s) {
-    const Pose then = motion.at(next.time_s + kWayStep_s).pose;
+  for (double swept_m = 0.0; swept_m < kStage_m && stage.time_s < motion.end_time();) {
+    stage.time_s = std::min(stage.time_s + kWayStep_s, motion.end_time());
+    const Pose then = motion.at(stage.time_s).pose;
     const double step_m = (then.position - pose.position).norm();
-    const double turned_m = arm_m * std::abs(wrap_angle(then.yaw_rad - pose.yaw_rad));
-    const double step = step_m / kStage_m + turned_m / kTurned_m;
-    if (step >= left) {
-      next.way_m += step_m * left / step;
-      next.turned_m += turned_m * left / step;
-      next.time_s += kWayStep_s * left / step;
-      break;
-    }
-    left -= step;
-    next.way_m += step_m;
-    next.turned_m += turned_m;
+    swept_m += step_m + arm_m * std::abs(wrap_angle(then.yaw_rad - pose.yaw_rad));
+    stage.way_m += step_m;
     pose = then;
   }
-  next.time_s = std::min(next.time_s, motion.end_time());
-  return next;
 }
 
 }  // namespace
@@ -77,21 +50,20 @@ Violation check_clearance_or_leaving(const Motion& motion, const Footprint& foot
   const auto room_at = [&](double t) {
     return gap_at(t) - margin.per_speed_s * std::abs(motion.at(t).speed) - kSlack_m;
   };
-  std::vector<Stage> stages = {{std::max(from_s, motion.start_time()), 0.0, 0.0, room_at(from_s)}};
-  if (stages[0].room_m >= margin.still_m || gap_at(from_s) <= -kCellsOverstated_m) return strict;
+  Stage stage{std::max(from_s, motion.start_time()), 0.0, room_at(from_s)};
+  const double left_m = margin.still_m + kLeft_m;
+  if (stage.room_m >= left_m || gap_at(from_s) <= -kCellsOverstated_m) return strict;
   const double arm_m = footprint.is_disc() ? 0.0 : footprint.circumscribed_radius_m();
-  for (;;) {
-    const Stage& here = stages.back();
-    Stage next = stage_after(here, motion, arm_m);
-    const double required_m = required_room_m(stages, next.turned_m, margin.still_m, leaving);
-    if (required_m >= margin.still_m || here.room_m >= margin.still_m)
-      return check_clearance(motion, footprint, field, margin, here.time_s);
+  while (stage.room_m < left_m - kStage_m && stage.way_m < leaving.way_m) {
+    const double here_s = stage.time_s;
+    const double required_m = leaving.required_m(stage.room_m, margin.still_m);
+    advance(stage, motion, arm_m);
     const Violation closer = check_clearance(
-        motion, footprint, field, {required_m, margin.per_speed_s}, here.time_s, next.time_s);
-    if (closer || next.time_s >= motion.end_time()) return closer;
-    next.room_m = room_at(next.time_s);
-    stages.push_back(next);
+        motion, footprint, field, {required_m, margin.per_speed_s}, here_s, stage.time_s);
+    if (closer || stage.time_s >= motion.end_time()) return closer;
+    stage.room_m = std::max(stage.room_m, room_at(stage.time_s));
   }
+  return check_clearance(motion, footprint, field, margin, stage.time_s);
 }
 
 Violation check_separation_or_leaving(const Motion& motion, double own_radius_m,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "safety/certificate.h"
 
@@ -10,32 +11,24 @@ namespace mocha {
 // peer stopped near by.
 
 /// How a motion that begins closer to obstacles than its margin may go on. What counts is the room
-/// that it has: the gap, less what the margin asks for the speed; so a robot that is too close may
-/// gain room by driving away and by slowing down, and leaves slowly. The room grows along the way,
-/// as the gap does on an arc that leaves a wall, with the square of the way. That is asked from
-/// every place of the way on, and of every turn in place; so room that was gained is never lost,
-/// and what is certified once is certified at every later moment, too.
+/// that it has: the gap, less what the margin asks for the speed; so a robot that is too close
+/// leaves slowly. It may lose a little of its room, beside a wall it cannot turn away with less, or
+/// all but half of the margin, where a passage is so narrow; and after some way it has the margin.
+/// What is certified once is certified at every later moment, too.
 struct Leaving {
-  /// What the room may lose [m] while the body turns: beside a wall it cannot turn away with less.
-  static constexpr double kTurnAway_m = 0.006;
-  /// And however it moves, for the speed that it needs in order to move at all.
-  static constexpr double kSetOff_m = 0.002;
-
-  /// The room [m] below which nothing may be lost, so that losses of many motions end ...
-  static constexpr double kLeast_m = 0.004;
-  /// ... and the same where the map has obstacles in the robot's place: it overstates them.
-  static constexpr double kLeastInside_m = -0.03;
+  /// The room [m] that a motion may lose, and half of what there is at most: so losses of many
+  /// motions end before the body touches.
+  static constexpr double kLoss_m = 0.006;
+  /// Where the map has obstacles in the robot's place, it overstates them; but not by more [m].
+  static constexpr double kDeepest_m = 0.035;
 
   double way_m = 1.0;  ///< after which the room is the margin at rest; above 0
 
-  /// The room [m] to have `after_m` of way, on which a corner turned by `turned_m`, after a place
-  /// where it was `room_m`, for a margin at rest.
-  double required_m(double room_m, double after_m, double turned_m, double margin_m) const {
-    const double share = std::min(after_m / way_m, 1.0);
-    const double lost_m = std::min(kTurnAway_m, kSetOff_m + turned_m);
-    const double floor_m = room_m > -kLeast_m ? kLeast_m : kLeastInside_m;
-    const double least_m = std::min(std::max(room_m - lost_m, std::min(room_m, floor_m)), margin_m);
-    return least_m + share * share * (margin_m - least_m);
+  /// The room [m] to have on the way, where it was `room_m` at most since the motion began, for a
+  /// margin at rest.
+  double required_m(double room_m, double margin_m) const {
+    const double lost_m = std::min(kLoss_m, 0.5 * std::abs(room_m));
+    return std::max(std::min(room_m - lost_m, 0.5 * margin_m), std::min(room_m, -kDeepest_m));
   }
 };
 

@@ -12,8 +12,8 @@ constexpr double kShareOfTrigger = 0.75;  // of the same, below which paper (37)
 // soon as they do.
 constexpr double kReserve_s = 1.0;
 constexpr double kHorizon_s = 10.0;  // of what never comes to rest
-constexpr double kLeaving_m =
-    1.0;  // of way, after which a body that begins too close has the margin
+// Of way, beyond that of the body, after which it has the margin if it begins too close.
+constexpr double kLeaving_m = 1.0;
 
 }  // namespace
 
@@ -80,7 +80,7 @@ Requirements::Requirements(const RobotModel& robot) {
   Requirement plan;
   plan.limits = robot.limits;
   plan.obstacle_margin = margins.static_margin();
-  plan.leaving = Leaving{kLeaving_m};
+  plan.leaving = Leaving{kLeaving_m + 2.0 * robot.footprint.circumscribed_radius_m()};
   at(Name::kPlan) = plan;
 
   Requirement detour = plan;

@@ -93,7 +93,7 @@ std::vector<OneField> one_by_one(const Scene& open) {
   add("unseen_margin", ahead(), ViolatedTerm::kUnseenSpace, [](Requirement& r) {
     r.unseen_margin.reset();
   }).unseen = field({{{4.0, 0.0}, 0.5}});
-  add("leaving", slowed(straight_drive(kNow_s, {0.0, 0.0}, -0.02, 1.5, 0.8, 0.8), 10.0),
+  add("leaving", slowed(straight_drive(kNow_s, {0.0, 0.0}, 0.0, 3.0, 0.8, 0.8), 10.0),
       ViolatedTerm::kClearance, [](Requirement& r) { r.leaving.way_m = 20.0; })
       .obstacles = field({{{0.0, 1000.32}, 1000.0}});
   add("peer_distance_m", ahead(), ViolatedTerm::kSeparation, [](Requirement& r) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <queue>
 #include <unordered_set>
 
@@ -17,7 +16,7 @@ constexpr std::size_t kGentle = 7;  // of these; a drive hardly keeps to the oth
 constexpr double kTurn_rad = 0.0875;
 constexpr double kSmallTurn = 0.4;    // of what a body may turn beside a wall
 constexpr double kCheck_m = 0.01;     // between the poses at which the body is looked at
-constexpr double kToSpare_m = 0.002;  // beyond what is asked of a way: it is not driven exactly
+constexpr double kToSpare_m = 0.001;  // beyond what is asked of a way: it is not driven exactly
 
 // Places that are no farther apart count as one; headings more finely where the gap is small.
 constexpr double kCell_m = 0.04;
@@ -48,7 +47,7 @@ class WayOutSearch {
   WayOutSearch(const TightPlace& tight, int max_expansions, std::size_t curvatures)
       : tight_(tight),
         max_expansions_(max_expansions),
-        small_turn_rad_(kSmallTurn * Leaving::kTurnAway_m / tight.reach_m) {
+        small_turn_rad_(kSmallTurn * Leaving::kLoss_m / tight.reach_m) {
     for (std::size_t i = 0; i < curvatures; ++i) {
       const double curvature = kCurvatures[i];
       stretches_.push_back({kStep_m, curvature * kStep_m});
@@ -62,7 +61,7 @@ class WayOutSearch {
 
   std::vector<Stretch> run() {
     const double gap_m = tight_.gap_m(tight_.start);
-    add({tight_.start, 0.0, 0.0, 0.0, gap_m, std::min(gap_m, tight_.margin_m), -1, {}});
+    add({tight_.start, 0.0, 0.0, gap_m, std::min(gap_m, tight_.margin_m), -1, {}});
     for (int looked_at = 0; looked_at < max_expansions_ && !open_.empty(); ++looked_at) {
       const int index = open_.top().node;
       open_.pop();
@@ -80,10 +79,9 @@ class WayOutSearch {
   struct Node {
     Pose pose;
     double cost_m;
-    double way_m;     // driven so far
-    double turned_m;  // by a corner so far
-    double gap_m;     // here
-    double kept_m;    // the most of the gap so far, up to the margin
+    double way_m;   // driven so far
+    double gap_m;   // here
+    double kept_m;  // the most of the gap so far, up to the margin
     int parent;
     Stretch stretch;  // that leads here
   };
@@ -94,9 +92,7 @@ class WayOutSearch {
     bool operator<(const Entry& other) const { return estimate_m > other.estimate_m; }
   };
 
-  bool is_tight(const Node& node) const {
-    return node.gap_m < tight_.margin_m + Leaving::kTurnAway_m;
-  }
+  bool is_tight(const Node& node) const { return node.gap_m < tight_.margin_m + Leaving::kLoss_m; }
 
   std::uint64_t key(const Node& node) const {
     const auto bits = [](double value, double step, int shift) {
@@ -106,7 +102,7 @@ class WayOutSearch {
     return bits(place.x(), kCell_m, 0) | bits(place.y(), kCell_m, 16) |
            bits(wrap_angle(node.pose.yaw_rad), is_tight(node) ? small_turn_rad_ : kHeading_rad,
                 32) |
-           bits(node.kept_m, kGap_m, 48);
+           bits(required_m(node.kept_m, node.way_m), kGap_m, 48);
   }
 
   void add(const Node& node) {
@@ -120,7 +116,6 @@ class WayOutSearch {
     const bool switches = next.parent >= 0 && kind_of(stretch) != kind_of(next.stretch);
     next.cost_m += cost_m(stretch) + (switches ? kSwitchCost_m : 0.0);
     next.way_m += std::abs(stretch.length_m);
-    next.turned_m += tight_.reach_m * std::abs(stretch.turn_rad);
     next.stretch = stretch;
     next.parent = parent;
     if (drive(next) && closed_.count(key(next)) == 0) add(next);
@@ -138,9 +133,8 @@ class WayOutSearch {
       const double share = static_cast<double>(i) / parts;
       node.pose = along(from, node.stretch, share);
       node.gap_m = tight_.gap_m(node.pose);
-      if (node.gap_m < tight_.margin_m &&
-          node.gap_m < kToSpare_m + required_m(node.parent, node.way_m - (1.0 - share) * length_m,
-                                               node.turned_m - (1.0 - share) * turn_m))
+      const double way_m = node.way_m - (1.0 - share) * length_m;
+      if (node.gap_m < tight_.margin_m && node.gap_m < kToSpare_m + required_m(node.kept_m, way_m))
         return false;
       node.kept_m = std::min(std::max(node.kept_m, node.gap_m), tight_.margin_m);
       // No part can use up that much.
@@ -149,17 +143,10 @@ class WayOutSearch {
     return true;
   }
 
-  /// The gap to have after a way that leads on from a node.
-  double required_m(int node, double way_m, double turned_m) const {
-    if (nodes_[node].kept_m >= tight_.margin_m) return tight_.margin_m;
-    double most_m = -std::numeric_limits<double>::infinity();
-    for (; node >= 0; node = nodes_[node].parent) {
-      const Node& before = nodes_[node];
-      most_m =
-          std::max(most_m, tight_.leaving.required_m(before.gap_m, way_m - before.way_m,
-                                                     turned_m - before.turned_m, tight_.margin_m));
-    }
-    return most_m;
+  /// The gap to have after a way on which it was `kept_m` at most.
+  double required_m(double kept_m, double way_m) const {
+    const bool leaves = kept_m < tight_.margin_m && way_m < tight_.leaving.way_m;
+    return leaves ? tight_.leaving.required_m(kept_m, tight_.margin_m) : tight_.margin_m;
   }
 
   std::vector<Stretch> way_to(int node) const {

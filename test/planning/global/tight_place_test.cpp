@@ -96,7 +96,7 @@ Driven driven(const TightPlace& tight, const std::vector<Stretch>& way) {
 
 class TightPlaceTest : public ::testing::TestWithParam<Body> {
  protected:
-  /// Every heading leads out, and the body comes hardly closer than it was.
+  /// Every heading leads out, and the body keeps half of the margin, or about the gap it had.
   void expect_way_out(const std::vector<Wall>& walls, double gap) {
     for (int i = 0; i < 24; ++i) {
       const double yaw_rad = i * M_PI / 12;
@@ -107,7 +107,7 @@ class TightPlaceTest : public ::testing::TestWithParam<Body> {
       if (tight.is_out(start)) continue;
       const Driven way = driven(tight, find_way_out(tight, kMaxExpansions));
       EXPECT_TRUE(tight.is_out(way.end)) << gap << " m, " << 15 * i << " degrees";
-      EXPECT_GE(way.least_m, std::min(gap, body_.margin_m) - 0.0045) << gap << ", " << 15 * i;
+      EXPECT_GE(way.least_m, std::min(gap - 0.0045, 0.5 * body_.margin_m)) << gap << ", " << 15 * i;
       EXPECT_LE(way.changes, 8) << gap << ", " << 15 * i;
     }
   }
