@@ -49,6 +49,7 @@ class PerceptionNode {
       : values_(values),
         robot_(robot_identity()),
         model_(own_robot_model(values)),
+        start_ground_(model_),
         map_(OccupancyMapOptions::from(values, model_.map_resolution_m)),
         peers_(values.number("peer_margin"), values.number("peer_timeout")),
         filter_(MovingObjectFilterOptions::from(values)),
@@ -118,6 +119,7 @@ class PerceptionNode {
 
   void integrate(const Measurement& measurement) {
     try {
+      see_robot(measurement.last);
       clear_peers(measurement.last);
       if (const auto* scan = std::get_if<PlanarScan>(&measurement.data)) {
         auto beams = to_beams(*scan, measurement.poses,
@@ -132,7 +134,6 @@ class PerceptionNode {
         peers_.ignore_peers(beams);
         map_.insert_points(beams);
       }
-      mark_standing(measurement.last);
       integrated_ = now_;
       stamp_ = std::max(stamp_, measurement.last);
       publish_moving();
@@ -147,14 +148,11 @@ class PerceptionNode {
     }
   }
 
-  /// Unseen space is free under the body and as far around it as its margin reaches, whichever way
-  /// it turns; so it may stand and turn where it is, and go nowhere that was not seen.
-  void mark_standing(ros::Time time) {
-    standing_known_ = transforms_.canTransform(robot_.map_frame, robot_.base_frame, time);
-    if (!standing_known_) return;
-    const auto pose = transforms_.lookupTransform(robot_.map_frame, robot_.base_frame, time);
-    map_.mark_standing(from_message(pose.transform).translation().head<2>(),
-                       standing_radius_m(model_));
+  void see_robot(ros::Time time) {
+    robot_seen_ = transforms_.canTransform(robot_.map_frame, robot_.base_frame, time);
+    if (!robot_seen_) return;
+    const auto base = transforms_.lookupTransform(robot_.map_frame, robot_.base_frame, time);
+    map_.see_robot(planar_pose(base.transform), start_ground_);
   }
 
   void publish_map() {
@@ -250,12 +248,12 @@ class PerceptionNode {
 
   void diagnose_map(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
-    if (standing_known_) {
-      status.summary(DiagnosticStatus::OK, "the ground under the robot is marked free");
+    if (robot_seen_) {
+      status.summary(DiagnosticStatus::OK, "the robot's place is known");
     } else {
       status.summary(DiagnosticStatus::WARN, "no transform " + robot_.map_frame + " <- " +
                                                  robot_.base_frame +
-                                                 ": the ground under the robot is not marked free");
+                                                 ": the ground where it starts is not marked free");
     }
     if (!stamp_.isZero())
       status.add("age of the newest scan in the map [s]", (now_ - stamp_).toSec());
@@ -273,6 +271,7 @@ class PerceptionNode {
   ParameterTable values_;
   const RobotIdentity robot_;
   const RobotModel model_;
+  const StartGround start_ground_;
   OccupancyMap map_;
   std::vector<Polygon> keep_out_;
   PeerTracks peers_;
@@ -281,7 +280,7 @@ class PerceptionNode {
 
   ScanQueue queue_;
   Refusals refusals_;
-  bool standing_known_ = true;
+  bool robot_seen_ = true;
   ros::Time now_;
   ros::Time started_;
   ros::Time integrated_;

@@ -49,9 +49,4 @@ std::vector<std::pair<std::string, double>> MarginBudget::listed() const {
   return list;
 }
 
-double standing_radius_m(const RobotModel& robot) {
-  return robot.footprint.cover_reach_m() + MarginBudget::of(robot).static_margin_m() +
-         robot.map_resolution_m;
-}
-
 }  // namespace mocha

@@ -59,9 +59,4 @@ struct MarginBudget {
   }
 };
 
-/// Radius about the base within which unseen ground counts as free where the robot stands: what it
-/// may cover whichever way it turns, the static margin around that, and a cell for the map's own
-/// rounding [m].
-double standing_radius_m(const RobotModel& robot);
-
 }  // namespace mocha

@@ -2,7 +2,6 @@
 
 #include "stack/timing.h"
 #include "trajectory/frame_change.h"
-#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {
@@ -26,9 +25,9 @@ void LidarPerception::take(const PlanarScan& scan, const Pose& first, const Pose
   };
   auto beams = to_beams(scan, {sensor_at(first), sensor_at(last)},
                         {values_.number("max_range"), values_.number("max_clearing_range")});
+  map_.see_robot(last, StartGround(robot_));
   filter_.sort(beams, map_);
   map_.insert_scan(beams);
-  map_.mark_standing(last.position, standing_radius_m(robot_));
   stamp_s_ = scan.end_time_s();
 }
 

@@ -22,7 +22,6 @@ namespace {
 
 constexpr int kLifetime = 50;  // scans, after which a map that may be full of errors is replaced
 constexpr int kBeams = 90;
-constexpr double kOwnRadius_m = 0.4;
 constexpr double kSpacing_m = 0.05;  // of the points of a cloud that are taken
 constexpr BeamReach kReach{30.0, 10.0};
 
@@ -98,8 +97,8 @@ class Fuzzer {
     clear_peers();
     peers_.ignore_peers(beams);
     filter_.sort(beams, map_);
+    map_.see_robot({poses.last.translation().head<2>(), odd_.number()}, start_ground_);
     map_.insert_scan(beams);
-    map_.mark_standing(poses.last.translation().head<2>(), kOwnRadius_m);
     filter_.moving(time_s_);
     ++taken_;
   }
@@ -135,6 +134,7 @@ class Fuzzer {
   }
 
   Oddities odd_;
+  const StartGround start_ground_{load_robot_model("config", "jackal")};
   OccupancyMap map_;
   MovingObjectFilter filter_;
   PeerTracks peers_;

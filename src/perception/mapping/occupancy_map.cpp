@@ -203,12 +203,19 @@ void OccupancyMap::insert_points(const std::vector<Beam>& beams) {
   voxels_->insert(clipped);
 }
 
-void OccupancyMap::mark_standing(const Vector2& centre, double radius_m) {
-  if (!is_usable(centre)) throw MapError("the robot stands nowhere that a map could hold");
-  const CellDisc disc(centre, radius_m, options_.resolution_m);
-  voxels_->columns.reserve(disc.low(), disc.high());
-  disc.for_each([this](int x, int y) {
-    if (voxels_->columns.is_unknown(x, y)) voxels_->update({x, y, voxels_->scan_layer}, false);
+void OccupancyMap::see_robot(const Pose& base, const StartGround& ground) {
+  if (!is_usable(base.position)) throw MapError("the robot stands nowhere that a map could hold");
+  const double cell_m = options_.resolution_m;
+  ColumnGrid& columns = voxels_->columns;
+  if (!columns.is_unknown(layer_of(base.position.x(), cell_m), layer_of(base.position.y(), cell_m)))
+    return;
+  const CellDisc disc(base.position, ground.reach_m(), cell_m);
+  columns.reserve(disc.low(), disc.high());
+  const Vector2 ahead(std::cos(base.yaw_rad), -std::sin(base.yaw_rad));
+  disc.for_each([&](int x, int y) {
+    const Vector2 in_body = turned(cell_m * Vector2(x + 0.5, y + 0.5) - base.position, ahead);
+    if (columns.is_unknown(x, y) && ground.contains(in_body))
+      voxels_->update({x, y, voxels_->scan_layer}, false);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "perception/mapping/map_error.h"
 #include "perception/sensor/beam.h"
 #include "world/occupancy_grid.h"
+#include "world/start_ground.h"
 
 namespace mocha {
 
@@ -48,10 +49,10 @@ class OccupancyMap {
   /// end below or above still clear where they cross the band. Otherwise as insert_scan().
   void insert_points(const std::vector<Beam>& beams);
 
-  /// The robot stands here: cells with centres within the disc [m, map frame] become free if
-  /// nothing was known of them. Throws MapError (and changes nothing) if the map cannot grow so
-  /// far.
-  void mark_standing(const Vector2& centre, double radius_m);
+  /// The robot is here [map frame]. It has started here if nothing is known of the cell of its
+  /// base: cells with centres on the start's ground then become free if nothing is known of them.
+  /// Throws MapError (and changes nothing) if the map cannot grow so far.
+  void see_robot(const Pose& base, const StartGround& ground);
 
   /// Something that is not part of the map stands here: occupied cells with centres within the disc
   /// become free. A disc that is nowhere near the map changes nothing.

@@ -164,7 +164,12 @@ bool FrontEnd::reaches(const Vector2& start, const Vector2& goal,
 
 std::optional<NarrowPlace> FrontEnd::narrowest(const Vector2& start, const Vector2& goal,
                                                const StaticMap& static_map) const {
-  return narrowest_place(static_map, start, goal, kLatticeStep_m, kEscapeRadius_m);
+  const double needed_m = passable_gap_m(robot_);
+  for (const double free_radius_m : {kEscapeRadius_m, 0.0}) {
+    const auto narrow = narrowest_place(static_map, start, goal, kLatticeStep_m, free_radius_m);
+    if (narrow && narrow->width_m < needed_m) return narrow;
+  }
+  return std::nullopt;
 }
 
 Vector2 FrontEnd::nearest_reachable(const Vector2& start, const Vector2& goal,

@@ -71,4 +71,10 @@ Eigen::Isometry3d from_message(const geometry_msgs::Transform& transform) {
   return Eigen::Translation3d(t.x, t.y, t.z) * Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
 }
 
+Pose planar_pose(const geometry_msgs::Transform& transform) {
+  const Eigen::Isometry3d pose = from_message(transform);
+  const Vector2 ahead = pose.linear().col(0).head<2>();
+  return {pose.translation().head<2>(), std::atan2(ahead.y(), ahead.x())};
+}
+
 }  // namespace mocha

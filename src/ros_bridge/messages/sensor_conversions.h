@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "perception/sensor/planar_scan.h"
+#include "trajectory/motion.h"
 
 namespace mocha {
 
@@ -23,5 +24,8 @@ std::string fault_of(const sensor_msgs::PointCloud2& cloud);
 std::vector<Eigen::Vector3f> from_message(const sensor_msgs::PointCloud2& cloud);
 
 Eigen::Isometry3d from_message(const geometry_msgs::Transform& transform);
+
+/// What of the transform happens in the plane.
+Pose planar_pose(const geometry_msgs::Transform& transform);
 
 }  // namespace mocha

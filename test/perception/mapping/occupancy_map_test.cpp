@@ -10,6 +10,8 @@
 namespace mocha {
 namespace {
 
+const StartGround kJackalStarts(load_robot_model("config", "jackal"));
+
 int8_t cell_at(const OccupancyGrid& grid, const Vector2& p) {
   const Vector2 at = (p - grid.origin) / grid.resolution_m;
   const int x = static_cast<int>(std::floor(at.x()));
@@ -133,12 +135,25 @@ TEST(OccupancyMap, IgnoredHitsClearUpToShortlyBeforeTheirEnd) {
 
 TEST(OccupancyMap, TheRobotStandsOnFreeGround) {
   OccupancyMap map(shipped_map_options());
-  map.insert_scan({{{0.0, 0.0, 0.2}, {0.22, 0.0, 0.2}, BeamEnd::kHit, 0.0}});
-  map.mark_standing({0.0, 0.0}, 0.3);
+  map.insert_scan({{{1.0, 0.0, 0.2}, {0.22, 0.0, 0.2}, BeamEnd::kHit, 0.0}});
+  map.see_robot({{0.0, 0.0}, 0.5 * M_PI}, kJackalStarts);
   const OccupancyGrid grid = map.slice(0.5);
-  EXPECT_EQ(cell_at(grid, {-0.2, 0.1}), OccupancyGrid::kFree);
-  EXPECT_EQ(cell_at(grid, {-0.4, 0.1}), OccupancyGrid::kUnknown);
+  EXPECT_EQ(cell_at(grid, {-0.1, 0.2}), OccupancyGrid::kFree) << "under the body";
+  EXPECT_EQ(cell_at(grid, {0.0, -0.33}), OccupancyGrid::kFree)
+      << "behind it, where it sees nothing";
+  EXPECT_EQ(cell_at(grid, {0.0, 0.36}), OccupancyGrid::kUnknown) << "ahead, what it will see";
+  EXPECT_EQ(cell_at(grid, {0.0, -0.45}), OccupancyGrid::kUnknown);
   EXPECT_EQ(cell_at(grid, {0.22, 0.0}), OccupancyGrid::kOccupied) << "only what is unknown";
+}
+
+TEST(OccupancyMap, TheRobotStartsOnce) {
+  OccupancyMap map(shipped_map_options());
+  map.see_robot({{0.0, 0.0}, 0.0}, kJackalStarts);
+  const std::uint64_t version = map.version();
+  map.see_robot({{0.2, 0.0}, 0.0}, kJackalStarts);
+  EXPECT_EQ(map.version(), version) << "it went on";
+  map.see_robot({{2.0, 0.0}, 0.0}, kJackalStarts);
+  EXPECT_EQ(cell_at(map.slice(0.5), {2.0, 0.1}), OccupancyGrid::kFree) << "it was carried";
 }
 
 TEST(OccupancyMap, ClearingADiscLeavesTheRest) {
@@ -226,8 +241,8 @@ TEST(OccupancyMap, PlacesThatNoMapHoldsChangeNothing) {
   map.insert_scan(beams_at(Room(), {}));
   const std::uint64_t version = map.version();
   for (const double odd : {double{NAN}, double{INFINITY}, -1e300, 1e30, 1e9, -5000.0}) {
-    EXPECT_THROW(map.mark_standing({odd, 0.0}, 0.4), MapError) << odd;
-    EXPECT_THROW(map.mark_standing({0.0, odd}, 0.4), MapError) << odd;
+    EXPECT_THROW(map.see_robot({{odd, 0.0}, 0.0}, kJackalStarts), MapError) << odd;
+    EXPECT_THROW(map.see_robot({{0.0, odd}, 0.0}, kJackalStarts), MapError) << odd;
     EXPECT_NO_THROW(map.clear_disc({odd, 0.0}, 0.4)) << odd;
     EXPECT_NO_THROW(map.clear_disc({0.0, odd}, 0.4)) << odd;
   }

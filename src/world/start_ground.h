@@ -1,0 +1,28 @@
+#pragma once
+
+#include "world/robot_model.h"
+
+namespace mocha {
+
+/// The ground that counts as free where a robot starts, though nothing has seen it yet: what is
+/// under the body and its margin; and of what it sweeps as it turns on the spot, with the margin,
+/// what its lidar cannot see from there. Both grow by a cell of the map, for that one's rounding.
+class StartGround {
+ public:
+  explicit StartGround(const RobotModel& robot);
+
+  /// Whether a point belongs to it; body frame [m].
+  bool contains(const Vector2& in_body) const;
+  /// Radius of a disc about the base that holds all of it [m].
+  double reach_m() const { return reach_m_; }
+
+ private:
+  bool is_seen(const Vector2& in_body) const;
+
+  const Footprint footprint_;
+  const LidarModel lidar_;
+  double around_body_m_;
+  double reach_m_;
+};
+
+}  // namespace mocha
