@@ -156,7 +156,9 @@ class GlobalPlannerNode {
   PlanningScene scene(const std::vector<Vector2>& places) {
     return {std::make_shared<GridStaticMap>(
                 map_.field(DistanceField::Solid::kOccupied, places, kMapBorder_m)),
-            peers_.obstacles()};
+            peers_.obstacles(), [this, places] {
+              return map_.field(DistanceField::Solid::kOccupiedOrUnknown, places, kMapBorder_m);
+            }};
   }
 
   void stop(const std::string& why) {

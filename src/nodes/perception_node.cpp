@@ -12,6 +12,7 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -119,7 +120,8 @@ class PerceptionNode {
 
   void integrate(const Measurement& measurement) {
     try {
-      see_robot(measurement.last);
+      const auto base = base_at(measurement.last);
+      if (base) map_.see_robot(*base, start_ground_);
       clear_peers(measurement.last);
       if (const auto* scan = std::get_if<PlanarScan>(&measurement.data)) {
         auto beams = to_beams(*scan, measurement.poses,
@@ -134,6 +136,7 @@ class PerceptionNode {
         peers_.ignore_peers(beams);
         map_.insert_points(beams);
       }
+      if (base) map_.clear_body(*base, model_.footprint);
       integrated_ = now_;
       stamp_ = std::max(stamp_, measurement.last);
       publish_moving();
@@ -148,11 +151,11 @@ class PerceptionNode {
     }
   }
 
-  void see_robot(ros::Time time) {
+  std::optional<Pose> base_at(ros::Time time) {
     robot_seen_ = transforms_.canTransform(robot_.map_frame, robot_.base_frame, time);
-    if (!robot_seen_) return;
-    const auto base = transforms_.lookupTransform(robot_.map_frame, robot_.base_frame, time);
-    map_.see_robot(planar_pose(base.transform), start_ground_);
+    if (!robot_seen_) return std::nullopt;
+    return planar_pose(
+        transforms_.lookupTransform(robot_.map_frame, robot_.base_frame, time).transform);
   }
 
   void publish_map() {

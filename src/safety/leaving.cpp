@@ -10,9 +10,7 @@ namespace {
 constexpr double kSlack_m = 0.003;
 constexpr double kStep_s = 0.05;     // between the moments at which a leaving robot is looked at
 constexpr double kWayStep_s = 0.01;  // the same, where it is the way that is measured
-// So much may the cover of a standing robot reach into cells of the map, and its disc into that of
-// a peer: all of them overstate what they stand for, the cover by kCoverTolerance_m at most.
-constexpr double kCellsOverstated_m = 0.04;
+// So much may the disc of a standing robot reach into that of a peer: both overstate the bodies.
 constexpr double kPeersOverstated_m = 0.05;
 // With so much more room than the margin, a robot has left.
 constexpr double kLeft_m = 0.01;
@@ -52,7 +50,7 @@ Violation check_clearance_or_leaving(const Motion& motion, const Footprint& foot
   };
   Stage stage{std::max(from_s, motion.start_time()), 0.0, room_at(from_s)};
   const double left_m = margin.still_m + kLeft_m;
-  if (stage.room_m >= left_m || gap_at(from_s) <= -kCellsOverstated_m) return strict;
+  if (stage.room_m >= left_m || gap_at(from_s) <= -leaving.deepest_m) return strict;
   const double arm_m = footprint.is_disc() ? 0.0 : footprint.circumscribed_radius_m();
   while (stage.room_m < left_m - kStage_m && stage.way_m < leaving.way_m) {
     const double here_s = stage.time_s;

@@ -19,21 +19,21 @@ struct Leaving {
   /// The room [m] that a motion may lose, and half of what there is at most: so losses of many
   /// motions end before the body touches.
   static constexpr double kLoss_m = 0.006;
-  /// Where the map has obstacles in the robot's place, it overstates them; but not by more [m].
-  static constexpr double kDeepest_m = 0.035;
 
   double way_m = 1.0;  ///< after which the room is the margin at rest; above 0
+  /// So far may the cover of the body reach into cells of the map, which overstate what is there.
+  double deepest_m = 0.04;
 
   /// The room [m] to have on the way, where it was `room_m` at most since the motion began, for a
   /// margin at rest.
   double required_m(double room_m, double margin_m) const {
     const double lost_m = std::min(kLoss_m, 0.5 * std::abs(room_m));
-    return std::max(std::min(room_m - lost_m, 0.5 * margin_m), std::min(room_m, -kDeepest_m));
+    return std::max(std::min(room_m - lost_m, 0.5 * margin_m), std::min(room_m, -deepest_m));
   }
 };
 
 /// Clearance as check_clearance() proves it, with that exception. It does not hold for a robot
-/// whose cover reaches more than 4 cm into an obstacle.
+/// whose cover reaches into an obstacle by more than a map overstates.
 Violation check_clearance_or_leaving(const Motion& motion, const Footprint& footprint,
                                      const ObstacleField<2>& field, const SpeedMargin& margin,
                                      const Leaving& leaving, double from_s);

@@ -96,10 +96,10 @@ RobotStack::Messages RobotStack::propose(const ProposedMotion& proposal, double 
 }
 
 RobotStack::Messages RobotStack::pursue(double now_s, const RobotState& measured,
-                                        const std::shared_ptr<const StaticMap>& static_map) {
+                                        const PlanningScene& scene) {
   refresh_peers(now_s);
   pursued_ = planning_.step(now_s, measured, committed(), [&](const std::vector<Vector2>&) {
-    return PlanningScene{static_map, peers_};
+    return PlanningScene{scene.static_map, peers_, scene.unseen};
   });
   if (pursued_.plan) replanning_.set_plan(*pursued_.plan);
   if (!pursued_.request) return {};

@@ -39,9 +39,8 @@ class RobotStack {
   Messages tick(double now_s);
   /// As often as local_replanner, and where step_is_due(). The peers are added to the scene.
   Messages replan(double now_s, const RobotState& measured, LocalScene scene);
-  /// As often as global_planner.
-  Messages pursue(double now_s, const RobotState& measured,
-                  const std::shared_ptr<const StaticMap>& static_map);
+  /// As often as global_planner. The peers are added to the scene.
+  Messages pursue(double now_s, const RobotState& measured, const PlanningScene& scene);
 
   bool step_is_due() const { return replanning_.step_is_due(); }
   /// The motion in force, which the tracker follows, and its number.

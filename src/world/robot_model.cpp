@@ -20,6 +20,12 @@ double told(double acceleration) {
 
 }  // namespace
 
+bool LidarModel::sees(const Vector2& in_body) const {
+  const Vector2 beam = in_body - mount.position;
+  const double angle_rad = wrap_angle(std::atan2(beam.y(), beam.x()) - mount.yaw_rad);
+  return beam.norm() >= min_range_m && std::abs(angle_rad) <= 0.5 * field_of_view_rad;
+}
+
 Braking RobotModel::braking() const {
   return Braking(told(kBrakingShare * limits.max_acceleration), told(limits.max_acceleration));
 }

@@ -47,6 +47,9 @@ struct LidarModel {
   double sweep_time_s;  ///< first beam to last
   double noise_m;       ///< standard deviation of a range
   double dropout;       ///< share of beams without return
+
+  /// Whether a beam passes a point of the body frame [m].
+  bool sees(const Vector2& in_body) const;
 };
 
 /// One kind of robot, as `config/robots/<model>.yaml` describes it.

@@ -5,8 +5,9 @@
 namespace mocha {
 
 /// The ground that counts as free where a robot starts, though nothing has seen it yet: what is
-/// under the body and its margin; and of what it sweeps as it turns on the spot, with the margin,
-/// what its lidar cannot see from there. Both grow by a cell of the map, for that one's rounding.
+/// under the body and its margin; and what its lidar cannot see from there of the ground that the
+/// body may take to back off from a wall and to turn. Both grow by a cell of the map, for that
+/// one's rounding.
 class StartGround {
  public:
   explicit StartGround(const RobotModel& robot);
@@ -17,8 +18,6 @@ class StartGround {
   double reach_m() const { return reach_m_; }
 
  private:
-  bool is_seen(const Vector2& in_body) const;
-
   const Footprint footprint_;
   const LidarModel lidar_;
   double around_body_m_;

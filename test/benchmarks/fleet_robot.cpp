@@ -166,7 +166,7 @@ std::vector<FleetRobot::Bytes> FleetRobot::pursue(double now_s) {
   if (!reached_ && stack_.idle()) stack_.take({Goal{agent_.goal, std::nullopt}}, now_s);
   const bool one_thread = options_.planning_threads == 1;
   const double begin_s = clock_s(one_thread);
-  const auto messages = stack_.pursue(now_s, state(now_s), agent_.map->static_map);
+  const auto messages = stack_.pursue(now_s, state(now_s), {agent_.map->static_map, {}, {}});
   if (const auto& planned = stack_.pursued().planned) {
     record_.plans_s.push_back(clock_s(one_thread) - begin_s);
     record_.paths = std::max(record_.paths, static_cast<int>(planned->result.candidates.size()));

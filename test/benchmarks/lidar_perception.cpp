@@ -28,6 +28,7 @@ void LidarPerception::take(const PlanarScan& scan, const Pose& first, const Pose
   map_.see_robot(last, StartGround(robot_));
   filter_.sort(beams, map_);
   map_.insert_scan(beams);
+  map_.clear_body(last, robot_.footprint);
   stamp_s_ = scan.end_time_s();
 }
 

@@ -143,7 +143,7 @@ void LidarRobot::take_map(const OccupancyGrid& grid) {
 void LidarRobot::pursue() {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
-  stack_.pursue(now_s(), measured(), static_map_);
+  stack_.pursue(now_s(), measured(), {static_map_, {}, [this] { return unseen_; }});
   if (stack_.pursued().planned) {
     slowest_plan_s_ =
         std::max(slowest_plan_s_, std::chrono::duration<double>(Clock::now() - begin).count());

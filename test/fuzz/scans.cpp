@@ -97,8 +97,10 @@ class Fuzzer {
     clear_peers();
     peers_.ignore_peers(beams);
     filter_.sort(beams, map_);
-    map_.see_robot({poses.last.translation().head<2>(), odd_.number()}, start_ground_);
+    const Pose base{poses.last.translation().head<2>(), odd_.number()};
+    map_.see_robot(base, start_ground_);
     map_.insert_scan(beams);
+    map_.clear_body(base, robot_.footprint);
     filter_.moving(time_s_);
     ++taken_;
   }
@@ -134,7 +136,8 @@ class Fuzzer {
   }
 
   Oddities odd_;
-  const StartGround start_ground_{load_robot_model("config", "jackal")};
+  const RobotModel robot_ = load_robot_model("config", "jackal");
+  const StartGround start_ground_{robot_};
   OccupancyMap map_;
   MovingObjectFilter filter_;
   PeerTracks peers_;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMargin_m = 0.1;
 const Footprint kDisc = Footprint::disc(0.3);
-const Leaving kLeaving{1.0};
+const Leaving kLeaving{1.0, 0.035};
 
 /// A circle so large that it is a wall at y = `y` above the robot.
 CircleField wall(double y) { return CircleField({{{0.0, y + 1000.0}, 1000.0}}); }
@@ -100,7 +100,7 @@ TEST(Leaving, RepeatedLossesEndBeforeTheBodyTouches) {
     if (first_m > 0.0) {
       EXPECT_GT(room_m, 0.0);
     } else {
-      EXPECT_EQ(room_m, -Leaving::kDeepest_m);
+      EXPECT_EQ(room_m, -kLeaving.deepest_m);
     }
   }
 }

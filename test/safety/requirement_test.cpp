@@ -113,6 +113,8 @@ TEST_P(RequirementsTest, TheMarginsAreThoseOfTheBudget) {
     expect_equal(required.obstacle_margin,
                  in_force ? margins_.without_map() : margins_.static_margin(), to_text(name));
     EXPECT_NEAR(required.leaving.way_m, 1.0 + 2.0 * body_m_, 1e-12) << to_text(name);
+    EXPECT_NEAR(required.leaving.deepest_m, 0.75 * robot_.map_resolution_m + 0.008, 1e-12)
+        << to_text(name);
   }
   const double people_m = *requirements_[Name::kPromise].predicted_distance_m;
   EXPECT_NEAR(people_m, body_m_ + margins_.own_margin_m() + robot_.moving_clearance_m, 1e-12);

@@ -71,7 +71,7 @@ class OneRobot {
   void tick() {
     ++ticks_;
     stack_.tick(now_s());
-    if (ticks_ % 5 == 0) stack_.pursue(now_s(), state(), scene_.static_map);
+    if (ticks_ % 5 == 0) stack_.pursue(now_s(), state(), {scene_.static_map, {}});
     if (ticks_ % 10 == 3 || stack_.step_is_due()) stack_.replan(now_s(), state(), scene());
   }
 

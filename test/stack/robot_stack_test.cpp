@@ -34,7 +34,7 @@ class RobotStackTest : public ::testing::Test {
   void step() {
     now_s_ += 0.1;
     stack_.tick(now_s_);
-    stack_.pursue(now_s_, state(), scene_.static_map);
+    stack_.pursue(now_s_, state(), {scene_.static_map, {}});
     stack_.replan(now_s_, state(), scene());
   }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <sstream>
-#include <stdexcept>
 
 #include "perception/mapping/cell_disc.h"
 #include "perception/mapping/column_grid.h"
@@ -16,29 +15,9 @@
 namespace mocha {
 namespace {
 
-void require(bool holds, const std::string& name, double value, const std::string& range) {
-  if (holds) return;
-  throw std::invalid_argument("OccupancyMap: " + name + " is " + std::to_string(value) +
-                              ", but must be " + range);
-}
-
-OccupancyMapOptions checked(const OccupancyMapOptions& o) {
-  require(o.resolution_m >= 0.005 && o.resolution_m <= 1.0, "resolution", o.resolution_m,
-          "0.005 to 1 m");
-  require(std::abs(o.min_height_m) <= 100.0, "min_height", o.min_height_m, "-100 to 100 m");
-  require(o.max_height_m > o.min_height_m && o.max_height_m <= o.min_height_m + 10.0, "max_height",
-          o.max_height_m, "above min_height, by at most 10 m");
-  require(o.scan_height_m >= o.min_height_m && o.scan_height_m <= o.max_height_m, "scan_height",
-          o.scan_height_m, "between min_height and max_height");
-  require(o.hit_probability > 0.5 && o.hit_probability < 1.0, "hit_probability", o.hit_probability,
-          "above 0.5 and below 1");
-  require(o.miss_probability > 0.0 && o.miss_probability < 0.5, "miss_probability",
-          o.miss_probability, "above 0 and below 0.5");
-  require(o.lowest_probability > 0.0 && o.lowest_probability < 0.5, "lowest_probability",
-          o.lowest_probability, "above 0 and below 0.5");
-  require(o.highest_probability > 0.5 && o.highest_probability < 1.0, "highest_probability",
-          o.highest_probability, "above 0.5 and below 1");
-  return o;
+/// A place of the map in the frame of a body.
+Vector2 in_body(const Vector2& place, const Pose& base) {
+  return turned(place - base.position, {std::cos(base.yaw_rad), -std::sin(base.yaw_rad)});
 }
 
 int layer_of(double height_m, double resolution_m) {
@@ -63,19 +42,6 @@ void name_file(const std::string& path, Read read) {
 }
 
 }  // namespace
-
-OccupancyMapOptions OccupancyMapOptions::from(const ParameterTable& values, double resolution_m) {
-  OccupancyMapOptions options;
-  options.resolution_m = resolution_m;
-  options.scan_height_m = values.number("scan_height");
-  options.min_height_m = values.number("min_height");
-  options.max_height_m = values.number("max_height");
-  options.hit_probability = values.number("hit_probability");
-  options.miss_probability = values.number("miss_probability");
-  options.lowest_probability = values.number("lowest_probability");
-  options.highest_probability = values.number("highest_probability");
-  return options;
-}
 
 /// The octree, the dense copy of its height band, and what changes both together.
 struct OccupancyMap::Voxels {
@@ -109,6 +75,13 @@ struct OccupancyMap::Voxels {
     octomap::OcTreeNode* node = tree.leaf(key_of(voxel));
     node->setLogOdds(log_odds);
     columns.set(voxel, state_of(*node));
+  }
+
+  /// Nothing occupied is left in a column.
+  void clear_column(int x, int y) {
+    for (int k = columns.first_layer(); k <= columns.last_layer(); ++k) {
+      if (is_occupied(columns.at({x, y, k}))) set({x, y, k}, tree.getProbMissLog());
+    }
   }
 
   void insert(const std::vector<GridBeam>& beams) {
@@ -168,7 +141,7 @@ void OccupancyMap::Voxels::read_grid(const OccupancyGrid& grid) {
 }
 
 OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
-    : options_(checked(options)), voxels_(std::make_unique<Voxels>(options_)) {}
+    : options_(options.checked()), voxels_(std::make_unique<Voxels>(options_)) {}
 
 OccupancyMap::~OccupancyMap() = default;
 
@@ -211,23 +184,26 @@ void OccupancyMap::see_robot(const Pose& base, const StartGround& ground) {
     return;
   const CellDisc disc(base.position, ground.reach_m(), cell_m);
   columns.reserve(disc.low(), disc.high());
-  const Vector2 ahead(std::cos(base.yaw_rad), -std::sin(base.yaw_rad));
   disc.for_each([&](int x, int y) {
-    const Vector2 in_body = turned(cell_m * Vector2(x + 0.5, y + 0.5) - base.position, ahead);
-    if (columns.is_unknown(x, y) && ground.contains(in_body))
+    const Vector2 place = cell_m * Vector2(x + 0.5, y + 0.5);
+    if (columns.is_unknown(x, y) && ground.contains(in_body(place, base)))
       voxels_->update({x, y, voxels_->scan_layer}, false);
+  });
+}
+
+void OccupancyMap::clear_body(const Pose& base, const Footprint& footprint) {
+  if (!is_usable(base.position)) return;
+  const double cell_m = options_.resolution_m;
+  CellDisc(base.position, footprint.circumscribed_radius_m(), cell_m).for_each([&](int x, int y) {
+    const Vector2 place = cell_m * Vector2(x + 0.5, y + 0.5);
+    if (footprint.depth_m(in_body(place, base)) > 0.0) voxels_->clear_column(x, y);
   });
 }
 
 void OccupancyMap::clear_disc(const Vector2& centre, double radius_m) {
   if (!is_usable(centre)) return;
-  ColumnGrid& columns = voxels_->columns;
-  CellDisc(centre, radius_m, options_.resolution_m).for_each([&](int x, int y) {
-    for (int k = columns.first_layer(); k <= columns.last_layer(); ++k) {
-      if (is_occupied(columns.at({x, y, k}))) {
-        voxels_->set({x, y, k}, voxels_->tree.getProbMissLog());
-      }
-    }
+  CellDisc(centre, radius_m, options_.resolution_m).for_each([this](int x, int y) {
+    voxels_->clear_column(x, y);
   });
 }
 

@@ -5,29 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "config/parameter_table.h"
 #include "perception/mapping/map_error.h"
+#include "perception/mapping/occupancy_map_options.h"
 #include "perception/sensor/beam.h"
 #include "world/occupancy_grid.h"
 #include "world/start_ground.h"
 
 namespace mocha {
-
-struct OccupancyMapOptions {
-  double resolution_m;      ///< edge of a voxel
-  double scan_height_m;     ///< planar scans are flattened into the layer of voxels at this
-                            ///< height above the map's z = 0
-  double min_height_m;      ///< lower end of the robot's height band
-  double max_height_m;      ///< upper end
-  double hit_probability;   ///< that a voxel in which a beam ends is occupied, from this beam alone
-  double miss_probability;  ///< that a voxel which a beam passes is occupied, from this beam alone
-  double lowest_probability;  ///< occupancy is clamped, so that a changed world is learnt in finite
-                              ///< time
-  double highest_probability;
-
-  /// From the parameters of the same names, without units; the resolution is not one of them.
-  static OccupancyMapOptions from(const ParameterTable& values, double resolution_m);
-};
 
 /// What the sensors have seen: an OctoMap octree, and the planar slice of the robot's height band.
 class OccupancyMap {
@@ -53,6 +37,10 @@ class OccupancyMap {
   /// base: cells with centres on the start's ground then become free if nothing is known of them.
   /// Throws MapError (and changes nothing) if the map cannot grow so far.
   void see_robot(const Pose& base, const StartGround& ground);
+
+  /// The body is here [map frame], so nothing else is: occupied cells with centres under it become
+  /// free. What is beside it may be seen too near by a cell and the lidar's noise.
+  void clear_body(const Pose& base, const Footprint& footprint);
 
   /// Something that is not part of the map stands here: occupied cells with centres within the disc
   /// become free. A disc that is nowhere near the map changes nothing.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,6 +15,8 @@ namespace mocha {
 struct PlanningScene {
   std::shared_ptr<const StaticMap> static_map;
   std::vector<std::shared_ptr<const MovingObstacle>> peers;
+  /// Makes the field of what was not seen free, for a robot that sets off; empty: all was seen.
+  std::function<std::shared_ptr<const ObstacleField<2>>()> unseen = {};
 };
 
 /// From where, from when and to where. Map frame, absolute times.

@@ -136,8 +136,7 @@ GlobalSeeds FrontEnd::after_parking_out(const PlanQuery& query, const PlanningSc
                                         const Vector2& goal) const {
   const MotionState start = query.committed.at(query.start_time_s);
   if (!start.at_rest) return {};
-  const std::vector<Phase> way_out =
-      park_out(start.pose, robot_, *scene.static_map, options_.travel);
+  const std::vector<Phase> way_out = park_out(start.pose, robot_, scene, options_.travel);
   if (way_out.empty()) return {};
   return after(way_out, query, scene, goal);
 }

@@ -1,5 +1,6 @@
 #include "planning/global/global_rules.h"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -7,14 +8,59 @@
 #include "safety/certifier.h"
 
 namespace mocha {
+namespace {
+
+constexpr double kSetOff_m = 0.15;  // of any point of the body, after which it has seen more
+constexpr double kStep_s = 0.05;
+
+/// When a motion from rest has moved a point of the body, `arm_m` off the base at most, so far.
+double set_off_s(const Motion& motion, double arm_m) {
+  Pose pose = motion.at(motion.start_time()).pose;
+  double t = motion.start_time();
+  for (double moved_m = 0.0; moved_m < kSetOff_m && t < motion.end_time(); t += kStep_s) {
+    const Pose next = motion.at(t + kStep_s).pose;
+    moved_m += (next.position - pose.position).norm() +
+               arm_m * std::abs(wrap_angle(next.yaw_rad - pose.yaw_rad));
+    pose = next;
+  }
+  return t;
+}
+
+Scene scene_of(const ObstacleField<2>& obstacles) {
+  Scene scene;
+  scene.obstacles = std::shared_ptr<const ObstacleField<2>>(&obstacles, [](const auto*) {});
+  return scene;
+}
+
+/// The first violation of a plan from rest, for as long as nothing more will have been seen.
+Violation certify_setting_off(const Motion& motion, const RobotModel& robot,
+                              const ObstacleField<2>& obstacles,
+                              std::shared_ptr<const ObstacleField<2>> unseen, double from_s) {
+  Scene scene = scene_of(obstacles);
+  scene.unseen = std::move(unseen);
+  const Requirements requirements(robot);
+  Requirement required = requirements[RequirementName::kPlan];
+  required.unseen_margin = requirements[RequirementName::kPromise].unseen_margin;
+  const double until_s = set_off_s(motion, robot.footprint.circumscribed_radius_m());
+  return certify(motion, robot.footprint, scene, required.from(from_s).until(until_s));
+}
+
+}  // namespace
 
 Violation certify_plan(const Motion& motion, const RobotModel& robot,
                        const ObstacleField<2>& obstacles, double from_s) {
-  Scene scene;
-  scene.obstacles = std::shared_ptr<const ObstacleField<2>>(&obstacles, [](const auto*) {});
-  return certify(motion, robot.footprint, scene,
+  return certify(motion, robot.footprint, scene_of(obstacles),
                  Requirements(robot)[RequirementName::kPlan].from(from_s));
 }
+
+GlobalRules::GlobalRules(const RobotModel& robot, const PlannerOptions& options,
+                         const PlanQuery& query, const PlanningScene& scene)
+    : robot_(robot),
+      options_(options),
+      query_(query),
+      scene_(scene),
+      unseen_(scene.unseen && query.committed.at(query.start_time_s).at_rest ? scene.unseen()
+                                                                             : nullptr) {}
 
 EffortLadder GlobalRules::ladder() const {
   constexpr int kAttempts = 8;
@@ -63,8 +109,12 @@ bool GlobalRules::assemble(const StartManeuver& start_maneuver, const PlanarPath
 }
 
 void GlobalRules::certify(PlanCandidate& candidate) const {
-  candidate.violation =
-      certify_plan(candidate.motion, robot_, scene_.static_map->field(), query_.start_time_s);
+  const ObstacleField<2>& obstacles = scene_.static_map->field();
+  const double from_s = query_.start_time_s;
+  candidate.violation = certify_plan(candidate.motion, robot_, obstacles, from_s);
+  if (!candidate.violation && unseen_) {
+    candidate.violation = certify_setting_off(candidate.motion, robot_, obstacles, unseen_, from_s);
+  }
   candidate.met = candidate.violation ? RequirementName::kNone : wanted();
 }
 

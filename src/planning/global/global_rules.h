@@ -12,13 +12,13 @@ Violation certify_plan(const Motion& motion, const RobotModel& robot,
                        const ObstacleField<2>& obstacles, double from_s);
 
 /// How plans to the goal are made of drives: from rest or under way to rest at the goal, with a
-/// turn there if a heading is asked for, certified on the map (kPlan).
+/// turn there if a heading is asked for, certified on the map (kPlan). A robot that rests sets off
+/// over ground that was seen free: where it stands, it would never see more.
 class GlobalRules : public CandidateRules {
  public:
   /// All must live longer.
   GlobalRules(const RobotModel& robot, const PlannerOptions& options, const PlanQuery& query,
-              const PlanningScene& scene)
-      : robot_(robot), options_(options), query_(query), scene_(scene) {}
+              const PlanningScene& scene);
 
   RequirementName wanted() const override { return RequirementName::kPlan; }
   EffortLadder ladder() const override;
@@ -33,6 +33,7 @@ class GlobalRules : public CandidateRules {
   const PlannerOptions& options_;
   const PlanQuery& query_;
   const PlanningScene& scene_;
+  const std::shared_ptr<const ObstacleField<2>> unseen_;  ///< where it sets off; else null
 };
 
 }  // namespace mocha

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -110,11 +111,10 @@ std::vector<Phase> phases_of(const std::vector<Stretch>& way, const Pose& start,
   return phases;
 }
 
-}  // namespace
-
+/// Keeps from all of the fields.
 std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const StaticMap& static_map,
-                            const TravelOptions& travel) {
-  const ObstacleField<2>& field = static_map.field();
+                            const TravelOptions& travel,
+                            const std::vector<const ObstacleField<2>*>& fields) {
   const double reach_m = robot.footprint.circumscribed_radius_m();
   const SpeedMargin margin = MarginBudget::of(robot).static_margin();
   const double slowest = margin.per_speed_s * kSlowest_mps > kForSpeed_m
@@ -122,7 +122,9 @@ std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const St
                              : kSlowest_mps;
   const double margin_m = margin.at(slowest) + kRounding_m;
   const auto can_turn = [&](const Vector2& place) {
-    return field.distance_bound(place) >= reach_m + margin_m;
+    return std::all_of(fields.begin(), fields.end(), [&](const ObstacleField<2>* field) {
+      return field->distance_bound(place) >= reach_m + margin_m;
+    });
   };
   const TravelCost cost(static_map, start.position, {}, travel);
   const GridPath to_exit = find_nearest_place(static_map, start.position, cost, kLatticeStep_m,
@@ -134,13 +136,39 @@ std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const St
   tight.margin_m = margin_m;
   tight.leaving = Requirements(robot)[RequirementName::kPlan].leaving;
   tight.can_reverse = robot.limits.can_reverse;
-  tight.gap_m = [&](const Pose& pose) { return clearance_m(pose, robot.footprint, field); };
+  tight.gap_m = [&](const Pose& pose) {
+    double gap_m = std::numeric_limits<double>::infinity();
+    for (const ObstacleField<2>* field : fields)
+      gap_m = std::min(gap_m, clearance_m(pose, robot.footprint, *field));
+    return gap_m;
+  };
   tight.is_out = [&](const Pose& pose) { return can_turn(pose.position); };
   tight.exit = to_exit.points.back();
   const auto fastest_at = [&](const Pose& pose) {
     return std::max(slowest, kShareOfSpeed * margin.fastest(tight.gap_m(pose) - kRounding_m));
   };
-  return phases_of(find_way_out(tight, kMaxExpansions), start, robot.limits, fastest_at);
+  // Rather forward, where the lidar does not see what is behind.
+  std::vector<Stretch> way;
+  if (!robot.lidar.sees({-reach_m, 0.0})) {
+    tight.can_reverse = false;
+    way = find_way_out(tight, kMaxExpansions);
+    tight.can_reverse = robot.limits.can_reverse;
+  }
+  if (way.empty()) way = find_way_out(tight, kMaxExpansions);
+  return phases_of(way, start, robot.limits, fastest_at);
+}
+
+}  // namespace
+
+std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const PlanningScene& scene,
+                            const TravelOptions& travel) {
+  const ObstacleField<2>& obstacles = scene.static_map->field();
+  if (scene.unseen) {
+    const auto unseen = scene.unseen();
+    const auto way = park_out(start, robot, *scene.static_map, travel, {&obstacles, unseen.get()});
+    if (!way.empty()) return way;
+  }
+  return park_out(start, robot, *scene.static_map, travel, {&obstacles});
 }
 
 }  // namespace mocha

@@ -142,8 +142,21 @@ TEST(OccupancyMap, TheRobotStandsOnFreeGround) {
   EXPECT_EQ(cell_at(grid, {0.0, -0.33}), OccupancyGrid::kFree)
       << "behind it, where it sees nothing";
   EXPECT_EQ(cell_at(grid, {0.0, 0.36}), OccupancyGrid::kUnknown) << "ahead, what it will see";
-  EXPECT_EQ(cell_at(grid, {0.0, -0.45}), OccupancyGrid::kUnknown);
+  EXPECT_EQ(cell_at(grid, {0.0, -0.6}), OccupancyGrid::kUnknown);
   EXPECT_EQ(cell_at(grid, {0.22, 0.0}), OccupancyGrid::kOccupied) << "only what is unknown";
+}
+
+TEST(OccupancyMap, UnderTheBodyIsNothingElse) {
+  OccupancyMap map(shipped_map_options());
+  for (const double x : {0.22, 0.28})
+    map.insert_scan({{{1.0, 0.02, 0.2}, {x, 0.02, 0.2}, BeamEnd::kHit, 0.0},
+                     {{1.0, 0.32, 0.2}, {x, 0.32, 0.2}, BeamEnd::kHit, 0.0}});
+  map.clear_body({{0.0, 0.0}, 0.0}, load_robot_model("config", "jackal").footprint);
+  const OccupancyGrid grid = map.slice(0.5);
+  EXPECT_EQ(cell_at(grid, {0.22, 0.02}), OccupancyGrid::kFree);
+  EXPECT_EQ(cell_at(grid, {0.28, 0.02}), OccupancyGrid::kOccupied) << "before it";
+  EXPECT_EQ(cell_at(grid, {0.22, 0.32}), OccupancyGrid::kOccupied) << "beside it";
+  EXPECT_NO_THROW(map.clear_body({{NAN, 0.0}, 0.0}, Footprint::disc(0.3)));
 }
 
 TEST(OccupancyMap, TheRobotStartsOnce) {

@@ -66,6 +66,14 @@ class ParkingOut : public ::testing::TestWithParam<std::string> {
     }
   }
 
+  /// A plan where nothing was seen beyond a line: outside y < `seen_m`.
+  PlanResult plan_seeing(const Pose& pose, double seen_m) const {
+    OccupancyGrid seen = grid_;
+    fill_box(seen, {-6.0, seen_m}, {6.0, 6.0}, OccupancyGrid::kUnknown);
+    const PlanningScene scene{static_map_of(grid_), {}, [&] { return unseen_field(seen); }};
+    return planner_.plan(from(pose), scene, [] { return false; });
+  }
+
   /// Between the true body and the true walls.
   double true_gap_m(const Pose& pose) const {
     double least_m = std::numeric_limits<double>::infinity();
@@ -115,6 +123,19 @@ TEST_P(ParkingOut, HeadingsLeaveACorner) {
       grid_ = walls;
     }
   }
+}
+
+TEST_P(ParkingOut, SetsOffOverGroundThatWasSeen) {
+  // Nose to the wall: it has to back off before it can turn.
+  const Pose pose = beside_wall(-0.5 * M_PI, 0.04);
+  const double tail_m = 2.0 * pose.position.y() - 0.04;
+  const double margin_m = MarginBudget::of(robot_).static_margin().still_m;
+  const PlanResult blind = plan_seeing(pose, tail_m + margin_m + 0.01);
+  EXPECT_EQ(blind.reason, PlanReason::kNotCertified) << blind.message;
+  EXPECT_EQ(blind.violation.term, ViolatedTerm::kUnseenSpace) << blind.message;
+  const double turning_m = 2.0 * robot_.footprint.circumscribed_radius_m() + 2.0 * margin_m + 0.1;
+  const PlanResult seeing = plan_seeing(pose, turning_m);
+  EXPECT_EQ(seeing.reason, PlanReason::kSolved) << seeing.message;
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, ParkingOut, ::testing::Values("jackal", "waveshare_rover", "own"),
