@@ -226,6 +226,14 @@ bool OccupancyMap::is_occupied_within(const Vector2& centre, double radius_m, bo
   return found;
 }
 
+bool OccupancyMap::is_unknown_within(const Vector2& centre, double radius_m) const {
+  bool found = false;
+  CellDisc(centre, radius_m, options_.resolution_m).for_each([&](int x, int y) {
+    found = found || voxels_->columns.at({x, y, voxels_->scan_layer}) == VoxelState::kUnknown;
+  });
+  return found;
+}
+
 std::uint64_t OccupancyMap::version() const { return version_before_ + voxels_->columns.version(); }
 
 std::vector<Eigen::Vector3f> OccupancyMap::occupied_voxels() const {

@@ -54,6 +54,10 @@ class OccupancyMap {
   /// hit so often that one more hit changes nothing. The centre must be usable, see is_usable().
   bool is_occupied_within(const Vector2& centre, double radius_m, bool surely) const;
 
+  /// Whether nothing is known of a cell of the planar scans with its centre within the disc. The
+  /// centre must be usable, see is_usable().
+  bool is_unknown_within(const Vector2& centre, double radius_m) const;
+
   /// The planar slice: occupied if any voxel of the height band is, free if none is and any is
   /// free. Its known part, with a border of unknown cells [m] around it.
   OccupancyGrid slice(double border_m) const;

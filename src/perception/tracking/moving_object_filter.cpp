@@ -79,9 +79,11 @@ BeamIndices MovingObjectFilter::candidates(const std::vector<Beam>& beams, const
              (end - disc.position).norm() <= disc.radius_m + options_.map_tolerance_m;
     });
     // Cells that moving things have hit once or twice are no walls yet, or such things would drag
-    // their walls along.
-    const bool came =
-        map.is_surely_free(end) && !map.is_occupied_within(end, 0.5 * tolerance_m, false);
+    // their walls along. Before what was never seen is a wall, of which few beams at a grazing
+    // angle have hit something so far.
+    const bool came = map.is_surely_free(end) &&
+                      !map.is_occupied_within(end, 0.5 * tolerance_m, false) &&
+                      !map.is_unknown_within(end, 0.5 * tolerance_m);
     if ((on_known || came) && !map.is_occupied_within(end, tolerance_m, true))
       hits.push_back(static_cast<int>(i));
   }

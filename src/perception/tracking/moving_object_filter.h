@@ -23,9 +23,9 @@ struct MovingObjectFilterOptions {
 /// Parts the hits of planar scans into those on the map and those on moving things, and follows the
 /// latter.
 ///
-/// A hit is on something that moves if it is where the map is sure to be free and no wall is near,
-/// or on a moving thing known already; unless it belongs to few or too widespread hits. What has
-/// stood for a while goes into the map.
+/// A hit is on something that moves if it is where the map is sure to be free and neither a wall
+/// nor unseen space is near, or on a moving thing known already; unless it belongs to few or too
+/// widespread hits. What has stood for a while goes into the map.
 class MovingObjectFilter {
  public:
   /// Throws std::invalid_argument, naming the value and its range.

@@ -67,6 +67,25 @@ TEST(MovingObjectFilter, VelocityIsSteadyPastTheRobot) {
   }
 }
 
+TEST(MovingObjectFilter, AWallAtAGrazingAngleDoesNotMove) {
+  // Of a wall beside the lidar, few beams hit the far part. As the lidar turns, others hit it where
+  // only beams along it have passed.
+  for (const int beams : {360, 450, 600}) {
+    Senses senses;
+    senses.beams = beams;
+    for (const double turn_rad : {0.003, 0.01}) {
+      for (int seed = 1; seed <= 5; ++seed) {
+        Watch watch({{-6.0, -0.1875}, {6.0, 6.0}, {}}, seed, senses);
+        watch.look_for(3.0);
+        for (int scan = 0; scan < 30; ++scan) {
+          watch.look({{-0.003 * scan, 0.0}, -turn_rad * scan});
+          EXPECT_EQ(watch.tracks().size(), 0u) << beams << " beams, " << turn_rad << ", " << scan;
+        }
+      }
+    }
+  }
+}
+
 TEST(MovingObjectFilter, APersonThereFromTheStartIsTrackedOnceItWalksAndLeavesNoTrace) {
   for (double speed : {0.3, 0.6, 1.2}) {
     Watch watch{Room()};
