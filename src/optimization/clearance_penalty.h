@@ -21,14 +21,14 @@ struct ClearanceCover {
     const Cubic lacking = cubic((required.at(speed) - distance_m) / kSteep_m);
     const double share = 1.0 / (1.0 + lacking.value / kMost);
     const double slope = lacking.slope * share * share / kSteep_m;
-    return {lacking.value * share, -slope, slope * required.per_speed_s};
+    return {lacking.value * share, -slope, 2.0 * slope * required.per_speed2 * speed};
   }
 };
 
-/// x / (1 + x / 8) of x = phi((d_v - d_r) / 1 cm) with d_v = d_0 + c |v|, summed over the obstacles
-/// r and the discs: as steep as a limit, and level where more than a few centimetres lack, from
-/// where ObstaclePenalty leads out. It makes the robot pass a narrow place as slowly as it must,
-/// and no slower.
+/// x / (1 + x / 8) of x = phi((d_v - d_r) / 1 cm) with d_v = d_0 + c |v|^2, summed over the
+/// obstacles r and the discs: as steep as a limit, and level where more than a few centimetres
+/// lack, from where ObstaclePenalty leads out. It makes the robot pass a narrow place as slowly as
+/// it must, and no slower.
 template <int D>
 class ClearancePenalty : public BodyPenalty<D, ClearanceCover> {
  public:

@@ -125,11 +125,12 @@ class Keepout {
 
   /// How far the discs move in the interval, and by how much their margin changes.
   double sweep_m(const Sweep& sweep) const {
-    return moved_m(sweep, arm_m_) + margin_.per_speed_s * sweep.speed_change;
+    const double slowest = sweep.max_speed - sweep.speed_change;
+    return moved_m(sweep, arm_m_) + margin_.at(sweep.max_speed) - margin_.at(slowest);
   }
 
   double clearance_at(const Pose& pose) const { return clearance_m(pose, footprint_, field_); }
-  double margin_at(double speed) const { return margin_.at(std::abs(speed)); }
+  double margin_at(double speed) const { return margin_.at(speed); }
 
  private:
   /// How far a point moves in the interval, at most, that is `arm_m` off the base.

@@ -6,8 +6,6 @@
 namespace mocha {
 namespace {
 
-// The proofs may refuse what is within a millimetre of its limit.
-constexpr double kSlack_m = 0.003;
 constexpr double kStep_s = 0.05;     // between the moments at which a leaving robot is looked at
 constexpr double kWayStep_s = 0.01;  // the same, where it is the way that is measured
 // So much may the disc of a standing robot reach into that of a peer: both overstate the bodies.
@@ -46,7 +44,7 @@ Violation check_clearance_or_leaving(const Motion& motion, const Footprint& foot
   if (!strict) return strict;
   const auto gap_at = [&](double t) { return clearance_m(motion.at(t).pose, footprint, field); };
   const auto room_at = [&](double t) {
-    return gap_at(t) - margin.per_speed_s * std::abs(motion.at(t).speed) - kSlack_m;
+    return gap_at(t) - (margin.at(motion.at(t).speed) - margin.still_m) - Leaving::kSlack_m;
   };
   Stage stage{std::max(from_s, motion.start_time()), 0.0, room_at(from_s)};
   const double left_m = margin.still_m + kLeft_m;
@@ -56,8 +54,8 @@ Violation check_clearance_or_leaving(const Motion& motion, const Footprint& foot
     const double here_s = stage.time_s;
     const double required_m = leaving.required_m(stage.room_m, margin.still_m);
     advance(stage, motion, arm_m);
-    const Violation closer = check_clearance(
-        motion, footprint, field, {required_m, margin.per_speed_s}, here_s, stage.time_s);
+    const Violation closer = check_clearance(motion, footprint, field,
+                                             {required_m, margin.per_speed2}, here_s, stage.time_s);
     if (closer || stage.time_s >= motion.end_time()) return closer;
     stage.room_m = std::max(stage.room_m, room_at(stage.time_s));
   }
@@ -77,11 +75,11 @@ Violation check_separation_or_leaving(const Motion& motion, double own_radius_m,
   const Violation strict = prove(clearance_m, from_s);
   if (!strict) return strict;
   const double here_m = gap_at(from_s);
-  if (here_m - kSlack_m >= clearance_m || here_m <= -kPeersOverstated_m) return strict;
-  if (const Violation closer = prove(here_m - kSlack_m, from_s)) return closer;
+  if (here_m - Leaving::kSlack_m >= clearance_m || here_m <= -kPeersOverstated_m) return strict;
+  if (const Violation closer = prove(here_m - Leaving::kSlack_m, from_s)) return closer;
   const double end_s = std::min(until_s, std::max(motion.end_time(), other.rest_time()));
   for (double t = from_s; t < end_s; t += kStep_s) {
-    if (gap_at(t) >= clearance_m + kSlack_m) return prove(clearance_m, t);
+    if (gap_at(t) >= clearance_m + Leaving::kSlack_m) return prove(clearance_m, t);
   }
   return {};
 }

@@ -16,9 +16,12 @@ namespace mocha {
 /// all but half of the margin, where a passage is so narrow; and after some way it has the margin.
 /// What is certified once is certified at every later moment, too.
 struct Leaving {
-  /// The room [m] that a motion may lose, and half of what there is at most: so losses of many
-  /// motions end before the body touches.
+  /// The room [m] that a motion may lose, and half of what there is at most.
   static constexpr double kLoss_m = 0.006;
+
+  /// Proofs may refuse what is within a millimetre of its limit: the room is taken to be so much
+  /// less than it is found [m]. So much may each motion lose in any case.
+  static constexpr double kSlack_m = 0.003;
 
   double way_m = 1.0;  ///< after which the room is the margin at rest; above 0
   /// So far may the cover of the body reach into cells of the map, which overstate what is there.
@@ -27,8 +30,8 @@ struct Leaving {
   /// The room [m] to have on the way, where it was `room_m` at most since the motion began, for a
   /// margin at rest.
   double required_m(double room_m, double margin_m) const {
-    const double lost_m = std::min(kLoss_m, 0.5 * std::abs(room_m));
-    return std::max(std::min(room_m - lost_m, 0.5 * margin_m), std::min(room_m, -deepest_m));
+    const double lost_m = std::min(kLoss_m, 0.5 * std::max(0.0, room_m));
+    return std::min(room_m - lost_m, 0.5 * margin_m);
   }
 };
 

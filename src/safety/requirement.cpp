@@ -12,7 +12,8 @@ constexpr double kShareOfTrigger = 0.75;  // of the same, below which paper (37)
 // soon as they do.
 constexpr double kReserve_s = 1.0;
 constexpr double kHorizon_s = 10.0;  // of what never comes to rest
-// Of way, beyond that of the body, after which it has the margin if it begins too close.
+// Of way, beyond twice the length of the body, after which it has the margin if it begins too
+// close.
 constexpr double kLeaving_m = 1.0;
 // Of a cell, beyond what the body is covered with: no cell that is occupied has its middle under
 // it.
@@ -83,7 +84,7 @@ Requirements::Requirements(const RobotModel& robot) {
   Requirement plan;
   plan.limits = robot.limits;
   plan.obstacle_margin = margins.static_margin();
-  plan.leaving = {kLeaving_m + 2.0 * robot.footprint.circumscribed_radius_m(),
+  plan.leaving = {kLeaving_m + 4.0 * robot.footprint.circumscribed_radius_m(),
                   kShareOfCell * robot.map_resolution_m + Footprint::kCoverTolerance_m};
   at(Name::kPlan) = plan;
 

@@ -55,7 +55,7 @@ struct MarginBudget {
 
  private:
   SpeedMargin between(double still_m, double fast_m) const {
-    return {still_m, max_speed > 0.0 ? (fast_m - still_m) / max_speed : 0.0};
+    return {still_m, max_speed > 0.0 ? (fast_m - still_m) / (max_speed * max_speed) : 0.0};
   }
 };
 

@@ -86,23 +86,18 @@ TEST(Leaving, ABodyBesideAWallMayTurnAwayFromIt) {
 TEST(Leaving, LittleRoomIsLostAndHalfOfTheMarginIsEnough) {
   EXPECT_NEAR(kLeaving.required_m(0.03, 0.1), 0.024, 1e-12);
   EXPECT_NEAR(kLeaving.required_m(0.008, 0.1), 0.004, 1e-12);
-  EXPECT_NEAR(kLeaving.required_m(-0.008, 0.1), -0.012, 1e-12);
-  EXPECT_NEAR(kLeaving.required_m(-0.033, 0.1), -0.035, 1e-12);
-  EXPECT_NEAR(kLeaving.required_m(-0.037, 0.1), -0.037, 1e-12);
+  EXPECT_NEAR(kLeaving.required_m(-0.008, 0.1), -0.008, 1e-12);
   EXPECT_NEAR(kLeaving.required_m(0.054, 0.1), 0.048, 1e-12);
   EXPECT_NEAR(kLeaving.required_m(0.09, 0.1), 0.05, 1e-12);
 }
 
-TEST(Leaving, RepeatedLossesEndBeforeTheBodyTouches) {
-  for (const double first_m : {0.02, -0.0025}) {
-    double room_m = first_m;
-    for (int i = 0; i < 20; ++i) room_m = kLeaving.required_m(room_m, 0.1);
-    if (first_m > 0.0) {
-      EXPECT_GT(room_m, 0.0);
-    } else {
-      EXPECT_EQ(room_m, -kLeaving.deepest_m);
-    }
-  }
+TEST(Leaving, LossesOfAFewMotionsEndBeforeTheBodyTouches) {
+  // A motion's room is what is found, less the slack of the proofs.
+  double gap_m = 0.02;
+  for (int i = 0; i < 3; ++i) gap_m = kLeaving.required_m(gap_m - Leaving::kSlack_m, 0.1);
+  EXPECT_GE(gap_m, 0.0);
+  EXPECT_EQ(kLeaving.required_m(-0.01 - Leaving::kSlack_m, 0.1), -0.01 - Leaving::kSlack_m)
+      << "below, no more than the slack";
 }
 
 TEST(Leaving, APassageWithHalfOfTheMarginIsLeft) {
@@ -197,13 +192,13 @@ TEST(Leaving, ARobotThatIsTooCloseLeavesSlowly) {
         slowed(straight_drive(0.0, {0.0, 0.0}, yaw_rad, 2.0, 0.8, 0.5), 0.8 / speed);
     return !check_clearance_or_leaving(motion, kDisc, wall(0.32), margin, kLeaving, 0.0);
   };
-  EXPECT_TRUE(leaves(-0.1, 0.08));
-  EXPECT_FALSE(leaves(-0.1, 0.8));
+  EXPECT_TRUE(leaves(-0.05, 0.2));
+  EXPECT_FALSE(leaves(-0.05, 0.8));
   EXPECT_TRUE(leaves(-1.5, 0.6));
 }
 
 TEST(Leaving, ARobotThatIsTooFastForItsGapMaySlowDown) {
-  // At 0.8 m/s it needs 87 mm, and has 60: enough for 0.38 m/s.
+  // At 0.8 m/s it needs 77 mm, and has 60: enough for 0.62 m/s.
   const SpeedMargin margin(0.035, 0.065);
   const Motion fast = straight_drive(0.0, {0.0, 0.0}, 0.0, 8.0, 0.8, 0.5);
   const auto along_a_wall = [&](const Motion& motion) {

@@ -17,14 +17,14 @@ TEST(MarginBudget, AddsUpEveryContributionOnce) {
   EXPECT_NEAR(budget.peer_margin_m(peer), peer.peer_margin_m(budget), 1e-12);
 }
 
-TEST(MarginBudget, TheStaticMarginGrowsWithTheSpeed) {
+TEST(MarginBudget, TheStaticMarginGrowsWithTheSquareOfTheSpeed) {
   const MarginBudget budget{0.05, 0.02, 0.015, 0.01, 2.0, 0.01, 0.005};
   EXPECT_NEAR(budget.static_margin().at(0.0), 0.035, 1e-12);
   EXPECT_NEAR(budget.static_margin().at(2.0), budget.static_margin_m(), 1e-12);
   EXPECT_NEAR(budget.without_map().at(0.0), 0.03, 1e-12);
   EXPECT_NEAR(budget.without_map().at(2.0), 0.07, 1e-12);
   EXPECT_NEAR(budget.tracking().at(0.0), 0.01, 1e-12);
-  EXPECT_NEAR(budget.tracking().at(1.0), 0.03, 1e-12);
+  EXPECT_NEAR(budget.tracking().at(1.0), 0.02, 1e-12);
   EXPECT_NEAR(budget.own_margin_m(), 0.07, 1e-12);
 }
 

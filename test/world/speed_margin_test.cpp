@@ -5,10 +5,11 @@
 namespace mocha {
 namespace {
 
-TEST(SpeedMargin, GrowsWithTheSpeed) {
+TEST(SpeedMargin, GrowsWithTheSquareOfTheSpeed) {
   const SpeedMargin margin(0.03, 0.07);
   EXPECT_DOUBLE_EQ(margin.at(0.0), 0.03);
-  EXPECT_DOUBLE_EQ(margin.at(0.5), 0.065);
+  EXPECT_DOUBLE_EQ(margin.at(0.5), 0.0475);
+  EXPECT_DOUBLE_EQ(margin.at(-0.5), 0.0475);
   EXPECT_DOUBLE_EQ(margin.at(1.0), 0.1);
 }
 

@@ -186,7 +186,7 @@ std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQu
   for (const CoverDisc& disc : robot_.footprint.soft_cover()) {
     const double inside_m = std::min(disc.radius_m, robot_.footprint.depth_m(disc.offset_m));
     const SpeedMargin least(inside_m + static_margin_.still_m + kShareOfRoom_m,
-                            static_margin_.per_speed_s);
+                            static_margin_.per_speed2);
     wished.push_back({disc.offset_m.x(), disc.radius_m + wished_m, disc.offset_m.y()});
     required.push_back({disc.offset_m.x(), least, max_speed, disc.offset_m.y()});
   }

@@ -4,7 +4,7 @@
 
 namespace mocha {
 
-/// Around its start, a path may be as close to obstacles as the start is [m].
+/// Around its start, a detour may be as close to obstacles as the start is [m].
 inline constexpr double kEscapeRadius_m = 0.6;
 
 /// By so much do paths keep more distance than is proved, for the optimiser to work in [m].

@@ -8,6 +8,7 @@
 #include "planning/candidates/path_clearance.h"
 #include "planning/candidates/peer_discs.h"
 #include "planning/global/parking_out.h"
+#include "safety/requirement.h"
 #include "trajectory/stopping.h"
 #include "world/margin_budget.h"
 
@@ -40,7 +41,7 @@ HomotopyPathOptions homotopy_path_options(const RobotModel& robot, const Planner
   const TravelOptions travel{required_m,
                              required_m + options.preferred_clearance_m,
                              options.clearance_weight,
-                             kEscapeRadius_m,
+                             Requirements(robot)[RequirementName::kPlan].leaving.way_m,
                              margin.at(max_speed) - margin.still_m,
                              std::min(1.0, kCreep_mps / max_speed)};
   return {travel, options.roadmap, options.classes, options.longest_ratio, options.prm_samples};
@@ -136,7 +137,7 @@ GlobalSeeds FrontEnd::after_parking_out(const PlanQuery& query, const PlanningSc
                                         const Vector2& goal) const {
   const MotionState start = query.committed.at(query.start_time_s);
   if (!start.at_rest) return {};
-  const std::vector<Phase> way_out = park_out(start.pose, robot_, scene, options_.travel);
+  const std::vector<Phase> way_out = park_out(start.pose, robot_, scene);
   if (way_out.empty()) return {};
   return after(way_out, query, scene, goal);
 }
@@ -164,7 +165,7 @@ bool FrontEnd::reaches(const Vector2& start, const Vector2& goal,
 std::optional<NarrowPlace> FrontEnd::narrowest(const Vector2& start, const Vector2& goal,
                                                const StaticMap& static_map) const {
   const double needed_m = passable_gap_m(robot_);
-  for (const double free_radius_m : {kEscapeRadius_m, 0.0}) {
+  for (const double free_radius_m : {options_.travel.escape_radius_m, 0.0}) {
     const auto narrow = narrowest_place(static_map, start, goal, kLatticeStep_m, free_radius_m);
     if (narrow && narrow->width_m < needed_m) return narrow;
   }

@@ -23,7 +23,7 @@ constexpr double kFarthestExit_m = 10.0;
 constexpr double kRounding_m = 0.005;  // so much closer than searched, a drive may be
 constexpr double kSlow_mps = 0.3;
 // Where there is the least room, so slow is the robot that it asks for so much more at most.
-constexpr double kSlowest_mps = 0.05;
+constexpr double kSlowest_mps = 0.1;
 constexpr double kForSpeed_m = 0.002;
 constexpr double kShareOfSpeed = 0.8;  // for what drives overshoot between their knots
 constexpr double kPointSpacing_m = 0.01;
@@ -113,20 +113,20 @@ std::vector<Phase> phases_of(const std::vector<Stretch>& way, const Pose& start,
 
 /// Keeps from all of the fields.
 std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const StaticMap& static_map,
-                            const TravelOptions& travel,
                             const std::vector<const ObstacleField<2>*>& fields) {
-  const double reach_m = robot.footprint.circumscribed_radius_m();
+  const double reach_m = robot.footprint.cover_reach_m();
   const SpeedMargin margin = MarginBudget::of(robot).static_margin();
-  const double slowest = margin.per_speed_s * kSlowest_mps > kForSpeed_m
-                             ? kForSpeed_m / margin.per_speed_s
-                             : kSlowest_mps;
+  const double slowest = std::min(kSlowest_mps, margin.fastest(margin.still_m + kForSpeed_m));
   const double margin_m = margin.at(slowest) + kRounding_m;
   const auto can_turn = [&](const Vector2& place) {
     return std::all_of(fields.begin(), fields.end(), [&](const ObstacleField<2>* field) {
       return field->distance_bound(place) >= reach_m + margin_m;
     });
   };
-  const TravelCost cost(static_map, start.position, {}, travel);
+  const Leaving leaving = Requirements(robot)[RequirementName::kPlan].leaving;
+  // Wherever the body may fit: whether it does, is searched for.
+  const double least_m = robot.footprint.inscribed_radius_m() - leaving.deepest_m;
+  const TravelCost cost(static_map, start.position, {}, {least_m, least_m, 0.0, 0.0});
   const GridPath to_exit = find_nearest_place(static_map, start.position, cost, kLatticeStep_m,
                                               kFarthestExit_m, can_turn);
   if (to_exit.outcome != GridPath::Outcome::kFound || can_turn(start.position)) return {};
@@ -134,7 +134,7 @@ std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const St
   tight.start = start;
   tight.reach_m = reach_m;
   tight.margin_m = margin_m;
-  tight.leaving = Requirements(robot)[RequirementName::kPlan].leaving;
+  tight.leaving = leaving;
   tight.can_reverse = robot.limits.can_reverse;
   tight.gap_m = [&](const Pose& pose) {
     double gap_m = std::numeric_limits<double>::infinity();
@@ -160,15 +160,15 @@ std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const St
 
 }  // namespace
 
-std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const PlanningScene& scene,
-                            const TravelOptions& travel) {
+std::vector<Phase> park_out(const Pose& start, const RobotModel& robot,
+                            const PlanningScene& scene) {
   const ObstacleField<2>& obstacles = scene.static_map->field();
   if (scene.unseen) {
     const auto unseen = scene.unseen();
-    const auto way = park_out(start, robot, *scene.static_map, travel, {&obstacles, unseen.get()});
+    const auto way = park_out(start, robot, *scene.static_map, {&obstacles, unseen.get()});
     if (!way.empty()) return way;
   }
-  return park_out(start, robot, *scene.static_map, travel, {&obstacles});
+  return park_out(start, robot, *scene.static_map, {&obstacles});
 }
 
 }  // namespace mocha

@@ -1,7 +1,6 @@
 #include "planning/global/tight_place.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <queue>
@@ -11,12 +10,14 @@ namespace mocha {
 namespace {
 
 constexpr double kStep_m = 0.08;
-constexpr std::array kCurvatures = {0.0, 0.05, -0.05, 0.25, -0.25, 1.0, -1.0, 3.0, -3.0};
-constexpr std::size_t kGentle = 7;  // of these; a drive hardly keeps to the others
+constexpr double kGentle = 1.0;  // curvature [1/m]
+constexpr double kSharp = 3.0;   // the same; drives follow such arcs only roughly
 constexpr double kTurn_rad = 0.0875;
-constexpr double kSmallTurn = 0.4;    // of what a body may turn beside a wall
-constexpr double kCheck_m = 0.01;     // between the poses at which the body is looked at
-constexpr double kToSpare_m = 0.001;  // beyond what is asked of a way: it is not driven exactly
+constexpr double kSmallTurn = 0.4;  // of what a body may turn beside a wall
+constexpr double kCheck_m = 0.01;   // between the poses at which the body is looked at
+// Of what a way may lose, so much and such a share are left: it is not driven exactly.
+constexpr double kToSpare_m = 0.002;
+constexpr double kShareToSpare = 0.3;
 
 // Places that are no farther apart count as one; headings more finely where the gap is small.
 constexpr double kCell_m = 0.04;
@@ -28,6 +29,7 @@ constexpr double kTurnCost_m = 0.3;     // a radian
 constexpr double kBackwardCost = 1.2;   // a metre
 constexpr double kSwitchCost_m = 0.15;  // another kind of stretch
 constexpr double kGreed = 1.5;          // how much what is left counts over what is driven
+constexpr double kGapCost = 40.0;       // a metre of gap that is still missing
 
 enum class Kind { kForward, kBackward, kTurn };
 
@@ -43,16 +45,19 @@ double cost_m(const Stretch& stretch) {
 
 class WayOutSearch {
  public:
-  /// With so many of kCurvatures.
-  WayOutSearch(const TightPlace& tight, int max_expansions, std::size_t curvatures)
+  /// With curvatures up to `sharpest`.
+  WayOutSearch(const TightPlace& tight, int max_expansions, double sharpest)
       : tight_(tight),
         max_expansions_(max_expansions),
+        gentlest_(Leaving::kLoss_m / (tight.reach_m * tight.reach_m)),
         small_turn_rad_(kSmallTurn * Leaving::kLoss_m / tight.reach_m) {
-    for (std::size_t i = 0; i < curvatures; ++i) {
-      const double curvature = kCurvatures[i];
-      stretches_.push_back({kStep_m, curvature * kStep_m});
-      if (tight.can_reverse) stretches_.push_back({-kStep_m, curvature * kStep_m});
+    add_drives(0.0);
+    for (double curvature = gentlest_; curvature < sharpest; curvature *= 2.0) {
+      add_drives(curvature);
+      add_drives(-curvature);
     }
+    add_drives(sharpest);
+    add_drives(-sharpest);
     for (const double sign : {1.0, -1.0}) {
       stretches_.push_back({0.0, sign * kTurn_rad});
       small_turns_.push_back({0.0, sign * small_turn_rad_});
@@ -92,6 +97,19 @@ class WayOutSearch {
     bool operator<(const Entry& other) const { return estimate_m > other.estimate_m; }
   };
 
+  void add_drives(double curvature) {
+    stretches_.push_back({kStep_m, curvature * kStep_m});
+    if (tight_.can_reverse) stretches_.push_back({-kStep_m, curvature * kStep_m});
+  }
+
+  /// Whether a drive goes on with at most twice its curvature, to the same side: from straight on,
+  /// with the gentlest.
+  bool is_smooth(const Stretch& before, const Stretch& after) const {
+    if (after.length_m == 0.0) return true;
+    const double change_rad = std::abs(after.turn_rad - before.turn_rad);
+    return change_rad <= std::abs(before.turn_rad) + 1.01 * gentlest_ * kStep_m;
+  }
+
   bool is_tight(const Node& node) const { return node.gap_m < tight_.margin_m + Leaving::kLoss_m; }
 
   std::uint64_t key(const Node& node) const {
@@ -107,13 +125,16 @@ class WayOutSearch {
 
   void add(const Node& node) {
     const double left_m = (node.pose.position - tight_.exit).norm();
-    open_.push({node.cost_m + kGreed * left_m, static_cast<int>(nodes_.size())});
+    const double lacking_m = std::max(0.0, tight_.margin_m - node.gap_m);
+    open_.push(
+        {node.cost_m + kGreed * left_m + kGapCost * lacking_m, static_cast<int>(nodes_.size())});
     nodes_.push_back(node);
   }
 
   void extend(int parent, const Stretch& stretch) {
     Node next = nodes_[parent];
     const bool switches = next.parent >= 0 && kind_of(stretch) != kind_of(next.stretch);
+    if (next.parent >= 0 && !switches && !is_smooth(next.stretch, stretch)) return;
     next.cost_m += cost_m(stretch) + (switches ? kSwitchCost_m : 0.0);
     next.way_m += std::abs(stretch.length_m);
     next.stretch = stretch;
@@ -134,8 +155,7 @@ class WayOutSearch {
       node.pose = along(from, node.stretch, share);
       node.gap_m = tight_.gap_m(node.pose);
       const double way_m = node.way_m - (1.0 - share) * length_m;
-      if (node.gap_m < tight_.margin_m && node.gap_m < kToSpare_m + required_m(node.kept_m, way_m))
-        return false;
+      if (node.gap_m < tight_.margin_m && node.gap_m < required_m(node.kept_m, way_m)) return false;
       node.kept_m = std::min(std::max(node.kept_m, node.gap_m), tight_.margin_m);
       // No part can use up that much.
       if (node.gap_m - tight_.margin_m > sweep_m) i = std::max(i, parts - 1);
@@ -145,8 +165,9 @@ class WayOutSearch {
 
   /// The gap to have after a way on which it was `kept_m` at most.
   double required_m(double kept_m, double way_m) const {
-    const bool leaves = kept_m < tight_.margin_m && way_m < tight_.leaving.way_m;
-    return leaves ? tight_.leaving.required_m(kept_m, tight_.margin_m) : tight_.margin_m;
+    if (kept_m >= tight_.margin_m || way_m >= tight_.leaving.way_m) return tight_.margin_m;
+    const double least_m = tight_.leaving.required_m(kept_m - Leaving::kSlack_m, tight_.margin_m);
+    return least_m + std::min(kToSpare_m, kShareToSpare * (kept_m - least_m));
   }
 
   std::vector<Stretch> way_to(int node) const {
@@ -159,6 +180,9 @@ class WayOutSearch {
 
   const TightPlace& tight_;
   const int max_expansions_;
+  // Curvature of the arcs beside a wall, where a corner swings by half of what may be lost [1/m].
+  // The heading that it leaves soon allows for more.
+  const double gentlest_;
   const double small_turn_rad_;
   std::vector<Stretch> stretches_;
   std::vector<Stretch> small_turns_;
@@ -182,7 +206,7 @@ Pose along(const Pose& pose, const Stretch& stretch, double share) {
 
 std::vector<Stretch> find_way_out(const TightPlace& tight, int max_expansions) {
   const auto way = WayOutSearch(tight, max_expansions, kGentle).run();
-  return way.empty() ? WayOutSearch(tight, max_expansions, kCurvatures.size()).run() : way;
+  return way.empty() ? WayOutSearch(tight, max_expansions, kSharp).run() : way;
 }
 
 }  // namespace mocha

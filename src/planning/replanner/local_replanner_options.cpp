@@ -20,7 +20,7 @@ LocalReplannerOptions LocalReplannerOptions::from(const ParameterTable& values,
   options.answer_timeout_s = options.settle_s + kAnswerSlack_s;
   // The tracker brakes at e_track; a little later the promise itself is given up.
   const SpeedMargin tracking = MarginBudget::of(robot).tracking();
-  options.max_error = {kLater * tracking.still_m, kLater * tracking.per_speed_s};
+  options.max_error = {kLater * tracking.still_m, kLater * tracking.per_speed2};
   options.max_standing_error_m = options.max_error.at(robot.limits.max_speed);
   options.max_error_rad = values.number("max_heading_error");
   options.mu_pre_s = values.number("trigger_horizon");

@@ -30,7 +30,8 @@ double TravelCost::at(const Vector2& p, double distance_m) const {
   const double wary = 1.0 + options_.clearance_weight * lack * lack;
   const double spare_m = distance_m - options_.required_clearance_m;
   if (spare_m >= options_.room_for_speed_m) return wary;
-  return wary / std::max(options_.slowest_share, spare_m / options_.room_for_speed_m);
+  return wary / std::max(options_.slowest_share,
+                         std::sqrt(std::max(0.0, spare_m / options_.room_for_speed_m)));
 }
 
 double TravelCost::blocked_room_m(const Vector2& p) const {

@@ -14,7 +14,8 @@ struct TravelOptions {
   double clearance_weight;       ///< relative extra cost at zero distance
   double escape_radius_m;        ///< around the start, places no closer than the start are allowed
   /// By so much more than required must a place have for the highest speed; with less, the speed
-  /// falls to the slowest share of that, and a metre costs as much more as it takes longer.
+  /// falls with its square root to the slowest share of that, and a metre costs as much more as it
+  /// takes longer.
   double room_for_speed_m = 0.0;
   double slowest_share = 1.0;
 };

@@ -107,7 +107,8 @@ class TightPlaceTest : public ::testing::TestWithParam<Body> {
       if (tight.is_out(start)) continue;
       const Driven way = driven(tight, find_way_out(tight, kMaxExpansions));
       EXPECT_TRUE(tight.is_out(way.end)) << gap << " m, " << 15 * i << " degrees";
-      EXPECT_GE(way.least_m, std::min(gap - Leaving::kLoss_m, 0.5 * body_.margin_m))
+      EXPECT_GE(way.least_m,
+                std::min(gap - Leaving::kLoss_m - Leaving::kSlack_m, 0.5 * body_.margin_m))
           << gap << ", " << 15 * i;
       EXPECT_LE(way.changes, 8) << gap << ", " << 15 * i;
     }

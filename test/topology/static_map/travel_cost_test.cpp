@@ -41,8 +41,8 @@ TEST(TravelCost, CountsThatNarrowPlacesAreDrivenSlowly) {
   const TravelCost cost(*static_map, {1.0, 1.0}, {}, options);
   const double required_m = options.required_clearance_m;
   EXPECT_EQ(cost.at({5.0, 6.0 + required_m + 0.101}), 1.0);
-  EXPECT_NEAR(cost.at({5.0, 6.0 + required_m + 0.05}), 2.0, 1e-9);
-  EXPECT_NEAR(cost.at({5.0, 6.0 + required_m + 0.01}), 5.0, 1e-9);
+  EXPECT_NEAR(cost.at({5.0, 6.0 + required_m + 0.025}), 2.0, 1e-9);
+  EXPECT_NEAR(cost.at({5.0, 6.0 + required_m + 0.001}), 5.0, 1e-9);
   EXPECT_EQ(cost.at({5.0, 6.0 + required_m - 0.01}), kInfinity);
 }
 
