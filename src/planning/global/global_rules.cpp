@@ -13,7 +13,8 @@ namespace {
 constexpr double kSetOff_m = 0.15;  // of any point of the body, after which it has seen more
 constexpr double kStep_s = 0.05;
 
-/// When a motion from rest has moved a point of the body, `arm_m` off the base at most, so far.
+/// When a motion from rest has moved a point of the body, `arm_m` off the base at most, so far; not
+/// within a turn in place, which is begun only where it can be ended.
 double set_off_s(const Motion& motion, double arm_m) {
   Pose pose = motion.at(motion.start_time()).pose;
   double t = motion.start_time();
@@ -23,7 +24,7 @@ double set_off_s(const Motion& motion, double arm_m) {
                arm_m * std::abs(wrap_angle(next.yaw_rad - pose.yaw_rad));
     pose = next;
   }
-  return t;
+  return motion.switch_time(t);
 }
 
 Scene scene_of(const ObstacleField<2>& obstacles) {
