@@ -37,6 +37,14 @@ Wording wording(ViolatedTerm term) {
   return {"nothing", "", false, ""};
 }
 
+/// Three, or as many as tell the numbers apart; six at most.
+int decimals(double a, double b) {
+  int count = 3;
+  for (double scale = 1e3; count < 6 && std::round(scale * a) == std::round(scale * b); ++count)
+    scale *= 10.0;
+  return count;
+}
+
 template <int D>
 std::string in_words(const BasicViolation<D>& violation) {
   if (!violation) return "no violation";
@@ -44,10 +52,11 @@ std::string in_words(const BasicViolation<D>& violation) {
   std::string quantity = words.quantity;
   if (!violation.peer.empty()) quantity += " to " + violation.peer;
   if (std::isinf(violation.value)) quantity = words.jump + quantity;
+  const int digits = decimals(violation.value, violation.limit);
   char text[256];
-  std::snprintf(text, sizeof(text), " %.3f %s, %s %.3f, from t = %.3f s at ", violation.value,
-                words.unit, words.is_minimum ? "needs" : "limit", violation.limit,
-                violation.time_s);
+  std::snprintf(text, sizeof(text), " %.*f %s, %s %.*f, from t = %.3f s at ", digits,
+                violation.value, words.unit, words.is_minimum ? "needs" : "limit", digits,
+                violation.limit, violation.time_s);
   std::string sentence = quantity + text;
   for (int axis = 0; axis < D; ++axis) {
     std::snprintf(text, sizeof(text), "%s%.2f", axis == 0 ? "(" : ", ", violation.place[axis]);
