@@ -35,7 +35,7 @@ def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, lcm_u
             session.add(["rosbag", "record", "-q", "-O", bag, "-b", "512"] + topics)
         rospy.init_node("referee", anonymous=True, disable_signals=True)
         referee = Referee()
-        why = "all robots reached their goals"
+        why = None
         while not referee.finished():
             if not session.alive():
                 why = session.last_words()
@@ -48,4 +48,8 @@ def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, lcm_u
                 break
             progress(referee)
             time.sleep(0.2)
-        return referee.results(), why
+        results = referee.results()
+        if why is None:
+            gave_up = any(robot["gave_up"] for robot in results["robots"])
+            why = "all robots reached their goals" + (" or gave them up" if gave_up else "")
+        return results, why

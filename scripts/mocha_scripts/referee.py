@@ -1,9 +1,11 @@
-"""Watches the simulator's ground truth and keeps the result of a drive."""
+"""Watches the simulator's ground truth and the goals' outcomes, and keeps the result of a drive."""
 import math
 import threading
 
 import rospy
+from actionlib_msgs.msg import GoalStatus
 from mocha_ugv.msg import Contact, GroundTruth
+from move_base_msgs.msg import MoveBaseActionResult
 
 
 class RobotResult:
@@ -11,6 +13,7 @@ class RobotResult:
         self.name = name
         self.has_goal = False
         self.reached = False
+        self.gave_up = None  # why, in the robot's words
         self.contacts = 0
         self.time_s = None
         self.path_m = 0.0
@@ -31,7 +34,7 @@ class RobotResult:
 
     def as_dict(self):
         rounded = lambda value: None if value is None or not math.isfinite(value) else round(value, 4)
-        return {"name": self.name, "reached": self.reached, "contacts": self.contacts, "time_s": rounded(self.time_s),
+        return {"name": self.name, "reached": self.reached, "gave_up": self.gave_up, "contacts": self.contacts, "time_s": rounded(self.time_s),
                 "path_m": rounded(self.path_m), "min_clearance_m": rounded(self.min_clearance_m),
                 "max_speed_mps": rounded(self.max_speed_mps)}
 
@@ -61,14 +64,23 @@ class Referee:
                 self.started_s = self.now_s
             self.min_separation_m = min(self.min_separation_m, message.min_separation)
             for truth in message.robots:
-                self.robots.setdefault(truth.name, RobotResult(truth.name)).update(truth)
+                if truth.name not in self.robots:
+                    self.robots[truth.name] = RobotResult(truth.name)
+                    rospy.Subscriber(f"/{truth.name}/move_base/result", MoveBaseActionResult, self._on_outcome, truth.name)
+                self.robots[truth.name].update(truth)
+
+    def _on_outcome(self, message, name):
+        with self._lock:
+            if message.status.status in (GoalStatus.ABORTED, GoalStatus.REJECTED):
+                self.robots[name].gave_up = message.status.text
 
     def elapsed_s(self):
         return 0.0 if self.started_s is None else self.now_s - self.started_s
 
     def finished(self):
         with self._lock:
-            return bool(self.robots) and all(robot.reached or not robot.has_goal for robot in self.robots.values())
+            return bool(self.robots) and all(
+                robot.reached or robot.gave_up is not None or not robot.has_goal for robot in self.robots.values())
 
     def touched(self):
         with self._lock:
@@ -95,6 +107,8 @@ def table(results):
         lines.append(f"{robot['name']:<10}{'yes' if robot['reached'] else 'no':>8}{robot['contacts']:>10}"
                      f"{show(robot['time_s'], 2):>10}{show(robot['path_m'], 2):>10}"
                      f"{show(robot['min_clearance_m'], 3):>15}{show(robot['max_speed_mps'], 2):>17}")
+    lines += [f"{robot['name']} gave its goal up: {robot['gave_up']}" for robot in results["robots"]
+              if robot["gave_up"] is not None and not robot["reached"]]
     if results["min_separation_m"] is not None:
         lines.append(f"smallest separation of two robots (centre to centre): {results['min_separation_m']:.3f} m")
     return "\n".join(lines)
