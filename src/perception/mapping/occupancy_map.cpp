@@ -31,12 +31,12 @@ ColumnGrid columns_of(const OccupancyMapOptions& o) {
   return ColumnGrid(o.resolution_m, std::min(first, scan), std::max(last, scan));
 }
 
-/// What `read` throws then names the file.
+/// What `read` throws then is a MapError that names the file.
 template <class Read>
 void name_file(const std::string& path, Read read) {
   try {
     read();
-  } catch (const MapError& error) {
+  } catch (const std::exception& error) {
     throw MapError(path + ": " + error.what());
   }
 }
@@ -263,26 +263,25 @@ void OccupancyMap::save(const std::string& path) {
 
 void OccupancyMap::load(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
-  const auto check_resolution = [&](double resolution_m) {
-    if (std::abs(resolution_m - options_.resolution_m) > 1e-6) {
-      throw MapError(path + ": has cells of " + std::to_string(resolution_m) +
-                     " m, but this map's resolution is " + std::to_string(options_.resolution_m) +
-                     " m");
-    }
+  const auto replace_by = [&](double resolution_m, const auto& read) {
+    name_file(path, [&] {
+      OccupancyMapOptions options = options_;
+      options.resolution_m = resolution_m;
+      auto voxels = std::make_unique<Voxels>(options.checked());
+      read(*voxels);
+      options_ = options;
+      replace(std::move(voxels));
+    });
   };
-  auto voxels = std::make_unique<Voxels>(options_);
   if (ending == ".bt" || ending == ".ot") {
     const OctreeFile file = parse_octree_file(read_file(path), path);
-    check_resolution(file.resolution_m);
-    name_file(path, [&] { voxels->read_tree(file); });
+    replace_by(file.resolution_m, [&](Voxels& voxels) { voxels.read_tree(file); });
   } else if (ending == ".yaml") {
     const OccupancyGrid grid = load_map_image(path);
-    check_resolution(grid.resolution_m);
-    name_file(path, [&] { voxels->read_grid(grid); });
+    replace_by(grid.resolution_m, [&](Voxels& voxels) { voxels.read_grid(grid); });
   } else {
     throw MapError(path + ": a map's name must end in .bt, .ot or .yaml");
   }
-  replace(std::move(voxels));
 }
 
 void OccupancyMap::clear() { replace(std::make_unique<Voxels>(options_)); }

@@ -22,6 +22,7 @@ class OccupancyMap {
   OccupancyMap(const OccupancyMap&) = delete;
   OccupancyMap& operator=(const OccupancyMap&) = delete;
 
+  /// As given, but for the size of the cells: that is the loaded map's, if one was loaded.
   const OccupancyMapOptions& options() const { return options_; }
 
   /// One planar scan; heights of the beams do not matter. Voxels that any beam hit are hit, others
@@ -72,11 +73,13 @@ class OccupancyMap {
   /// it). Throws MapError.
   void save(const std::string& path);
 
-  /// Replaces the map by a saved one. A planar map enters at the scans' height; its origin is moved
-  /// to the nearest corner of our cells. Throws MapError, leaving the map as it was, if the file is
-  /// damaged or its cells have another size.
+  /// Replaces the map by a saved one and goes on with cells of its size, see options(). A planar
+  /// map enters at the scans' height; its origin is moved to the nearest multiple of its cells.
+  /// Throws MapError, leaving the map as it was, if the file is damaged or the size of its cells
+  /// out of range.
   void load(const std::string& path);
 
+  /// Forgets everything but the size of the cells.
   void clear();
 
  private:

@@ -4,14 +4,13 @@
 
 #include "perception/mapping/map_image.h"
 #include "perception/mapping/occupancy_map.h"
-#include "perception/mapping/octree_file.h"
 
 namespace mocha {
 
 OccupancyGrid load_saved_slice(const std::string& path, double min_height_m, double max_height_m) {
   if (std::filesystem::path(path).extension() == ".yaml") return load_map_image(path);
   OccupancyMapOptions options;
-  options.resolution_m = parse_octree_file(read_file(path), path).resolution_m;
+  options.resolution_m = 0.05;  // the file has its own
   options.min_height_m = min_height_m;
   options.max_height_m = max_height_m;
   options.scan_height_m = 0.5 * (min_height_m + max_height_m);
@@ -20,7 +19,7 @@ OccupancyGrid load_saved_slice(const std::string& path, double min_height_m, dou
   options.miss_probability = options.lowest_probability = 0.4;
   OccupancyMap map(options);
   map.load(path);
-  return map.slice(options.resolution_m);
+  return map.slice(map.options().resolution_m);
 }
 
 }  // namespace mocha

@@ -8,6 +8,7 @@
 
 #include "perception/mapping/map_image.h"
 #include "perception/mapping/occupancy_map.h"
+#include "perception/mapping/octree_file.h"
 #include "perception/room.h"
 #include "perception/shipped_options.h"
 
@@ -106,8 +107,8 @@ TEST_F(MapFiles, ALoadedMapIsAPriorThatScansCorrect) {
     const auto beams = beams_at(changed, {});
     loaded.insert_scan(beams);
     const OccupancyGrid once = loaded.slice(0.0);
-    const Vector2 face =
-        (Vector2(2.0, 0.5) - 0.4 * Vector2(2.0, 0.5).normalized() - once.origin) / 0.05;
+    const Vector2 face = (Vector2(2.0, 0.5) - 0.4 * Vector2(2.0, 0.5).normalized() - once.origin) /
+                         once.resolution_m;
     EXPECT_EQ(once.at(static_cast<int>(face.x()), static_cast<int>(face.y())),
               OccupancyGrid::kOccupied)
         << name << ": one scan does not overrule it";
@@ -145,17 +146,29 @@ TEST_F(MapFiles, PrunedOctreesLoadAndCanBeChanged) {
   expect_same(again.slice(0.0), grid);
 }
 
-TEST_F(MapFiles, AnotherResolutionIsRefused) {
-  OccupancyMapOptions fine = shipped_map_options();
-  fine.resolution_m = 0.025;
+TEST_F(MapFiles, ALoadedMapKeepsItsOwnCells) {
+  OccupancyMapOptions others = shipped_map_options();
+  others.resolution_m = 2.0 * map_.options().resolution_m;
   for (const char* name : {"room.bt", "room.ot", "room.yaml"}) {
     map_.save(path(name));
-    OccupancyMap other(fine);
-    const std::string error = error_of_loading(other, path(name));
-    EXPECT_NE(error.find(path(name)), std::string::npos) << error;
-    EXPECT_NE(error.find("0.05"), std::string::npos) << error;
-    EXPECT_NE(error.find("0.025"), std::string::npos) << error;
+    OccupancyMap loaded(others);
+    loaded.load(path(name));
+    EXPECT_NEAR(loaded.options().resolution_m, map_.options().resolution_m, 1e-9) << name;
+    expect_same(loaded.slice(0.0), map_.slice(0.0));
+    const double x = 1.0 + 0.5 * map_.options().resolution_m;
+    for (int i = 0; i < 10; ++i)
+      loaded.insert_scan({{{0.0, 0.01, 0.2}, {x, 0.01, 0.2}, BeamEnd::kHit, 0.0}});
+    EXPECT_TRUE(loaded.is_occupied_within({x, 0.01}, 0.02, true)) << name;
   }
+}
+
+TEST_F(MapFiles, CellsOfAnOddSizeAreRefusedAndChangeNothing) {
+  const OccupancyGrid before = map_.slice(0.5);
+  write_file(path("coarse.bt"), octree_header(true, 0, 3.0));
+  const std::string error = error_of_loading(map_, path("coarse.bt"));
+  EXPECT_NE(error.find(path("coarse.bt")), std::string::npos) << error;
+  EXPECT_NE(error.find("resolution is 3.0"), std::string::npos) << error;
+  expect_same(map_.slice(0.5), before);
 }
 
 TEST_F(MapFiles, TruncatedFilesAreRefusedAndChangeNothing) {
