@@ -20,6 +20,7 @@
 #include "perception/mapping/occupancy_map.h"
 #include "perception/sensor/planar_scan.h"
 #include "perception/sensor/point_cloud.h"
+#include "perception/sensor/range_smoothing.h"
 #include "perception/tracking/moving_object_filter.h"
 #include "perception/tracking/peer_tracks.h"
 #include "ros_bridge/inputs/peer_motions.h"
@@ -72,6 +73,9 @@ class PerceptionNode {
     if (!values.text("map_file").empty()) map_.load(values.text("map_file"));
     if (!values.text("keep_out_file").empty())
       keep_out_ = load_world(values.text("keep_out_file"), config_path("")).keep_out;
+    if (!model_.lidar.sees_all_round())
+      ROS_INFO("%s: what its lidar cannot see where it starts is free up to %.2f m away",
+               robot_.name.c_str(), start_ground_.reach_m());
     diagnostics_.setHardwareID(robot_.name);
     diagnostics_.add("sensors", this, &PerceptionNode::diagnose_sensors);
     diagnostics_.add("map", this, &PerceptionNode::diagnose_map);
@@ -121,11 +125,11 @@ class PerceptionNode {
   void integrate(const Measurement& measurement) {
     try {
       const auto base = base_at(measurement.last);
-      if (base) map_.see_robot(*base, start_ground_);
       clear_peers(measurement.last);
       if (const auto* scan = std::get_if<PlanarScan>(&measurement.data)) {
-        auto beams = to_beams(*scan, measurement.poses,
+        auto beams = to_beams(smoothed(*scan, values_.number("smoothing_reach")), measurement.poses,
                               {values_.number("max_range"), values_.number("max_clearing_range")});
+        if (base && !beams.empty()) map_.see_robot(*base, start_ground_, blind_walls(beams));
         peers_.ignore_peers(beams);
         filter_.sort(beams, map_);
         map_.insert_scan(beams);
@@ -133,6 +137,7 @@ class PerceptionNode {
         auto beams = to_beams(std::get<1>(measurement.data), measurement.poses.first,
                               measurement.first.toSec(), values_.number("max_points_range"),
                               map_.options().resolution_m);
+        if (base && scans_.getNumPublishers() == 0) map_.see_robot(*base, start_ground_, {});
         peers_.ignore_peers(beams);
         map_.insert_points(beams);
       }
@@ -146,9 +151,8 @@ class PerceptionNode {
   }
 
   void clear_peers(ros::Time time) {
-    for (const auto& disc : peers_.at(time.toSec())) {
+    for (const auto& disc : peers_.at(time.toSec()))
       map_.clear_disc(disc.centre, disc.radius_m + map_.options().resolution_m);
-    }
   }
 
   std::optional<Pose> base_at(ros::Time time) {
@@ -214,6 +218,7 @@ class PerceptionNode {
     return answer(response, "cleared", [&] {
       map_.clear();
       filter_.clear();
+      if (const auto base = base_at({})) map_.see_robot(*base, start_ground_.under_body(), {});
     });
   }
 

@@ -9,8 +9,6 @@ namespace {
 
 constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 constexpr float kTooNear = 0.0f;
-constexpr double kAllRound_rad =
-    2.0 * M_PI - 1e-4;  // fields of view from here on would see the first beam's direction again
 
 Pose composed(const Pose& base, const Pose& mount) {
   const double c = std::cos(base.yaw_rad);
@@ -39,7 +37,7 @@ Lidar::Lidar(const LidarModel& model, std::uint64_t seed)
       angle_increment_(2.0 * M_PI / model.beams),
       time_increment_(model.sweep_time_s / (model.beams - 1)),
       random_(seed) {
-  if (model.field_of_view_rad < kAllRound_rad) {
+  if (!model.sees_all_round()) {
     angle_increment_ = model.field_of_view_rad / (model.beams - 1);
   }
 }

@@ -20,10 +20,16 @@ double told(double acceleration) {
 
 }  // namespace
 
+bool LidarModel::sees_all_round() const {
+  constexpr double kRounding_rad = 1e-4;  // of 6.2831853
+  return field_of_view_rad >= 2.0 * M_PI - kRounding_rad;
+}
+
 bool LidarModel::sees(const Vector2& in_body) const {
   const Vector2 beam = in_body - mount.position;
   const double angle_rad = wrap_angle(std::atan2(beam.y(), beam.x()) - mount.yaw_rad);
-  return beam.norm() >= min_range_m && std::abs(angle_rad) <= 0.5 * field_of_view_rad;
+  return beam.norm() >= min_range_m &&
+         (sees_all_round() || std::abs(angle_rad) <= 0.5 * field_of_view_rad);
 }
 
 Braking RobotModel::braking() const {

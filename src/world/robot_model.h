@@ -32,7 +32,7 @@ struct Margins {
   double localisation_m;    ///< pose off the truth
   double map_m;             ///< obstacle nearer than its map cells, met at the highest speed
   double clock_s;           ///< own clock against the fleet's
-  double tracking_still_m;  ///< as tracking_m, at rest; between, it grows with the speed
+  double tracking_still_m;  ///< as tracking_m, at rest; between, grows as speed squared
   double map_still_m;       ///< as map_m, the same
 };
 
@@ -48,6 +48,8 @@ struct LidarModel {
   double noise_m;       ///< standard deviation of a range
   double dropout;       ///< share of beams without return
 
+  /// Whether its last beam is the neighbour of its first.
+  bool sees_all_round() const;
   /// Whether a beam passes a point of the body frame [m].
   bool sees(const Vector2& in_body) const;
 };

@@ -1,5 +1,6 @@
 #include "benchmarks/lidar_perception.h"
 
+#include "perception/sensor/range_smoothing.h"
 #include "stack/timing.h"
 #include "trajectory/frame_change.h"
 
@@ -23,9 +24,10 @@ void LidarPerception::take(const PlanarScan& scan, const Pose& first, const Pose
   const auto sensor_at = [&](const Pose& base) {
     return in_space(composed(base, lidar.mount), lidar.height_m);
   };
-  auto beams = to_beams(scan, {sensor_at(first), sensor_at(last)},
+  auto beams = to_beams(smoothed(scan, values_.number("smoothing_reach")),
+                        {sensor_at(first), sensor_at(last)},
                         {values_.number("max_range"), values_.number("max_clearing_range")});
-  map_.see_robot(last, StartGround(robot_));
+  map_.see_robot(last, StartGround(robot_), blind_walls(beams));
   filter_.sort(beams, map_);
   map_.insert_scan(beams);
   map_.clear_body(last, robot_.footprint);

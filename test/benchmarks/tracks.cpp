@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "perception/sensor/range_smoothing.h"
 #include "perception/tracking/moving_object_filter.h"
 #include "ros_bridge/messages/sensor_conversions.h"
 #include "world/robot_model.h"
@@ -68,7 +69,8 @@ void run(const std::vector<std::string>& arguments) {
     const auto mount = mounts.find(scan->header.frame_id);
     const Eigen::Isometry3d pose =
         mount == mounts.end() ? Eigen::Isometry3d::Identity() : mount->second;
-    auto beams = to_beams(from_message(*scan), {pose, pose}, {30.0, 10.0});
+    auto beams = to_beams(smoothed(from_message(*scan), values.number("smoothing_reach")),
+                          {pose, pose}, {30.0, 10.0});
     filter.sort(beams, map);
     map.insert_scan(beams);
     const double end_s = from_message(*scan).end_time_s();

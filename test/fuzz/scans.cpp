@@ -13,6 +13,7 @@
 #include "fuzz/oddities.h"
 #include "perception/room.h"
 #include "perception/sensor/point_cloud.h"
+#include "perception/sensor/range_smoothing.h"
 #include "perception/shipped_options.h"
 #include "perception/tracking/peer_tracks.h"
 #include "trajectory/rover_braking.h"
@@ -23,6 +24,7 @@ namespace {
 constexpr int kLifetime = 50;  // scans, after which a map that may be full of errors is replaced
 constexpr int kBeams = 90;
 constexpr double kSpacing_m = 0.05;  // of the points of a cloud that are taken
+constexpr double kSmoothing_m = 0.04;
 constexpr BeamReach kReach{30.0, 10.0};
 
 class Fuzzer {
@@ -93,12 +95,12 @@ class Fuzzer {
       ++refused_;
       return;
     }
-    auto beams = to_beams(scan, poses, kReach);
+    auto beams = to_beams(smoothed(scan, kSmoothing_m), poses, kReach);
     clear_peers();
+    const Pose base{poses.last.translation().head<2>(), odd_.number()};
+    map_.see_robot(base, start_ground_, blind_walls(beams));
     peers_.ignore_peers(beams);
     filter_.sort(beams, map_);
-    const Pose base{poses.last.translation().head<2>(), odd_.number()};
-    map_.see_robot(base, start_ground_);
     map_.insert_scan(beams);
     map_.clear_body(base, robot_.footprint);
     filter_.moving(time_s_);

@@ -14,6 +14,10 @@ inline OccupancyMapOptions shipped_map_options() {
                                    shipped_robot().map_resolution_m);
 }
 
+inline double shipped_smoothing_m() {
+  return ParameterTable::from_schema("config/perception.yaml").number("smoothing_reach");
+}
+
 inline MovingObjectFilterOptions shipped_sorter_options() {
   return MovingObjectFilterOptions::from(ParameterTable::from_schema("config/perception.yaml"));
 }

@@ -21,7 +21,7 @@ class StartOnUnseenGround : public ::testing::TestWithParam<const char*> {
     OccupancyMapOptions options = shipped_map_options();
     options.resolution_m = robot_.map_resolution_m;
     OccupancyMap map(options);
-    map.see_robot(place, StartGround(robot_));
+    map.see_robot(place, StartGround(robot_), {});
     if (sees) map.insert_scan(beams_from(place));
     const OccupancyGrid grid = map.slice(1.0);
     Scene scene;

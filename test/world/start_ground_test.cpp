@@ -45,6 +45,21 @@ TEST(StartGround, HoldsWhatIsTooNearForTheLidar) {
   EXPECT_TRUE(StartGround(robot).contains(beside));
 }
 
+TEST(StartGround, IsUnderTheBodyAloneForALidarThatSeesAllRound) {
+  const RobotModel robot = load_robot_model("config", "rover");
+  EXPECT_TRUE(robot.lidar.sees_all_round());
+  EXPECT_TRUE(robot.lidar.sees({-1.0, 0.0})) << "where its last beam meets its first";
+  const double beside_m = robot.footprint.circumscribed_radius_m() + 0.2;
+  EXPECT_FALSE(StartGround(robot).contains({-beside_m, 0.0}));
+}
+
+TEST(StartGround, ItsPartUnderTheBodyHoldsNothingElse) {
+  const StartGround part = StartGround(jackal()).under_body();
+  EXPECT_TRUE(part.contains({-0.25, 0.0}));
+  EXPECT_FALSE(part.contains({-0.5, 0.0}));
+  EXPECT_LT(part.reach_m(), 0.6);
+}
+
 TEST(StartGround, SeesFromWhereTheLidarIs) {
   RobotModel robot = jackal();
   const Vector2 behind(-0.35, 0.0);

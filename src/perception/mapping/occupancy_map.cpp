@@ -176,7 +176,8 @@ void OccupancyMap::insert_points(const std::vector<Beam>& beams) {
   voxels_->insert(clipped);
 }
 
-void OccupancyMap::see_robot(const Pose& base, const StartGround& ground) {
+void OccupancyMap::see_robot(const Pose& base, const StartGround& ground,
+                             const std::vector<BlindWall>& walls) {
   if (!is_usable(base.position)) throw MapError("the robot stands nowhere that a map could hold");
   const double cell_m = options_.resolution_m;
   ColumnGrid& columns = voxels_->columns;
@@ -184,9 +185,14 @@ void OccupancyMap::see_robot(const Pose& base, const StartGround& ground) {
     return;
   const CellDisc disc(base.position, ground.reach_m(), cell_m);
   columns.reserve(disc.low(), disc.high());
+  const auto starts_on = [&](const Vector2& place) {
+    const Vector2 here = in_body(place, base);
+    const auto hides = [&](const BlindWall& wall) { return wall.hides(place); };
+    return ground.is_under_body(here) ||
+           (ground.contains(here) && std::none_of(walls.begin(), walls.end(), hides));
+  };
   disc.for_each([&](int x, int y) {
-    const Vector2 place = cell_m * Vector2(x + 0.5, y + 0.5);
-    if (columns.is_unknown(x, y) && ground.contains(in_body(place, base)))
+    if (columns.is_unknown(x, y) && starts_on(cell_m * Vector2(x + 0.5, y + 0.5)))
       voxels_->update({x, y, voxels_->scan_layer}, false);
   });
 }
@@ -227,11 +233,12 @@ bool OccupancyMap::is_occupied_within(const Vector2& centre, double radius_m, bo
 }
 
 bool OccupancyMap::is_unknown_within(const Vector2& centre, double radius_m) const {
-  bool found = false;
+  bool unknown = true;
   CellDisc(centre, radius_m, options_.resolution_m).for_each([&](int x, int y) {
-    found = found || voxels_->columns.at({x, y, voxels_->scan_layer}) == VoxelState::kUnknown;
+    const VoxelState state = voxels_->columns.at({x, y, voxels_->scan_layer});
+    unknown = unknown && state == VoxelState::kUnknown;
   });
-  return found;
+  return unknown;
 }
 
 std::uint64_t OccupancyMap::version() const { return version_before_ + voxels_->columns.version(); }

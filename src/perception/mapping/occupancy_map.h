@@ -8,6 +8,7 @@
 #include "perception/mapping/map_error.h"
 #include "perception/mapping/occupancy_map_options.h"
 #include "perception/sensor/beam.h"
+#include "perception/sensor/blind_wall.h"
 #include "world/occupancy_grid.h"
 #include "world/start_ground.h"
 
@@ -35,9 +36,10 @@ class OccupancyMap {
   void insert_points(const std::vector<Beam>& beams);
 
   /// The robot is here [map frame]. It has started here if nothing is known of the cell of its
-  /// base: cells with centres on the start's ground then become free if nothing is known of them.
-  /// Throws MapError (and changes nothing) if the map cannot grow so far.
-  void see_robot(const Pose& base, const StartGround& ground);
+  /// base: cells with centres on the start's ground then become free if nothing is known of them,
+  /// but for what `walls` hide. Throws MapError (and changes nothing) if the map cannot grow so
+  /// far.
+  void see_robot(const Pose& base, const StartGround& ground, const std::vector<BlindWall>& walls);
 
   /// The body is here [map frame], so nothing else is: occupied cells with centres under it become
   /// free. What is beside it may be seen too near by a cell and the lidar's noise.
@@ -55,7 +57,7 @@ class OccupancyMap {
   /// hit so often that one more hit changes nothing. The centre must be usable, see is_usable().
   bool is_occupied_within(const Vector2& centre, double radius_m, bool surely) const;
 
-  /// Whether nothing is known of a cell of the planar scans with its centre within the disc. The
+  /// Whether nothing is known of any cell of the planar scans with its centre within the disc. The
   /// centre must be usable, see is_usable().
   bool is_unknown_within(const Vector2& centre, double radius_m) const;
 

@@ -25,6 +25,35 @@ double time_of(const std::vector<Beam>& beams) {
   return sum_s;
 }
 
+/// The angle between neighbouring beams, the median: beams may be missing.
+double gap_between_beams_rad(const std::vector<Beam>& beams) {
+  std::vector<double> gaps_rad;
+  for (std::size_t i = 1; i < beams.size(); ++i) {
+    if (!is_usable(beams[i - 1]) || !is_usable(beams[i])) continue;
+    const Vector2 before = (beams[i - 1].end - beams[i - 1].origin).head<2>();
+    const Vector2 after = (beams[i].end - beams[i].origin).head<2>();
+    const double cross = before.x() * after.y() - before.y() * after.x();
+    gaps_rad.push_back(std::abs(std::atan2(cross, before.dot(after))));
+  }
+  if (gaps_rad.empty()) return 0.0;
+  const auto middle = gaps_rad.begin() + gaps_rad.size() / 2;
+  std::nth_element(gaps_rad.begin(), middle, gaps_rad.end());
+  return *middle;
+}
+
+/// Whether unseen space begins within reach of a hit: a disc that is wider than what two beams
+/// leave between them.
+bool is_beside_unseen(const Vector2& hit, double reach_m, double gap_m, const OccupancyMap& map) {
+  constexpr int kDirections = 8;
+  const double radius_m = 0.5 * gap_m + 0.75 * map.options().resolution_m;  // holds a cell's centre
+  for (int k = 0; k < kDirections; ++k) {
+    const double angle_rad = 2.0 * M_PI * k / kDirections;
+    const Vector2 beside = hit + reach_m * Vector2(std::cos(angle_rad), std::sin(angle_rad));
+    if (map.is_unknown_within(beside, radius_m)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 MovingObjectFilterOptions MovingObjectFilterOptions::from(const ParameterTable& values) {
@@ -69,6 +98,7 @@ void MovingObjectFilter::sort(std::vector<Beam>& beams, const OccupancyMap& map)
 BeamIndices MovingObjectFilter::candidates(const std::vector<Beam>& beams, const OccupancyMap& map,
                                            const std::vector<TrackedObstacle>& known) const {
   BeamIndices hits;
+  const double gap_rad = gap_between_beams_rad(beams);
   for (std::size_t i = 0; i < beams.size(); ++i) {
     if (beams[i].kind != BeamEnd::kHit || !is_usable(beams[i])) continue;
     const Vector2 end = beams[i].end.head<2>();
@@ -83,7 +113,7 @@ BeamIndices MovingObjectFilter::candidates(const std::vector<Beam>& beams, const
     // angle have hit something so far.
     const bool came = map.is_surely_free(end) &&
                       !map.is_occupied_within(end, 0.5 * tolerance_m, false) &&
-                      !map.is_unknown_within(end, 0.5 * tolerance_m);
+                      !is_beside_unseen(end, 0.5 * tolerance_m, gap_rad * range_m, map);
     if ((on_known || came) && !map.is_occupied_within(end, tolerance_m, true))
       hits.push_back(static_cast<int>(i));
   }

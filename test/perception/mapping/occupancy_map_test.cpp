@@ -106,7 +106,7 @@ TEST(OccupancyMap, BeamsWithoutReturnClearToTheirReach) {
   EXPECT_EQ(count(grid, OccupancyGrid::kOccupied), 0);
   EXPECT_EQ(cell_at(grid, {1.9, 0.0}), OccupancyGrid::kFree);
   EXPECT_EQ(cell_at(grid, {2.2, 0.0}), OccupancyGrid::kUnknown);
-  EXPECT_NEAR(count(grid, OccupancyGrid::kFree) * 0.05 * 0.05, M_PI * 4.0, 0.5);
+  EXPECT_NEAR(count(grid, OccupancyGrid::kFree) * std::pow(grid.resolution_m, 2), M_PI * 4.0, 0.5);
 }
 
 TEST(OccupancyMap, OneScanDoesNotEraseWhatItHit) {
@@ -136,14 +136,27 @@ TEST(OccupancyMap, IgnoredHitsClearUpToShortlyBeforeTheirEnd) {
 TEST(OccupancyMap, TheRobotStandsOnFreeGround) {
   OccupancyMap map(shipped_map_options());
   map.insert_scan({{{1.0, 0.0, 0.2}, {0.22, 0.0, 0.2}, BeamEnd::kHit, 0.0}});
-  map.see_robot({{0.0, 0.0}, 0.5 * M_PI}, kJackalStarts);
+  map.see_robot({{0.0, 0.0}, 0.5 * M_PI}, kJackalStarts, {});
   const OccupancyGrid grid = map.slice(0.5);
   EXPECT_EQ(cell_at(grid, {-0.1, 0.2}), OccupancyGrid::kFree) << "under the body";
   EXPECT_EQ(cell_at(grid, {0.0, -0.33}), OccupancyGrid::kFree)
       << "behind it, where it sees nothing";
   EXPECT_EQ(cell_at(grid, {0.0, 0.36}), OccupancyGrid::kUnknown) << "ahead, what it will see";
-  EXPECT_EQ(cell_at(grid, {0.0, -0.6}), OccupancyGrid::kUnknown);
+  EXPECT_EQ(cell_at(grid, {0.0, -kJackalStarts.reach_m() - 0.02}), OccupancyGrid::kUnknown);
   EXPECT_EQ(cell_at(grid, {0.22, 0.0}), OccupancyGrid::kOccupied) << "only what is unknown";
+}
+
+TEST(OccupancyMap, TheRobotDoesNotStartInWalls) {
+  OccupancyMap map(shipped_map_options());
+  // It looks ahead along x; a wall to its right goes on where it does not see.
+  const BlindWall wall{{-0.23, -0.23}, {-1.0, 0.0}, {0.0, -1.0}};
+  const BlindWall across{{-0.2, 0.2}, {0.0, -1.0}, {-1.0, 0.0}};
+  map.see_robot({{0.0, 0.0}, 0.0}, kJackalStarts, {wall, across});
+  const OccupancyGrid grid = map.slice(0.5);
+  EXPECT_EQ(cell_at(grid, {-0.26, -0.26}), OccupancyGrid::kUnknown);
+  EXPECT_EQ(cell_at(grid, {-0.4, 0.0}), OccupancyGrid::kUnknown);
+  EXPECT_EQ(cell_at(grid, {-0.22, 0.0}), OccupancyGrid::kFree) << "the body is there";
+  EXPECT_EQ(cell_at(grid, {0.26, -0.2}), OccupancyGrid::kFree) << "beside what was seen";
 }
 
 TEST(OccupancyMap, UnderTheBodyIsNothingElse) {
@@ -161,11 +174,11 @@ TEST(OccupancyMap, UnderTheBodyIsNothingElse) {
 
 TEST(OccupancyMap, TheRobotStartsOnce) {
   OccupancyMap map(shipped_map_options());
-  map.see_robot({{0.0, 0.0}, 0.0}, kJackalStarts);
+  map.see_robot({{0.0, 0.0}, 0.0}, kJackalStarts, {});
   const std::uint64_t version = map.version();
-  map.see_robot({{0.2, 0.0}, 0.0}, kJackalStarts);
+  map.see_robot({{0.2, 0.0}, 0.0}, kJackalStarts, {});
   EXPECT_EQ(map.version(), version) << "it went on";
-  map.see_robot({{2.0, 0.0}, 0.0}, kJackalStarts);
+  map.see_robot({{2.0, 0.0}, 0.0}, kJackalStarts, {});
   EXPECT_EQ(cell_at(map.slice(0.5), {2.0, 0.1}), OccupancyGrid::kFree) << "it was carried";
 }
 
@@ -254,8 +267,8 @@ TEST(OccupancyMap, PlacesThatNoMapHoldsChangeNothing) {
   map.insert_scan(beams_at(Room(), {}));
   const std::uint64_t version = map.version();
   for (const double odd : {double{NAN}, double{INFINITY}, -1e300, 1e30, 1e9, -5000.0}) {
-    EXPECT_THROW(map.see_robot({{odd, 0.0}, 0.0}, kJackalStarts), MapError) << odd;
-    EXPECT_THROW(map.see_robot({{0.0, odd}, 0.0}, kJackalStarts), MapError) << odd;
+    EXPECT_THROW(map.see_robot({{odd, 0.0}, 0.0}, kJackalStarts, {}), MapError) << odd;
+    EXPECT_THROW(map.see_robot({{0.0, odd}, 0.0}, kJackalStarts, {}), MapError) << odd;
     EXPECT_NO_THROW(map.clear_disc({odd, 0.0}, 0.4)) << odd;
     EXPECT_NO_THROW(map.clear_disc({0.0, odd}, 0.4)) << odd;
   }

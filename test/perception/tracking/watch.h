@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "perception/room.h"
+#include "perception/sensor/range_smoothing.h"
 #include "perception/shipped_options.h"
 
 namespace mocha {
@@ -63,7 +64,8 @@ class Watch {
     Pose believed = pose;
     believed.position += senses.jitter_m * Vector2(normal_(random_), normal_(random_));
     believed.yaw_rad += senses.jitter_rad * normal_(random_);
-    auto beams = to_beams(sweep, {sensor_pose(believed), sensor_pose(believed)}, {30.0, 10.0});
+    auto beams = to_beams(smoothed(sweep, smoothing_m_),
+                          {sensor_pose(believed), sensor_pose(believed)}, {30.0, 10.0});
     for (Beam& beam : beams) beam.time_s = time_s;
     return beams;
   }
@@ -91,6 +93,7 @@ class Watch {
   std::vector<Beam> newest;
 
  private:
+  const double smoothing_m_ = shipped_smoothing_m();
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
   std::uniform_real_distribution<double> chance_{0.0, 1.0};
