@@ -173,7 +173,7 @@ class ArchitecturePage(unittest.TestCase):
     def test_executive(self):
         faults = lambda page: executive_faults(page, read(EXECUTIVE + ".h"), read(EXECUTIVE + ".cpp"))  # noqa: E731
         self.check(faults, self.page, ("| `kPulling", "| `kDriving"), "kPullingOver: ")
-        self.check(faults, self.page, ("backing out | `kPlanning`", "backing out | `kParked`"), "kBackingOut: does not lead to kParked")
+        self.check(faults, self.page, ("to plan anew | `kPlanning`", "to plan anew | `kParked`"), "kBraking: does not lead to kParked")
 
     def test_requirements(self):
         self.check(lambda page: requirement_faults(page, read("src/safety/requirement.h")), self.page, ("| `kEscape`", "| `kFlight`"), "kEscape: is not")

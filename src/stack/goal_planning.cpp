@@ -49,9 +49,6 @@ GoalExecutive::Output GoalPlanning::step(double now_s, const RobotState& measure
   PlannerInterface planner;
   if (scene) {
     planner.plan = [&](const PlanQuery& query) { return plan(query, scene); };
-    planner.leads_on = [&](const PlanQuery& query, const Motion& motion) {
-      return planner_->leads_on(motion, query, scene_of(query, scene));
-    };
     planner.scene = scene;
   }
   const bool has_plan = !executive_.plan().empty();

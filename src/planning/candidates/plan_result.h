@@ -25,10 +25,9 @@ enum class PlanReason {
   kBudgetExhausted = 9,
   kPeerConflict = 10,
   kBraking = 11,
-  kBackingOut = 12,
-  kCannotWin = 13,
-  kEmergencyStop = 14,
-  kPaused = 15
+  kCannotWin = 12,
+  kEmergencyStop = 13,
+  kPaused = 14
 };
 
 /// One path that was optimised, certified or not.
@@ -58,7 +57,7 @@ struct Selection {
   std::vector<PlanCandidate> candidates;  ///< one of each class
 };
 
-/// A plan to the goal; where the goal executive backs out, a motion for that.
+/// A plan to the goal.
 struct PlanResult : Selection {
   /// Where it leads: the goal, or the nearest free place; valid where solved.
   Vector2 goal = Vector2::Zero();

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include "planning/executive/back_out_instead.h"
 #include "planning/executive/goal_executive.h"
 
 namespace mocha {
@@ -59,12 +58,8 @@ void GoalExecutive::plan(const Input& input, Output& output) {
   query.driven = errand_.plan;
   errand_.planned_s = input.now_s;
   output.planned = Planned{target(), input.planner.plan(query)};
-  PlanResult& result = output.planned->result;
+  const PlanResult& result = output.planned->result;
   if (state_ == S::kDriving && !much_better(result, input.now_s)) return;
-  if (result.motion.empty()) {
-    back_out_instead(query, trail_.points(), options_.backup_distance_m, robot_.limits,
-                     input.planner, result);
-  }
   if (const auto whose = in_way_of(result.motion, input.now_s)) {
     hold_back(*whose, input, output);
     return;
@@ -95,15 +90,14 @@ std::optional<Rank> GoalExecutive::in_way_of(const Motion& plan, double now_s) c
 }
 
 void GoalExecutive::adopt(const PlanResult& result, Output& output) {
-  const bool back_out = result.reason == PlanReason::kBackingOut;
   if (makes_room(state_)) {
     output.report->message =
         "makes room for " + errand_.pull_over->whose.agent + ": " + result.message;
   } else {
     errand_.pull_over.reset();
-    if (!back_out) goals_.move_current(result.goal);
+    goals_.move_current(result.goal);
   }
-  handle(back_out ? E::kBackOutFound : E::kPlanFound);
+  handle(E::kPlanFound);
   errand_.plan = result.motion;
   output.plan = result.motion;
 }

@@ -42,7 +42,6 @@ constexpr Transition kTransitions[] = {
 
     {S::kPlanning, E::kPlanFound, S::kDriving},
     {S::kPlanning, E::kPlanInTheWay, S::kWaiting},
-    {S::kPlanning, E::kBackOutFound, S::kBackingOut},
     {S::kPlanning, E::kNoPlan, S::kBlocked},
     {S::kPlanning, E::kGoalFoundOccupied, S::kGoalOccupied},
     {S::kPlanning, E::kNoPathFound, S::kUnreachable},
@@ -63,7 +62,6 @@ constexpr Transition kTransitions[] = {
     {S::kReplanning, E::kPlanEnded, S::kBlocked},
     {S::kReplanning, E::kPlanFound, S::kDriving},
     {S::kReplanning, E::kPlanInTheWay, S::kDriving},
-    {S::kReplanning, E::kBackOutFound, S::kBackingOut},
     {S::kReplanning, E::kNoPlan, S::kDriving},
     {S::kReplanning, E::kGoalFoundOccupied, S::kDriving},
     {S::kReplanning, E::kNoPathFound, S::kDriving},
@@ -71,17 +69,10 @@ constexpr Transition kTransitions[] = {
     {S::kReplanning, E::kPullOverHere, S::kPullingOver},
     {S::kReplanning, E::kNowhereToPullOver, S::kPlanning},
 
-    {S::kBackingOut, E::kPlanRequested, S::kPlanning},
-    {S::kBackingOut, E::kPlanEnded, S::kPlanning},
-    {S::kBackingOut, E::kPullOver, S::kPlanningPullOver},
-    {S::kBackingOut, E::kPullOverHere, S::kPullingOver},
-    {S::kBackingOut, E::kNowhereToPullOver, S::kPlanning},
-
     {S::kBlocked, E::kPlanRequested, S::kPlanning},
     {S::kBlocked, E::kFollowed, S::kDriving},
     {S::kBlocked, E::kPlanFound, S::kDriving},
     {S::kBlocked, E::kPlanInTheWay, S::kWaiting},
-    {S::kBlocked, E::kBackOutFound, S::kBackingOut},
     {S::kBlocked, E::kGoalFoundOccupied, S::kGoalOccupied},
     {S::kBlocked, E::kNoPathFound, S::kUnreachable},
     {S::kBlocked, E::kPullOver, S::kPlanningPullOver},
@@ -91,7 +82,6 @@ constexpr Transition kTransitions[] = {
     {S::kGoalOccupied, E::kFollowed, S::kDriving},
     {S::kGoalOccupied, E::kPlanFound, S::kDriving},
     {S::kGoalOccupied, E::kPlanInTheWay, S::kWaiting},
-    {S::kGoalOccupied, E::kBackOutFound, S::kBackingOut},
     {S::kGoalOccupied, E::kNoPlan, S::kBlocked},
     {S::kGoalOccupied, E::kNoPathFound, S::kUnreachable},
     {S::kGoalOccupied, E::kPullOver, S::kPlanningPullOver},
@@ -101,7 +91,6 @@ constexpr Transition kTransitions[] = {
     {S::kUnreachable, E::kFollowed, S::kDriving},
     {S::kUnreachable, E::kPlanFound, S::kDriving},
     {S::kUnreachable, E::kPlanInTheWay, S::kWaiting},
-    {S::kUnreachable, E::kBackOutFound, S::kBackingOut},
     {S::kUnreachable, E::kNoPlan, S::kBlocked},
     {S::kUnreachable, E::kGoalFoundOccupied, S::kGoalOccupied},
     {S::kUnreachable, E::kPullOver, S::kPlanningPullOver},
@@ -110,7 +99,6 @@ constexpr Transition kTransitions[] = {
 
     {S::kPlanningPullOver, E::kAtPullOverPoint, S::kWaiting},
     {S::kPlanningPullOver, E::kPlanFound, S::kPullingOver},
-    {S::kPlanningPullOver, E::kBackOutFound, S::kBackingOutToPullOver},
     {S::kPlanningPullOver, E::kNoPlan, S::kPullOverBlocked},
     {S::kPlanningPullOver, E::kPullOver, S::kPlanningPullOver},
     {S::kPlanningPullOver, E::kPullOverHere, S::kPullingOver},
@@ -128,19 +116,9 @@ constexpr Transition kTransitions[] = {
     {S::kPullingOver, E::kWayIsClear, S::kPlanning},
     {S::kPullingOver, E::kNoNeedToPullOver, S::kParked},
 
-    {S::kBackingOutToPullOver, E::kPlanRequested, S::kPlanningPullOver},
-    {S::kBackingOutToPullOver, E::kPlanEnded, S::kPlanningPullOver},
-    {S::kBackingOutToPullOver, E::kAtPullOverPoint, S::kWaiting},
-    {S::kBackingOutToPullOver, E::kPullOver, S::kPlanningPullOver},
-    {S::kBackingOutToPullOver, E::kPullOverHere, S::kPullingOver},
-    {S::kBackingOutToPullOver, E::kNowhereToPullOver, S::kPlanning},
-    {S::kBackingOutToPullOver, E::kWayIsClear, S::kPlanning},
-    {S::kBackingOutToPullOver, E::kNoNeedToPullOver, S::kParked},
-
     {S::kPullOverBlocked, E::kPlanRequested, S::kPlanningPullOver},
     {S::kPullOverBlocked, E::kAtPullOverPoint, S::kWaiting},
     {S::kPullOverBlocked, E::kPlanFound, S::kPullingOver},
-    {S::kPullOverBlocked, E::kBackOutFound, S::kBackingOutToPullOver},
     {S::kPullOverBlocked, E::kPullOver, S::kPlanningPullOver},
     {S::kPullOverBlocked, E::kPullOverHere, S::kPullingOver},
     {S::kPullOverBlocked, E::kNowhereToPullOver, S::kPlanning},
@@ -149,7 +127,6 @@ constexpr Transition kTransitions[] = {
 
     {S::kWaiting, E::kStrayed, S::kPlanningPullOver},
     {S::kWaiting, E::kPlanFound, S::kDriving},
-    {S::kWaiting, E::kBackOutFound, S::kBackingOut},
     {S::kWaiting, E::kPullOver, S::kPlanningPullOver},
     {S::kWaiting, E::kPullOverHere, S::kPullingOver},
     {S::kWaiting, E::kNowhereToPullOver, S::kPlanning},
@@ -175,16 +152,11 @@ ExecutiveState next_state(ExecutiveState state, ExecutiveEvent event) {
 bool heeds(ExecutiveState state, ExecutiveEvent event) { return entry(state, event).has_value(); }
 
 bool makes_room(ExecutiveState state) {
-  return state == S::kPlanningPullOver || state == S::kPullingOver ||
-         state == S::kBackingOutToPullOver || state == S::kPullOverBlocked;
+  return state == S::kPlanningPullOver || state == S::kPullingOver || state == S::kPullOverBlocked;
 }
 
 bool drives_plan(ExecutiveState state) {
   return state == S::kDriving || state == S::kReplanning || state == S::kPullingOver;
-}
-
-bool backs_out(ExecutiveState state) {
-  return state == S::kBackingOut || state == S::kBackingOutToPullOver;
 }
 
 const char* to_text(ExecutiveState state) {
@@ -203,8 +175,6 @@ const char* to_text(ExecutiveState state) {
       return "driving";
     case S::kReplanning:
       return "driving, planning anew";
-    case S::kBackingOut:
-      return "backing out";
     case S::kBlocked:
       return "without a plan";
     case S::kGoalOccupied:
@@ -215,8 +185,6 @@ const char* to_text(ExecutiveState state) {
       return "planning to make room";
     case S::kPullingOver:
       return "making room";
-    case S::kBackingOutToPullOver:
-      return "backing out to make room";
     case S::kPullOverBlocked:
       return "cannot get out of the way";
     case S::kWaiting:

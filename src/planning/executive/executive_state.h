@@ -14,16 +14,14 @@ enum class ExecutiveState {
   kPlanning,      ///< no plan yet: one is asked for as soon as possible
   kDriving,       ///< there is a plan; another replaces it only if it is much better
   kReplanning,    ///< there is a plan, and a request for another, better or not
-  kBackingOut,    ///< drives back along its trail, to plan from there
   kBlocked,       ///< there is no plan: one is asked for again and again
   kGoalOccupied,  ///< the same, as the goal and all around it is occupied
   kUnreachable,   ///< the same, as no path leads to the goal on the map
 
   // On the way to a pull-over point, out of the way of a team-mate of higher rank.
-  kPlanningPullOver,      ///< no plan yet, or a request for another
-  kPullingOver,           ///< there is a plan
-  kBackingOutToPullOver,  ///< drives back along its trail, to plan from there
-  kPullOverBlocked,       ///< there is no plan: one is asked for again and again
+  kPlanningPullOver,  ///< no plan yet, or a request for another
+  kPullingOver,       ///< there is a plan
+  kPullOverBlocked,   ///< there is no plan: one is asked for again and again
   kWaiting,  ///< has left the way to others; plans to the goal that keep out of it are driven
 };
 
@@ -48,7 +46,6 @@ enum class ExecutiveEvent {
   // What the planner answers.
   kPlanFound,
   kPlanInTheWay,  ///< there is a plan, but it would get into the way of a higher rank
-  kBackOutFound,  ///< no plan, but the robot can back out
   kNoPlan,
   kGoalFoundOccupied,  ///< no plan to the goal, as there is no free place there
   kNoPathFound,        ///< no plan to the goal, as no path leads there on the map
@@ -71,7 +68,6 @@ bool heeds(ExecutiveState state, ExecutiveEvent event);
 bool makes_room(ExecutiveState state);
 /// Whether there is a plan that is being driven, to the goal or to the pull-over point.
 bool drives_plan(ExecutiveState state);
-bool backs_out(ExecutiveState state);
 
 /// For people: "driving", "waiting for others to pass" ...
 const char* to_text(ExecutiveState state);

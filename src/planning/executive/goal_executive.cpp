@@ -34,12 +34,7 @@ void GoalExecutive::set_options(const GoalExecutiveOptions& options,
 
 // --- goals and states ---
 
-void GoalExecutive::handle(ExecutiveEvent event) {
-  if (!heeds(state_, event)) return;
-  if (backs_out(state_))
-    errand_.plan = Motion();  // it does not lead to where the robot wants to be
-  state_ = next_state(state_, event);
-}
+void GoalExecutive::handle(ExecutiveEvent event) { state_ = next_state(state_, event); }
 
 void GoalExecutive::begin_errand(ExecutiveEvent event, std::optional<PullOverPoint> pull_over) {
   handle(event);
@@ -117,7 +112,6 @@ GoalExecutive::Output GoalExecutive::step(double now_s, const RobotState& measur
                                           const PlannerInterface& planner) {
   const Input input{now_s, measured, committed, planner};
   Output output;
-  trail_.add(measured);
   output.ending = note_arrival(input);
   if (output.ending == Ending::kNoProgress) give_up(output.ending, output);
   note_progress(input);
@@ -152,9 +146,6 @@ void GoalExecutive::note_progress(const Input& input) {
   if (drives_plan(state_) && input.now_s >= errand_.plan.end_time() + kAfterEnd_s) {
     handle(E::kPlanEnded);
     errand_.plan = Motion();
-  } else if (backs_out(state_) &&
-             input.now_s > errand_.plan.end_time() - options_.planning_time_s) {
-    handle(E::kPlanEnded);
   }
   if (!errand_.pull_over || !stands(input.measured)) return;
   const Vector2 off = input.measured.pose.position - errand_.pull_over->position;
@@ -177,8 +168,7 @@ void GoalExecutive::brake_first(const Input& input, Output& output) {
 // --- team-mates ---
 
 RobotIntent GoalExecutive::intent(const RobotState& measured) const {
-  const bool drives = drives_plan(state_) || backs_out(state_);
-  return {measured, drives ? &errand_.plan : nullptr, errand_.pull_over};
+  return {measured, drives_plan(state_) ? &errand_.plan : nullptr, errand_.pull_over};
 }
 
 void GoalExecutive::yield(const Input& input, Output& output) {

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "planning/executive/driven_trail.h"
 #include "planning/executive/executive_state.h"
 #include "planning/executive/goal_executive_options.h"
 #include "planning/executive/goal_queue.h"
@@ -15,7 +14,7 @@
 namespace mocha {
 
 /// Takes a robot to its goals: decides when to plan, what to ask the planner, which of its plans to
-/// drive, when to back out, and when a goal is reached or given up. Makes room for team-mates of
+/// drive, and when a goal is reached or given up. Makes room for team-mates of
 /// higher rank, and asks others for room, as its YieldPolicy says. What it is about is a state of
 /// executive_state.h. Pure decisions: time, measurements and plans come in.
 class GoalExecutive {
@@ -120,7 +119,6 @@ class GoalExecutive {
   const RobotModel robot_;
   YieldPolicy yielding_;
   GoalQueue goals_;
-  DrivenTrail trail_;
   ExecutiveState state_ = ExecutiveState::kIdle;
   Errand errand_;
 };

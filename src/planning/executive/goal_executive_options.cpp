@@ -8,10 +8,13 @@ constexpr double kSoonest_s = 0.2;  // between two plans, whatever is requested
 }  // namespace
 
 GoalExecutiveOptions GoalExecutiveOptions::from(const ParameterTable& values) {
-  return {values.number("planning_time"),         values.number("replan_period"),
-          values.number("retry_period"),          values.number("min_improvement"),
-          values.number("occupied_goal_timeout"), values.number("unreachable_timeout"),
-          values.number("backup_distance"),       GoalOptions::from(values)};
+  return {values.number("planning_time"),
+          values.number("replan_period"),
+          values.number("retry_period"),
+          values.number("min_improvement"),
+          values.number("occupied_goal_timeout"),
+          values.number("unreachable_timeout"),
+          GoalOptions::from(values)};
 }
 
 std::optional<double> GoalExecutiveOptions::planning_period_s(ExecutiveState state) const {
@@ -33,9 +36,7 @@ std::optional<double> GoalExecutiveOptions::planning_period_s(ExecutiveState sta
     case S::kParked:
     case S::kPaused:
     case S::kBraking:
-    case S::kBackingOut:
     case S::kPullingOver:
-    case S::kBackingOutToPullOver:
       break;
   }
   return std::nullopt;

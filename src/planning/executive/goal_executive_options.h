@@ -16,7 +16,6 @@ struct GoalExecutiveOptions {
   double min_improvement;  ///< of the remaining time, for a plan to replace a valid one
   double occupied_goal_timeout_s;
   double unreachable_timeout_s;
-  double backup_distance_m;  ///< to drive back where nothing else helps
   GoalOptions goals;
 
   /// Time between two plans in this state [s]; none where no plan is needed.

@@ -15,9 +15,6 @@ using SceneSource = std::function<PlanningScene(const std::vector<Vector2>&)>;
 struct PlannerInterface {
   /// A plan, or the reason why there is none.
   std::function<PlanResult(const PlanQuery&)> plan;
-  /// Whether a motion from the query's start is certified, and the query's goal can be reached from
-  /// its end as far as the map says.
-  std::function<bool(const PlanQuery&, const Motion&)> leads_on;
   SceneSource scene;
 };
 

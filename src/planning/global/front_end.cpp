@@ -69,15 +69,21 @@ FrontEnd::FrontEnd(const RobotModel& robot, const PlannerOptions& options)
       start_maneuvers_(robot.limits, options.smooth_start_rad),
       weight_duration_(options.weight_duration) {}
 
+std::vector<BlockedDisc> FrontEnd::standing_peers(const PlanningScene& scene, double t) const {
+  std::vector<BlockedDisc> discs;
+  for (const auto& peer : scene.peers) {
+    if (stands(*peer, t)) discs.push_back(peer_keep_out(*peer, t, robot_, kPathSlack_m));
+  }
+  return discs;
+}
+
 HomotopyPaths FrontEnd::paths(std::vector<Vector2> lead_in, const PlanQuery& query,
                               const PlanningScene& scene, const Vector2& goal) const {
   HomotopyPathQuery paths;
   paths.lead_in = std::move(lead_in);
   paths.goal = goal;
-  for (const auto& peer : scene.peers) {
-    if (!stands(*peer, query.start_time_s)) continue;
-    const BlockedDisc disc = peer_keep_out(*peer, query.start_time_s, robot_, kPathSlack_m);
-    // A team-mate on the goal will hardly stay.
+  // A team-mate on the goal will hardly stay.
+  for (const BlockedDisc& disc : standing_peers(scene, query.start_time_s)) {
     if ((disc.centre - goal).norm() > disc.radius_m) paths.blocked.push_back(disc);
   }
   if (is_under_way(query, goal)) {
@@ -137,7 +143,8 @@ GlobalSeeds FrontEnd::after_parking_out(const PlanQuery& query, const PlanningSc
                                         const Vector2& goal) const {
   const MotionState start = query.committed.at(query.start_time_s);
   if (!start.at_rest) return {};
-  const std::vector<Phase> way_out = park_out(start.pose, robot_, scene);
+  const std::vector<Phase> way_out =
+      park_out(start.pose, robot_, scene, standing_peers(scene, query.start_time_s));
   if (way_out.empty()) return {};
   return after(way_out, query, scene, goal);
 }

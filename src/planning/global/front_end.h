@@ -58,6 +58,8 @@ class FrontEnd {
   double required_clearance_m() const { return options_.travel.required_clearance_m; }
 
  private:
+  /// Where the robot's base must not be because of team-mates that stand at time t [s].
+  std::vector<BlockedDisc> standing_peers(const PlanningScene& scene, double t) const;
   HomotopyPaths paths(std::vector<Vector2> lead_in, const PlanQuery& query,
                       const PlanningScene& scene, const Vector2& goal) const;
   /// Those from where what comes before ends at rest.

@@ -83,17 +83,6 @@ PlanResult GlobalPlanner::turn_only(const PlanQuery& query, const PlanningScene&
   return result;
 }
 
-bool GlobalPlanner::leads_on(const Motion& motion, const PlanQuery& query,
-                             const PlanningScene& scene) const {
-  if (refusal(query, scene)) return false;
-  if (is_at_goal(query.committed.at(query.start_time_s), query)) return false;
-  const ObstacleField<2>& obstacles = scene.static_map->field();
-  const auto goal = free_goal(query.goal, obstacles);
-  if (!goal || certify_plan(motion, robot_, obstacles, query.start_time_s)) return false;
-  // Team-mates do not count: they may go away.
-  return front_end_.reaches(motion.end_pose().position, *goal, *scene.static_map);
-}
-
 std::string GlobalPlanner::obstruction(const Vector2& start, const Vector2& goal,
                                        const StaticMap& static_map) const {
   std::ostringstream text;

@@ -22,10 +22,6 @@ class GlobalPlanner {
   PlanResult plan(const PlanQuery& query, const PlanningScene& scene,
                   const std::function<bool()>& should_stop) const;
 
-  /// Whether a motion from the query's start is certified, and the query's goal can be reached from
-  /// its end, as far as the map says. Not where the robot is at the goal already.
-  bool leads_on(const Motion& motion, const PlanQuery& query, const PlanningScene& scene) const;
-
  private:
   /// Why there is nothing to plan, if so.
   std::optional<PlanResult> refusal(const PlanQuery& query, const PlanningScene& scene) const;

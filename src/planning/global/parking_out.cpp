@@ -19,7 +19,7 @@ namespace mocha {
 namespace {
 
 constexpr int kMaxExpansions = 20000;
-constexpr double kFarthestExit_m = 10.0;
+constexpr double kFarthestExit_m = 30.0;
 constexpr double kRounding_m = 0.005;  // so much closer than searched, a drive may be
 constexpr double kSlow_mps = 0.3;
 // Where there is the least room, so slow is the robot that it asks for so much more at most.
@@ -113,20 +113,22 @@ std::vector<Phase> phases_of(const std::vector<Stretch>& way, const Pose& start,
 
 /// Keeps from all of the fields.
 std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const StaticMap& static_map,
-                            const std::vector<const ObstacleField<2>*>& fields) {
+                            const std::vector<const ObstacleField<2>*>& fields,
+                            const std::vector<BlockedDisc>& blocked) {
   const double reach_m = robot.footprint.cover_reach_m();
   const SpeedMargin margin = MarginBudget::of(robot).static_margin();
   const double slowest = std::min(kSlowest_mps, margin.fastest(margin.still_m + kForSpeed_m));
   const double margin_m = margin.at(slowest) + kRounding_m;
-  const auto can_turn = [&](const Vector2& place) {
-    return std::all_of(fields.begin(), fields.end(), [&](const ObstacleField<2>* field) {
-      return field->distance_bound(place) >= reach_m + margin_m;
-    });
-  };
   const Leaving leaving = Requirements(robot)[RequirementName::kPlan].leaving;
   // Wherever the body may fit: whether it does, is searched for.
   const double least_m = robot.footprint.inscribed_radius_m() - leaving.deepest_m;
-  const TravelCost cost(static_map, start.position, {}, {least_m, least_m, 0.0, 0.0});
+  const TravelCost cost(static_map, start.position, blocked, {least_m, least_m, 0.0, 0.0});
+  const auto can_turn = [&](const Vector2& place) {
+    return cost.blocked_room_m(place) >= 0.0 &&
+           std::all_of(fields.begin(), fields.end(), [&](const ObstacleField<2>* field) {
+             return field->distance_bound(place) >= reach_m + margin_m;
+           });
+  };
   const GridPath to_exit = find_nearest_place(static_map, start.position, cost, kLatticeStep_m,
                                               kFarthestExit_m, can_turn);
   if (to_exit.outcome != GridPath::Outcome::kFound || can_turn(start.position)) return {};
@@ -137,6 +139,7 @@ std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const St
   tight.leaving = leaving;
   tight.can_reverse = robot.limits.can_reverse;
   tight.gap_m = [&](const Pose& pose) {
+    if (cost.is_blocked(pose.position)) return -std::numeric_limits<double>::infinity();
     double gap_m = std::numeric_limits<double>::infinity();
     for (const ObstacleField<2>* field : fields)
       gap_m = std::min(gap_m, clearance_m(pose, robot.footprint, *field));
@@ -160,15 +163,15 @@ std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const St
 
 }  // namespace
 
-std::vector<Phase> park_out(const Pose& start, const RobotModel& robot,
-                            const PlanningScene& scene) {
+std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const PlanningScene& scene,
+                            const std::vector<BlockedDisc>& blocked) {
   const ObstacleField<2>& obstacles = scene.static_map->field();
   if (scene.unseen) {
     const auto unseen = scene.unseen();
-    const auto way = park_out(start, robot, *scene.static_map, {&obstacles, unseen.get()});
+    const auto way = park_out(start, robot, *scene.static_map, {&obstacles, unseen.get()}, blocked);
     if (!way.empty()) return way;
   }
-  return park_out(start, robot, *scene.static_map, {&obstacles});
+  return park_out(start, robot, *scene.static_map, {&obstacles}, blocked);
 }
 
 }  // namespace mocha

@@ -17,7 +17,6 @@ ros::Time ros_time(double t) {
 
 // The enumerations are sent as their numbers.
 using Status = mocha_ugv::PlannerStatus;
-static_assert(static_cast<int>(PlanReason::kBackingOut) == Status::BACKING_OUT);
 static_assert(static_cast<int>(PlanReason::kCannotWin) == Status::CANNOT_WIN);
 static_assert(static_cast<int>(PlanReason::kEmergencyStop) == Status::EMERGENCY_STOP);
 static_assert(static_cast<int>(PlanReason::kPaused) == Status::PAUSED);
@@ -58,8 +57,6 @@ const char* to_text(PlanReason reason) {
       return "peer conflict";
     case PlanReason::kBraking:
       return "braking";
-    case PlanReason::kBackingOut:
-      return "backing out";
     case PlanReason::kCannotWin:
       return "cannot win";
     case PlanReason::kEmergencyStop:

@@ -21,17 +21,20 @@ bool TravelCost::may_escape(const Vector2& p, double distance_m) const {
 
 double TravelCost::at(const Vector2& p, double distance_m) const {
   if (distance_m < options_.required_clearance_m && !may_escape(p, distance_m)) return kInfinity;
-  for (const BlockedDisc& disc : blocked_) {
-    const double apart = (p - disc.centre).norm();
-    // A path that begins inside may leave, but not come closer.
-    if (apart < disc.radius_m && apart < (start_ - disc.centre).norm() - 1e-6) return kInfinity;
-  }
+  if (is_blocked(p)) return kInfinity;
   const double lack = std::max(0.0, 1.0 - distance_m / options_.preferred_clearance_m);
   const double wary = 1.0 + options_.clearance_weight * lack * lack;
   const double spare_m = distance_m - options_.required_clearance_m;
   if (spare_m >= options_.room_for_speed_m) return wary;
   return wary / std::max(options_.slowest_share,
                          std::sqrt(std::max(0.0, spare_m / options_.room_for_speed_m)));
+}
+
+bool TravelCost::is_blocked(const Vector2& p) const {
+  return std::any_of(blocked_.begin(), blocked_.end(), [&](const BlockedDisc& disc) {
+    const double apart_m = (p - disc.centre).norm();
+    return apart_m < disc.radius_m && apart_m < (start_ - disc.centre).norm() - 1e-6;
+  });
 }
 
 double TravelCost::blocked_room_m(const Vector2& p) const {

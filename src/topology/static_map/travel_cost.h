@@ -40,6 +40,12 @@ class TravelCost {
   double at(const Vector2& p, double distance_m) const;
   double at(const Vector2& p) const { return at(p, static_map_.field().sample(p).distance_m); }
 
+  /// Whether p lies in a blocked disc: in one that holds the start, only closer to its centre.
+  bool is_blocked(const Vector2& p) const;
+
+  /// How far p is from the blocked discs [m]; negative inside.
+  double blocked_room_m(const Vector2& p) const;
+
   /// Of the straight line; infinite if it meets a forbidden place.
   double of_line(const Vector2& a, const Vector2& b) const;
 
@@ -50,7 +56,6 @@ class TravelCost {
 
  private:
   bool may_escape(const Vector2& p, double distance_m) const;
-  double blocked_room_m(const Vector2& p) const;
 
   const StaticMap& static_map_;
   const Vector2 start_;

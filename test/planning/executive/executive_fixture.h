@@ -55,10 +55,6 @@ class ExecutiveFixture : public ::testing::Test {
     state_.stamp_s = now_s_;
     return executive_.step(now_s_, state_, committed_,
                            {[this](const PlanQuery& query) { return answer(query); },
-                            [this](const PlanQuery&, const Motion&) {
-                              ++asked_to_back_out_;
-                              return can_back_out_;
-                            },
                             [this](const std::vector<Vector2>&) { return scene_; }});
   }
 
@@ -84,8 +80,6 @@ class ExecutiveFixture : public ::testing::Test {
   PlanReason reason_ = PlanReason::kSolved;
   std::optional<Vector2> goal_;  // where the plan leads instead
   double speed_ = 0.8;
-  bool can_back_out_ = false;
-  int asked_to_back_out_ = 0;
   std::vector<PlanQuery> asked_;
   std::vector<YieldRequest> said_;
 

@@ -21,45 +21,30 @@ constexpr S kStates[] = {S::kIdle,
                          S::kPlanning,
                          S::kDriving,
                          S::kReplanning,
-                         S::kBackingOut,
                          S::kBlocked,
                          S::kGoalOccupied,
                          S::kUnreachable,
                          S::kPlanningPullOver,
                          S::kPullingOver,
-                         S::kBackingOutToPullOver,
                          S::kPullOverBlocked,
                          S::kWaiting};
-constexpr E kEvents[] = {E::kGoalGiven,
-                         E::kStopped,
-                         E::kPlanRequested,
-                         E::kFollowed,
-                         E::kGoalReached,
-                         E::kAllReached,
-                         E::kPlanEnded,
-                         E::kAtPullOverPoint,
-                         E::kStrayed,
-                         E::kPlanFound,
-                         E::kPlanInTheWay,
-                         E::kBackOutFound,
-                         E::kNoPlan,
-                         E::kPullOver,
-                         E::kGoalFoundOccupied,
-                         E::kPullOverHere,
-                         E::kNowhereToPullOver,
-                         E::kWayIsClear,
-                         E::kNoNeedToPullOver,
-                         E::kGoalBehind,
-                         E::kPaused,
-                         E::kResumed,
-                         E::kBrakes,
+constexpr E kEvents[] = {E::kGoalGiven,     E::kStopped,
+                         E::kPlanRequested, E::kFollowed,
+                         E::kGoalReached,   E::kAllReached,
+                         E::kPlanEnded,     E::kAtPullOverPoint,
+                         E::kStrayed,       E::kPlanFound,
+                         E::kPlanInTheWay,  E::kNoPlan,
+                         E::kPullOver,      E::kGoalFoundOccupied,
+                         E::kPullOverHere,  E::kNowhereToPullOver,
+                         E::kWayIsClear,    E::kNoNeedToPullOver,
+                         E::kGoalBehind,    E::kPaused,
+                         E::kResumed,       E::kBrakes,
                          E::kNoPathFound};
 
 /// What each event leads to in each state; an event that is not named is not heeded.
 std::map<S, Row> table() {
   const Row without_plan = {{E::kPlanFound, S::kDriving},
                             {E::kPlanInTheWay, S::kWaiting},
-                            {E::kBackOutFound, S::kBackingOut},
                             {E::kNoPlan, S::kBlocked},
                             {E::kGoalFoundOccupied, S::kGoalOccupied},
                             {E::kNoPathFound, S::kUnreachable}};
@@ -80,12 +65,11 @@ std::map<S, Row> table() {
                        {E::kPlanEnded, S::kBlocked},
                        {E::kPlanFound, S::kDriving}};
   rows[S::kReplanning] = {
-      {E::kFollowed, S::kReplanning},       {E::kPlanEnded, S::kBlocked},
-      {E::kPlanFound, S::kDriving},         {E::kPlanInTheWay, S::kDriving},
-      {E::kBackOutFound, S::kBackingOut},   {E::kNoPlan, S::kDriving},
-      {E::kGoalFoundOccupied, S::kDriving}, {E::kNoPathFound, S::kDriving},
+      {E::kFollowed, S::kReplanning}, {E::kPlanEnded, S::kBlocked},
+      {E::kPlanFound, S::kDriving},   {E::kPlanInTheWay, S::kDriving},
+      {E::kNoPlan, S::kDriving},      {E::kGoalFoundOccupied, S::kDriving},
+      {E::kNoPathFound, S::kDriving},
   };
-  rows[S::kBackingOut] = {{E::kPlanRequested, S::kPlanning}, {E::kPlanEnded, S::kPlanning}};
   rows[S::kBlocked] = without_plan;
   rows[S::kBlocked].erase(E::kNoPlan);
   rows[S::kBlocked].insert({{E::kPlanRequested, S::kPlanning}, {E::kFollowed, S::kDriving}});
@@ -96,23 +80,17 @@ std::map<S, Row> table() {
   rows[S::kUnreachable].erase(E::kNoPathFound);
   rows[S::kUnreachable][E::kFollowed] = S::kDriving;
   rows[S::kPlanningPullOver] = makes_room;
-  rows[S::kPlanningPullOver].insert({{E::kPlanFound, S::kPullingOver},
-                                     {E::kBackOutFound, S::kBackingOutToPullOver},
-                                     {E::kNoPlan, S::kPullOverBlocked}});
+  rows[S::kPlanningPullOver].insert(
+      {{E::kPlanFound, S::kPullingOver}, {E::kNoPlan, S::kPullOverBlocked}});
   rows[S::kPullingOver] = makes_room;
   rows[S::kPullingOver].insert({{E::kPlanRequested, S::kPlanningPullOver},
                                 {E::kFollowed, S::kPullingOver},
                                 {E::kPlanEnded, S::kPlanningPullOver}});
-  rows[S::kBackingOutToPullOver] = makes_room;
-  rows[S::kBackingOutToPullOver].insert(
-      {{E::kPlanRequested, S::kPlanningPullOver}, {E::kPlanEnded, S::kPlanningPullOver}});
   rows[S::kPullOverBlocked] = makes_room;
-  rows[S::kPullOverBlocked].insert({{E::kPlanRequested, S::kPlanningPullOver},
-                                    {E::kPlanFound, S::kPullingOver},
-                                    {E::kBackOutFound, S::kBackingOutToPullOver}});
+  rows[S::kPullOverBlocked].insert(
+      {{E::kPlanRequested, S::kPlanningPullOver}, {E::kPlanFound, S::kPullingOver}});
   rows[S::kWaiting] = {{E::kStrayed, S::kPlanningPullOver},
                        {E::kPlanFound, S::kDriving},
-                       {E::kBackOutFound, S::kBackingOut},
                        {E::kWayIsClear, S::kPlanning}};
   for (const S state : kStates) {
     Row& row = rows[state];
@@ -179,7 +157,7 @@ TEST(ExecutiveState, AStopAndANewGoalGoBeforeEverythingButAPause) {
 /// A robot without a goal gets none by making room.
 TEST(ExecutiveState, ParkedRobotsMakeRoomAndAreParkedAgain) {
   const S there = next_state(S::kParked, E::kPullOver);
-  for (const E event : {E::kPlanFound, E::kNoPlan, E::kBackOutFound}) {
+  for (const E event : {E::kPlanFound, E::kNoPlan}) {
     const S state = next_state(there, event);
     EXPECT_TRUE(makes_room(state));
     EXPECT_EQ(next_state(state, E::kNoNeedToPullOver), S::kParked);
@@ -191,7 +169,6 @@ TEST(ExecutiveState, ANameForEach) {
   for (const S state : kStates) {
     names.insert(to_text(state));
     EXPECT_LE(makes_room(state) + (state == S::kWaiting), 1);
-    EXPECT_LE(drives_plan(state) + backs_out(state), 1);
   }
   EXPECT_EQ(names.size(), std::size(kStates));
   EXPECT_EQ(names.count("unknown"), 0u);

@@ -10,12 +10,11 @@ using S = ExecutiveState;
 TEST(GoalExecutiveOptions, AreThoseOfTheSchema) {
   ParameterTable values = ParameterTable::from_schema("config/global_planner.yaml");
   values.assign(YAML::Load("{replan_period: 1.5, retry_period: 0.4, planning_time: 0.7, "
-                           "backup_distance: 0.9, occupied_goal_timeout: 2.0, "
+                           "occupied_goal_timeout: 2.0, "
                            "unreachable_timeout: 4.0}"),
                 "test");
   const auto options = GoalExecutiveOptions::from(values);
   EXPECT_EQ(options.planning_time_s, 0.7);
-  EXPECT_EQ(options.backup_distance_m, 0.9);
   EXPECT_EQ(options.planning_period_s(S::kDriving), 1.5);
   for (const S state :
        {S::kBlocked, S::kGoalOccupied, S::kUnreachable, S::kPullOverBlocked, S::kWaiting})
@@ -30,8 +29,7 @@ TEST(GoalExecutiveOptions, PlanSoonWhereThereIsNoPlanYetAndNotAtAllWhereNoneIsNe
       GoalExecutiveOptions::from(ParameterTable::from_schema("config/global_planner.yaml"));
   for (const S state : {S::kPlanning, S::kReplanning, S::kPlanningPullOver})
     EXPECT_LT(options.planning_period_s(state), options.retry_period_s) << to_text(state);
-  for (const S state : {S::kIdle, S::kParked, S::kPaused, S::kBraking, S::kBackingOut,
-                        S::kPullingOver, S::kBackingOutToPullOver})
+  for (const S state : {S::kIdle, S::kParked, S::kPaused, S::kBraking, S::kPullingOver})
     EXPECT_FALSE(options.planning_period_s(state)) << to_text(state);
 }
 

@@ -70,60 +70,22 @@ TEST_F(GoalExecutiveTest, AnswersARequestAtOnceButNoMoreOftenThanItCanPlan) {
   EXPECT_EQ(asked_.size(), 1u);
 }
 
-TEST_F(GoalExecutiveTest, BacksOutWhereThereIsNoPlanAndPlansFromThere) {
-  reason_ = PlanReason::kNoPath;
-  can_back_out_ = true;
-  const auto back = step();
-  ASSERT_TRUE(back.plan);
-  ASSERT_TRUE(back.report);
-  EXPECT_EQ(back.report->reason, PlanReason::kBackingOut);
-  EXPECT_EQ(executive_.state(), ExecutiveState::kBackingOut);
-  reason_ = PlanReason::kSolved;
-  committed_ = *back.plan;
-  run(back.plan->end_time() - options().planning_time_s - now_s_ - 0.05);
-  EXPECT_TRUE(asked_.empty());
-  EXPECT_TRUE(run(0.1).plan);
-  ASSERT_EQ(asked_.size(), 1u);
-  EXPECT_GE(asked_[0].start_time_s, back.plan->end_time() - 1e-6);
-  EXPECT_TRUE(asked_[0].driven.empty());
-  EXPECT_EQ(executive_.state(), ExecutiveState::kDriving);
-}
-
-TEST_F(GoalExecutiveTest, BacksOutOnlyFromRestAndOnlyWhereTheMapIsInTheWay) {
-  can_back_out_ = true;
-  for (const PlanReason reason : {PlanReason::kPeerConflict, PlanReason::kGoalOccupied,
-                                  PlanReason::kStartOccupied, PlanReason::kNoMap}) {
-    reason_ = reason;
-    run(1.0);
-    EXPECT_TRUE(executive_.plan().empty()) << static_cast<int>(reason);
-  }
-  reason_ = PlanReason::kNoPath;
-  committed_ = long_drive(now_s_ - 4.0, 30.0);
-  run(1.0);
-  EXPECT_EQ(asked_to_back_out_, 0);
-  committed_ = standing(now_s_, {0.0, 0.0}, 0.0);
-  run(1.0);
-  EXPECT_EQ(asked_to_back_out_, 1);
-}
-
-TEST_F(GoalExecutiveTest, DoesNotBackOutInsteadOfDrivingThePlanAtHand) {
+TEST_F(GoalExecutiveTest, DrivesThePlanAtHandWhereThereIsNoOther) {
   step();
+  const Motion at_hand = executive_.plan();
   reason_ = PlanReason::kNotCertified;
-  can_back_out_ = true;
   EXPECT_FALSE(run(3.0).plan);
   EXPECT_EQ(asked_.size(), 3u);
-  EXPECT_EQ(asked_to_back_out_, 0);
   executive_.request();  // it cannot be driven as it is
   run(0.2);
-  EXPECT_EQ(executive_.state(), ExecutiveState::kBackingOut);
+  EXPECT_EQ(asked_.size(), 1u);
+  EXPECT_EQ(executive_.state(), ExecutiveState::kDriving);
+  EXPECT_EQ(executive_.plan().end_time(), at_hand.end_time());
 }
 
-TEST_F(GoalExecutiveTest, PlansAgainAndAgainWhereBackingOutHelpedNothing) {
+TEST_F(GoalExecutiveTest, PlansAgainAndAgainWhereThereIsNoPath) {
   reason_ = PlanReason::kNoPath;
-  can_back_out_ = true;
-  committed_ = *step().plan;
-  can_back_out_ = false;
-  run(committed_.end_time() - now_s_);
+  step();
   EXPECT_EQ(executive_.state(), ExecutiveState::kUnreachable);
   run(2.0);
   EXPECT_EQ(asked_.size(), 4u);  // once a retry period

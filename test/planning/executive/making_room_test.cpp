@@ -155,20 +155,6 @@ TEST_F(MakingRoomTest, MakesRoomWhereItIsParkedButNotWhereItWasToldToStop) {
   EXPECT_TRUE(asked_.empty());
 }
 
-TEST_F(MakingRoomTest, BacksOutToItsPullOverPointWhereItCannotGoAhead) {
-  step();
-  const YieldRequest request = way_of("ugv2", {{9.0, 0.0}, {-4.0, 0.0}});
-  reason_ = PlanReason::kNoPath;
-  can_back_out_ = true;
-  run_while_asked(request, 0.5);
-  EXPECT_EQ(executive_.state(), ExecutiveState::kBackingOutToPullOver);
-  committed_ = executive_.plan();
-  reason_ = PlanReason::kSolved;
-  run_while_asked(request, committed_.end_time() - now_s_);
-  EXPECT_EQ(executive_.state(), ExecutiveState::kPullingOver);
-  EXPECT_GT(std::abs(executive_.plan().end_pose().position.y()), 0.8);
-}
-
 TEST_F(MakingRoomTest, TriesAgainAndAgainWhereTheOnlyPullOverPointIsOutOfReach) {
   step();
   const YieldRequest request = way_of("ugv2", {{9.0, 0.0}, {-4.0, 0.0}});

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <limits>
 
-#include "planning/maneuvers/back_out.h"
+#include "planning/candidates/peer_discs.h"
 #include "planning/worlds.h"
 #include "safety/certificate.h"
 #include "trajectory/rover_braking.h"
@@ -61,6 +61,21 @@ class GlobalPlannerTest : public ::testing::Test {
     EXPECT_LT((before.velocity - after.velocity).norm(), 1e-5);
     if (before.at_rest) return;
     EXPECT_LT((before.acceleration - after.acceleration).norm(), 1e-4);
+  }
+
+  /// A corridor closed at its end; too narrow to turn in for a robot with a long footprint.
+  OccupancyGrid dead_end() const {
+    OccupancyGrid grid = open_;
+    fill_box(grid, {0.0, 0.42}, {4.0, 0.62});
+    fill_box(grid, {0.0, -0.62}, {4.0, -0.42});
+    fill_box(grid, {4.0, -0.62}, {4.2, 0.62});
+    return grid;
+  }
+
+  RobotModel long_robot() const {
+    RobotModel robot = robot_;
+    robot.footprint = Footprint::rectangle(1.0, 0.4);
+    return robot;
   }
 
   const RobotModel robot_ = rover();
@@ -250,17 +265,10 @@ TEST_F(GlobalPlannerTest, StandingInAWallIsNamed) {
 }
 
 TEST_F(GlobalPlannerTest, BacksOutOfADeadEnd) {
-  OccupancyGrid grid = open_;
-  // A corridor closed at its end; too narrow to turn in for a robot with a long footprint.
-  fill_box(grid, {0.0, 0.42}, {4.0, 0.62});
-  fill_box(grid, {0.0, -0.62}, {4.0, -0.42});
-  fill_box(grid, {4.0, -0.62}, {4.2, 0.62});
-  RobotModel robot = robot_;
-  robot.footprint = Footprint::rectangle(1.0, 0.4);
-  const GlobalPlanner planner(robot, default_options());
-  PlanQuery query = from_standing({3.2, 0.0}, 0.0, {8.0, 0.0});
-  const PlanningScene scene{static_map_of(grid), {}};
-  const PlanResult backs_out = planner.plan(query, scene, kGoOn);
+  RobotModel robot = long_robot();
+  const PlanQuery query = from_standing({3.2, 0.0}, 0.0, {8.0, 0.0});
+  const PlanningScene scene{static_map_of(dead_end()), {}};
+  const PlanResult backs_out = GlobalPlanner(robot, default_options()).plan(query, scene, kGoOn);
   ASSERT_EQ(backs_out.reason, PlanReason::kSolved) << backs_out.message;
   EXPECT_EQ(std::get<DrivePhase>(backs_out.motion.phases().front()).direction, -1);
   EXPECT_FALSE(check_clearance(backs_out.motion, robot.footprint, scene.static_map->field(),
@@ -269,28 +277,40 @@ TEST_F(GlobalPlannerTest, BacksOutOfADeadEnd) {
   const PlanResult stuck = GlobalPlanner(robot, default_options()).plan(query, scene, kGoOn);
   EXPECT_NE(stuck.reason, PlanReason::kSolved);
   EXPECT_TRUE(stuck.motion.empty());
-  robot.limits.can_reverse = true;
-  std::vector<Vector2> trail;
-  for (double x = -1.0; x < 3.2; x += 0.1) trail.push_back({x, 0.01 * std::sin(5.0 * x)});
-  const auto back = back_out_along(trail, {{3.2, 0.0}, 0.0}, kStart_s, 1.0, robot.limits);
-  ASSERT_TRUE(back);
-  EXPECT_TRUE(planner.leads_on(*back, query, scene));
-  EXPECT_LT(back->end_pose().position.x(), 3.2 - 0.8);
-  EXPECT_LT(std::abs(wrap_angle(back->at(kStart_s).pose.yaw_rad)), 1e-3);
-  EXPECT_FALSE(check_limits(*back, robot.limits, kStart_s));
-  EXPECT_FALSE(check_clearance(*back, robot.footprint, scene.static_map->field(),
-                               MarginBudget::of(robot).static_margin(), kStart_s));
-  EXPECT_FALSE(
-      planner.leads_on(straight_drive(kStart_s, {3.2, 0.0}, 0.0, 0.6, 0.5, 0.5), query, scene))
-      << "into the wall";
-  PlanQuery at_goal = query;
-  at_goal.goal = {3.2, 0.0};
-  EXPECT_FALSE(planner.leads_on(*back, at_goal, scene));
-  PlanQuery nowhere = query;
-  nowhere.goal = {4.1, 0.0};  // inside of the wall
-  PlannerOptions exact = default_options();
-  exact.goal_search_radius_m = 0.1;
-  EXPECT_FALSE(GlobalPlanner(robot, exact).leads_on(*back, nowhere, scene));
+}
+
+/// The nearest place to turn in is beside the team-mate; farther up there is another.
+TEST_F(GlobalPlannerTest, BacksOutOfADeadEndClearOfATeamMateBeforeIt) {
+  const RobotModel robot = long_robot();
+  const PlanQuery query = from_standing({3.2, 0.0}, 0.0, {8.0, 0.0});
+  const auto stand = std::make_shared<const Motion>(standing(kStart_s - 5.0, {-0.9, -1.1}, 0.0));
+  const auto peer = std::make_shared<PeerObstacle>("ugv2", stand, 0.3, test::kRoverBraking);
+  const BlockedDisc disc = peer_keep_out(*peer, kStart_s, robot, 0.0);
+  const auto nearest_m = [&](const Motion& motion) {
+    double apart_m = std::numeric_limits<double>::infinity();
+    for (double t = kStart_s; t < motion.end_time(); t += 0.05)
+      apart_m = std::min(apart_m, (motion.position(t) - disc.centre).norm());
+    return apart_m;
+  };
+  const GlobalPlanner planner(robot, default_options());
+  const auto map = static_map_of(dead_end());
+  const PlanResult alone = planner.plan(query, {map, {}}, kGoOn);
+  ASSERT_EQ(alone.reason, PlanReason::kSolved) << alone.message;
+  ASSERT_LT(nearest_m(alone.motion), disc.radius_m);
+  const PlanResult result = planner.plan(query, {map, {peer}}, kGoOn);
+  ASSERT_EQ(result.reason, PlanReason::kSolved) << result.message;
+  EXPECT_GT(nearest_m(result.motion), disc.radius_m);
+}
+
+TEST_F(GlobalPlannerTest, StaysInADeadEndThatATeamMateCloses) {
+  const RobotModel robot = long_robot();
+  const PlanQuery query = from_standing({3.2, 0.0}, 0.0, {8.0, 0.0});
+  const auto stand = std::make_shared<const Motion>(standing(kStart_s - 5.0, {0.5, 0.0}, 0.0));
+  const auto peer = std::make_shared<PeerObstacle>("ugv2", stand, 0.3, test::kRoverBraking);
+  const PlanResult result = GlobalPlanner(robot, default_options())
+                                .plan(query, {static_map_of(dead_end()), {peer}}, kGoOn);
+  EXPECT_EQ(result.reason, PlanReason::kPeerConflict) << result.message;
+  EXPECT_TRUE(result.motion.empty());
 }
 
 TEST_F(GlobalPlannerTest, GoesRoundAStandingPeer) {

@@ -160,6 +160,22 @@ TEST_P(ParkingOut, TurnsOverGroundThatWasSeen) {
 INSTANTIATE_TEST_SUITE_P(Models, ParkingOut, ::testing::Values("jackal", "waveshare_rover", "own"),
                          [](const auto& model) { return model.param; });
 
+/// Closed at its end, and too narrow for the longest robot to turn in.
+TEST_P(ParkingOut, BacksOutOfALongCorridor) {
+  constexpr double kLength_m = 20.0;
+  OccupancyGrid grid = free_grid({-3.0, -3.0}, {kLength_m + 1.0, 3.0});
+  fill_box(grid, {0.0, 0.475}, {kLength_m + 0.2, 3.0});
+  fill_box(grid, {0.0, -3.0}, {kLength_m + 0.2, -0.475});
+  fill_box(grid, {kLength_m, -0.5}, {kLength_m + 0.2, 0.5});
+  PlanQuery query = from({{kLength_m - 0.8, 0.0}, 0.0});
+  query.goal = {-2.0, 2.0};
+  const PlanningScene scene{static_map_of(grid), {}};
+  const PlanResult result = planner_.plan(query, scene, [] { return false; });
+  ASSERT_EQ(result.reason, PlanReason::kSolved) << result.message;
+  EXPECT_LT((result.motion.end_pose().position - query.goal).norm(), 1e-6);
+  EXPECT_LT(result.motion.length_m(), kLength_m + 5.0);
+}
+
 TEST(PathDrive, DrivesAPathAsItIs) {
   const std::vector<Vector2> path = {{0.0, 0.0}, {0.4, 0.0}, {0.8, 0.1}, {1.2, 0.3}};
   MotionLimits slow = rover().limits;

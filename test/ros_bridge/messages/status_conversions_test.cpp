@@ -73,7 +73,6 @@ TEST(StatusConversions, EveryReasonHasItsOwnWordsAndNumber) {
       {PlanReason::kBudgetExhausted, Status::BUDGET_EXHAUSTED},
       {PlanReason::kPeerConflict, Status::PEER_CONFLICT},
       {PlanReason::kBraking, Status::BRAKING},
-      {PlanReason::kBackingOut, Status::BACKING_OUT},
       {PlanReason::kCannotWin, Status::CANNOT_WIN},
       {PlanReason::kEmergencyStop, Status::EMERGENCY_STOP},
       {PlanReason::kPaused, Status::PAUSED}};
