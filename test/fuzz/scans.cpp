@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "fleet/protocol/motions.h"
@@ -24,7 +25,6 @@ namespace {
 constexpr int kLifetime = 50;  // scans, after which a map that may be full of errors is replaced
 constexpr int kBeams = 90;
 constexpr double kSpacing_m = 0.05;  // of the points of a cloud that are taken
-constexpr double kSmoothing_m = 0.04;
 constexpr BeamReach kReach{30.0, 10.0};
 
 class Fuzzer {
@@ -68,9 +68,16 @@ class Fuzzer {
         room, [&](double) { return pose; }, 20.0, kBeams, 0.1);
     scan.start_time_s = time_s_;
     SweepPoses poses{sensor_pose(pose), sensor_pose(pose)};
+    if (odd_.one_in(4)) turn_round(scan);
     if (!odd_.one_in(3)) damage(scan);
     if (odd_.one_in(3)) damage(odd_.one_in(2) ? poses.first : poses.last);
     take(scan, poses);
+  }
+
+  /// Makes it a clockwise scan of the mirrored room.
+  static void turn_round(PlanarScan& scan) {
+    std::swap(scan.angle_min_rad, scan.angle_max_rad);
+    scan.angle_increment_rad = -scan.angle_increment_rad;
   }
 
   void damage(PlanarScan& scan) {
@@ -95,7 +102,7 @@ class Fuzzer {
       ++refused_;
       return;
     }
-    auto beams = to_beams(smoothed(scan, kSmoothing_m), poses, kReach);
+    auto beams = to_beams(smoothed(scan, smoothing_m_), poses, kReach);
     clear_peers();
     const Pose base{poses.last.translation().head<2>(), odd_.number()};
     map_.see_robot(base, start_ground_, blind_walls(beams));
@@ -140,6 +147,7 @@ class Fuzzer {
   Oddities odd_;
   const RobotModel robot_ = load_robot_model("config", "jackal");
   const StartGround start_ground_{robot_};
+  const double smoothing_m_ = shipped_smoothing_m();
   OccupancyMap map_;
   MovingObjectFilter filter_;
   PeerTracks peers_;

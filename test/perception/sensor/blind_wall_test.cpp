@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -49,6 +50,17 @@ TEST(BlindWall, IsAtEitherEnd) {
     EXPECT_NE(walls[0].hides(behind), walls[1].hides(behind));
   }
   for (const BlindWall& wall : walls) EXPECT_FALSE(wall.hides({-1.0, 0.0})) << "between them";
+}
+
+TEST(BlindWall, IsTheSameInAClockwiseSweep) {
+  std::vector<Beam> clockwise = sweep(to_wall_m);
+  std::reverse(clockwise.begin(), clockwise.end());
+  const auto walls = blind_walls(clockwise);
+  ASSERT_EQ(walls.size(), 1u);
+  const BlindWall expected = blind_walls(sweep(to_wall_m)).front();
+  EXPECT_LT((walls[0].end - expected.end).norm(), 1e-9);
+  EXPECT_LT((walls[0].along - expected.along).norm(), 1e-6);
+  EXPECT_LT((walls[0].behind - expected.behind).norm(), 1e-6);
 }
 
 TEST(BlindWall, IsSeenThoughTheLastBeamsAreMissing) {

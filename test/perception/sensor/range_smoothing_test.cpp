@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "perception/room.h"
 
@@ -77,6 +79,20 @@ TEST(RangeSmoothing, KeepsThinThingsAndWhatIsNoHit) {
 TEST(RangeSmoothing, WithoutReachItChangesNothing) {
   const PlanarScan scan = noisy(seen_from(Room(), {0.0, 0.0}), 0.01);
   EXPECT_EQ(smoothed(scan, 0.0).ranges_m, scan.ranges_m);
+}
+
+TEST(RangeSmoothing, TreatsAClockwiseScanAlike) {
+  const PlanarScan scan = noisy(seen_from(Room(), {0.4, -0.7}), 0.01);
+  PlanarScan clockwise = scan;
+  std::swap(clockwise.angle_min_rad, clockwise.angle_max_rad);
+  clockwise.angle_increment_rad = -scan.angle_increment_rad;
+  std::reverse(clockwise.ranges_m.begin(), clockwise.ranges_m.end());
+  PlanarScan back = smoothed(clockwise, kReach_m);
+  std::reverse(back.ranges_m.begin(), back.ranges_m.end());
+  EXPECT_NE(back.ranges_m, scan.ranges_m);
+  const PlanarScan expected = smoothed(scan, kReach_m);
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i)
+    EXPECT_NEAR(back.ranges_m[i], expected.ranges_m[i], 1e-5) << i;
 }
 
 TEST(RangeSmoothing, TakesScansOfAnyLength) {
