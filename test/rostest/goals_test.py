@@ -17,6 +17,8 @@ from simulated_robot import SimulatedRobot, pose, wrap
 
 LANE_Y = -1.5  # free from end to end
 ENDS = (-4.5, 4.5)  # of the lane, x
+REACTION_S = 0.3  # from the word to the wheels
+ACCELERATION_MPS2 = 0.48  # 0.6 of max_acceleration, with which robots brake
 
 
 class GoalsTest(unittest.TestCase):
@@ -93,9 +95,9 @@ class GoalsTest(unittest.TestCase):
         self.check_stands()
 
     def stopping_distance(self):
-        """[m] of the rover that brakes at 0.48 m/s^2 within 0.3 s, while it still accelerates."""
-        speed = abs(self.robot.truth.speed) + 0.1
-        return speed * speed / (2.0 * 0.48) + 0.3 * speed
+        """[m] of the rover that speeds up for another REACTION_S at most and brakes then, both at ACCELERATION_MPS2."""
+        speed = abs(self.robot.truth.speed) + ACCELERATION_MPS2 * REACTION_S
+        return REACTION_S * speed + speed * speed / (2.0 * ACCELERATION_MPS2)
 
     def test_cancel_stops_at_once(self):
         self.go_to_speed()
@@ -121,6 +123,7 @@ class GoalsTest(unittest.TestCase):
         x, _ = self.go_to_speed()
         place, allowed = self.robot.place(), self.stopping_distance()
         self.assertEqual(self.pause(True).message, "paused")
+        self.addCleanup(self.pause, False)
         self.robot.run_until(self.robot.standing, 4.0, "it stands after the pause")
         self.assertLess(self.robot.distance_to(*place), allowed)
         self.check_stands()
