@@ -25,6 +25,7 @@ constexpr double kShareOfYawRate = 0.92;
 constexpr double kShareOfWheelSpeed = 0.97;
 constexpr double kShareOfRoom_m = 0.005;
 constexpr double kRelativeCost = 1e-4;  // falling by less, the search has converged
+constexpr double kNarrowStep_m = 0.05;  // between the places where a path may be narrow, at least
 constexpr double kSpacingOfRoom = 1.5;  // knots apart, over the room beside the path
 constexpr double kLeastPieces = 10.0;   // of a drive, for its ramps
 constexpr double kLeastTimedPieces = 3.0;
@@ -194,8 +195,10 @@ std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQu
   const double weight = options_.weight_obstacle * effort.obstacle_weight;
   penalties.push_back(
       std::make_unique<ObstaclePenalty<2>>(weight, field, std::move(wished), kSoftSpeed));
-  penalties.push_back(
-      std::make_unique<ClearancePenalty<2>>(weight, field, std::move(required), kSoftSpeed));
+  // Steep, so it takes evaluations: only where the speed is to follow the room.
+  if (effort.obstacle_weight > 1.0 || is_narrow(query.path, field))
+    penalties.push_back(
+        std::make_unique<ClearancePenalty<2>>(weight, field, std::move(required), kSoftSpeed));
   penalties.push_back(
       std::make_unique<DynamicsPenalty<2>>(options_.weight_dynamics * effort.limit_weight,
                                            kShareOfSpeed * effort.speed * limits.max_speed,
@@ -219,9 +222,33 @@ std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQu
 }
 
 double DriveOptimizer::fastest_at(const Vector2& place, const ObstacleField<2>& field) const {
-  const double room_m = field.distance_bound(place) - robot_.footprint.inscribed_radius_m();
-  if (room_m < static_margin_.still_m) return robot_.limits.max_speed;
-  return std::max(kCreep_mps, static_margin_.fastest(room_m - kShareOfRoom_m));
+  const double max_speed = robot_.limits.max_speed;
+  const double body_m = robot_.footprint.inscribed_radius_m() + kShareOfRoom_m;
+  const double lacking_m = body_m + static_margin_.at(max_speed) - field.distance_bound(place);
+  if (lacking_m <= 0.0) return max_speed;
+  const Vector2 off = lacking_m * field.sample(place).gradient;
+  double distance_m = 0.0;
+  for (const double share : {0.0, 0.6, 1.2})
+    distance_m = std::max(distance_m, field.distance_bound(place + share * off));
+  const double room_m = distance_m - body_m;
+  if (room_m < static_margin_.still_m) return max_speed;
+  return std::min(max_speed, std::max(kCreep_mps, static_margin_.fastest(room_m)));
+}
+
+bool DriveOptimizer::is_narrow(const std::vector<Vector2>& path,
+                               const ObstacleField<2>& field) const {
+  const double max_speed = robot_.limits.max_speed;
+  const double roomy_m = robot_.footprint.inscribed_radius_m() + static_margin_.at(max_speed);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vector2 way = path[i] - path[i - 1];
+    const double length_m = way.norm();
+    for (double along_m = 0.0; along_m < length_m;) {
+      const Vector2 place = path[i - 1] + (along_m / length_m) * way;
+      if (fastest_at(place, field) < max_speed) return true;
+      along_m += std::max(kNarrowStep_m, field.distance_bound(place) - roomy_m);
+    }
+  }
+  return false;
 }
 
 InitialKnots<2> DriveOptimizer::initial_knots(const DriveQuery& query,

@@ -67,9 +67,12 @@ class DriveOptimizer {
 
  private:
   const MotionLimits& limits_of(const DriveQuery& query) const;
-  /// How fast the base may be there, about, in the direction in which it needs the least room
-  /// [m/s]; a place where it may not be at all says nothing.
+  /// How fast the base may be there, about, in the direction in which it needs the least room, and
+  /// a little aside where that is what it lacks [m/s]; a place where it may not be at all says
+  /// nothing.
   double fastest_at(const Vector2& place, const ObstacleField<2>& field) const;
+  /// Whether there is a place on the path where the base has to be slower than it can.
+  bool is_narrow(const std::vector<Vector2>& path, const ObstacleField<2>& field) const;
   InitialKnots<2> initial_knots(const DriveQuery& query, const ObstacleField<2>& field,
                                 const Effort& effort) const;
   PlanarMinco::State end_state(const DriveQuery& query) const;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "planning/candidates/peer_discs.h"
@@ -54,6 +55,24 @@ TEST_F(DriveOptimizerTest, KeepsClearOfWhatStandsBesideTheWay) {
   const Violation violation = check_clearance(motion, robot_.footprint, field,
                                               MarginBudget::of(robot_).static_margin(), 0.0);
   EXPECT_FALSE(violation) << describe(violation);
+}
+
+TEST_F(DriveOptimizerTest, SlowsDownBetweenWallsButBesideOneKeepsOff) {
+  const double off_m = robot_.footprint.inscribed_radius_m() + 0.05;
+  const auto term = [&](const std::vector<double>& sides, const char* name) {
+    std::vector<CircleField::Circle> rows;
+    for (const double side : sides) {
+      for (double x = 3.0; x <= 7.0; x += 0.1) rows.push_back({{x, side * (off_m + 0.1)}, 0.1});
+    }
+    const auto found = optimizer_.optimize_drive(from_rest({{0.0, 0.0}, {10.0, 0.0}}),
+                                                 CircleField(rows), {}, kGoOn);
+    return std::any_of(found.terms.begin(), found.terms.end(),
+                       [&](const auto& each) { return each.first == name; });
+  };
+  EXPECT_TRUE(term({-1.0, 1.0}, "clearance"));
+  EXPECT_FALSE(term({-1.0}, "clearance"));
+  EXPECT_FALSE(term({}, "clearance"));
+  EXPECT_TRUE(term({}, "obstacle"));
 }
 
 TEST_F(DriveOptimizerTest, TheSpacingOfKnotsFollowsTheClutter) {
@@ -169,7 +188,7 @@ TEST_F(DriveOptimizerTest, NamesTheTermsOfTheCost) {
   std::string names;
   for (const auto& term : optimizer_.optimize_drive(query, open_, {}, kGoOn).terms)
     names += term.first + " ";
-  EXPECT_EQ(names, "control_effort duration obstacle clearance dynamics turning moving ");
+  EXPECT_EQ(names, "control_effort duration obstacle dynamics turning moving ");
 }
 
 TEST_F(DriveOptimizerTest, HasNothingWhenItMayNotWork) {
