@@ -45,6 +45,12 @@ class Neighbourhood {
   int sides_ = 0;
 };
 
+/// Whether the last beam is the neighbour of the first.
+bool is_all_round(const PlanarScan& scan) {
+  const double turn_rad = scan.ranges_m.size() * scan.angle_increment_rad;
+  return std::abs(std::abs(turn_rad) - 2.0 * M_PI) < 1.5 * std::abs(scan.angle_increment_rad);
+}
+
 }  // namespace
 
 PlanarScan smoothed(const PlanarScan& scan, double reach_m) {
@@ -57,13 +63,17 @@ PlanarScan smoothed(const PlanarScan& scan, double reach_m) {
     return a * a + b * b - 2.0 * a * b * std::cos(angle_rad) <= reach_m * reach_m;
   };
   PlanarScan result = scan;
+  const bool all_round = is_all_round(scan);
   for (int i = 0; i < count; ++i) {
     if (!is_near(i, i)) continue;
+    const int room = all_round ? (count - 1) / 2 : std::min(i, count - 1 - i);
     Neighbourhood about(scan.ranges_m[i]);
-    for (int k = 1; k <= kMostNeighbours && i - k >= 0 && i + k < count && is_near(i, i - k) &&
-                    is_near(i, i + k);
-         ++k)
-      about.add(scan.ranges_m[i - k] + scan.ranges_m[i + k]);
+    for (int k = 1; k <= std::min(kMostNeighbours, room); ++k) {
+      const int before = (i - k + count) % count;
+      const int after = (i + k) % count;
+      if (!is_near(i, before) || !is_near(i, after)) break;
+      about.add(scan.ranges_m[before] + scan.ranges_m[after]);
+    }
     result.ranges_m[i] = static_cast<float>(about.mean_m());
   }
   return result;

@@ -102,10 +102,11 @@ class WayOutSearch {
     if (tight_.can_reverse) stretches_.push_back({-kStep_m, curvature * kStep_m});
   }
 
-  /// Whether a drive goes on with at most twice its curvature, to the same side: from straight on,
-  /// with the gentlest.
+  /// Whether a stretch goes on with another of its kind. A turn does to the same side: to and fro
+  /// could come to nothing, which is no motion. A drive does with at most twice its curvature, to
+  /// the same side: from straight on, with the gentlest.
   bool is_smooth(const Stretch& before, const Stretch& after) const {
-    if (after.length_m == 0.0) return true;
+    if (after.length_m == 0.0) return before.turn_rad * after.turn_rad > 0.0;
     const double change_rad = std::abs(after.turn_rad - before.turn_rad);
     return change_rad <= std::abs(before.turn_rad) + 1.01 * gentlest_ * kStep_m;
   }

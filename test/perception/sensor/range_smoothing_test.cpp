@@ -42,6 +42,17 @@ TEST(RangeSmoothing, TakesMostOfTheNoiseFromAWallCloseBy) {
   EXPECT_LT(worst_error_m(smoothed(scan, kReach_m), truth, 0.35), 0.01);
 }
 
+TEST(RangeSmoothing, TakesItWhereAScanAllRoundBeginsAndEnds) {
+  const Room room;
+  const PlanarScan truth = seen_from(room, {room.low.x() + 0.3, 0.0});
+  for (const std::size_t i : {std::size_t{0}, truth.ranges_m.size() - 1}) {
+    ASSERT_NEAR(truth.ranges_m[i], 0.3, 1e-4);
+    PlanarScan off = truth;
+    off.ranges_m[i] += 0.015F;
+    EXPECT_NEAR(smoothed(off, kReach_m).ranges_m[i], 0.3, 0.002) << i;
+  }
+}
+
 TEST(RangeSmoothing, LeavesFlatWallsWhereTheyAre) {
   const Room room;
   const PlanarScan truth = seen_from(room, {0.0, room.low.y() + 0.3});

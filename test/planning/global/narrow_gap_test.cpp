@@ -61,7 +61,9 @@ TEST_F(NarrowGap, TakesTheLongerTheNarrowerItIs) {
     EXPECT_GT(took_s, wider_s) << width_m;
     EXPECT_LT(took_s, 20.0) << width_m;
     wider_s = took_s;
-    if (width_m == 0.7) EXPECT_LT(speed, 0.6);
+    if (width_m == 0.7) {
+      EXPECT_LT(speed, 0.6);
+    }
   }
 }
 

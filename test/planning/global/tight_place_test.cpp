@@ -94,6 +94,14 @@ Driven driven(const TightPlace& tight, const std::vector<Stretch>& way) {
   return driven;
 }
 
+/// Whether a turn is followed by one to the other side.
+bool turns_to_and_fro(const std::vector<Stretch>& way) {
+  const auto undone = [](const Stretch& before, const Stretch& after) {
+    return before.length_m == 0.0 && after.length_m == 0.0 && before.turn_rad * after.turn_rad <= 0;
+  };
+  return std::adjacent_find(way.begin(), way.end(), undone) != way.end();
+}
+
 class TightPlaceTest : public ::testing::TestWithParam<Body> {
  protected:
   /// Every heading leads out, and the body keeps half of the margin, or about the gap it had.
@@ -105,7 +113,9 @@ class TightPlaceTest : public ::testing::TestWithParam<Body> {
         start.position -= (body_.extent_m(yaw_rad, wall.normal) + gap) * wall.normal;
       const TightPlace tight = beside(body_, walls, start);
       if (tight.is_out(start)) continue;
-      const Driven way = driven(tight, find_way_out(tight, kMaxExpansions));
+      const std::vector<Stretch> stretches = find_way_out(tight, kMaxExpansions);
+      EXPECT_FALSE(turns_to_and_fro(stretches)) << gap << ", " << 15 * i;
+      const Driven way = driven(tight, stretches);
       EXPECT_TRUE(tight.is_out(way.end)) << gap << " m, " << 15 * i << " degrees";
       EXPECT_GE(way.least_m,
                 std::min(gap - Leaving::kLoss_m - Leaving::kSlack_m, 0.5 * body_.margin_m))
