@@ -30,6 +30,8 @@ if(ompl_FOUND)
   endforeach()
 endif()
 
+mocha_benchmark(maps test/benchmarks/maps_building.cpp)
+
 mocha_benchmark(replan test/benchmarks/replan_scene.cpp test/benchmarks/replan_run.cpp test/benchmarks/space_time_solver.cpp)
 
 foreach(name table3 fleet_delay fleet_scale deadlock)

@@ -9,6 +9,14 @@
 #include "ros_bridge/runtime/transport.h"
 
 namespace mocha {
+namespace {
+
+bool is_same(const OccupancyGrid& a, const OccupancyGrid& b) {
+  return a.resolution_m == b.resolution_m && a.origin == b.origin && a.width == b.width &&
+         a.height == b.height && a.cells == b.cells;
+}
+
+}  // namespace
 
 NewestMap::NewestMap(std::string frame) : frame_(std::move(frame)) {}
 
@@ -18,8 +26,10 @@ void NewestMap::on_map(const nav_msgs::OccupancyGrid& map) {
       throw std::invalid_argument("is in frame `" + map.header.frame_id + "`, not in `" + frame_ +
                                   "`");
     }
-    grid_ = from_message(map);
+    OccupancyGrid grid = from_message(map);
     stamp_ = map.header.stamp;
+    if (is_same(grid, grid_)) return;
+    grid_ = std::move(grid);
     ++revision_;
   } catch (const std::exception& error) {
     ++refused_;

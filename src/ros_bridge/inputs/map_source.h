@@ -20,7 +20,7 @@ class NewestMap {
   void on_map(const nav_msgs::OccupancyGrid& map);
 
   bool available() const { return grid_.width > 0; }
-  /// Counts up with every map.
+  /// Counts up with every map that differs from the one before.
   int revision() const { return revision_; }
   /// Since the stamp of the newest map [s]; infinity before the first.
   double age_s(ros::Time now) const;

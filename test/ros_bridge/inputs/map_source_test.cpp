@@ -70,8 +70,20 @@ TEST_F(NewestMapTest, FieldsAreKeptWhileTheyServe) {
   EXPECT_EQ(maps.field(Solid::kOccupied, {{3.0, 2.0}}, 1.0), first);  // both kinds are kept
   const auto wider = maps.field(Solid::kOccupied, {{9.0, 2.0}}, 1.0);
   EXPECT_NE(wider, first);
+  fill_disc(grid, {4.0, 2.0}, 0.1, OccupancyGrid::kOccupied);
   maps.on_map(message(grid, 11.0));
   EXPECT_NE(maps.field(Solid::kOccupied, {{9.0, 2.0}}, 1.0), wider);
+}
+
+TEST_F(NewestMapTest, AMapInWhichNothingChangedOnlyMakesItNewer) {
+  maps.on_map(message(grid, 10.0));
+  const auto first = maps.field(Solid::kOccupied, {{3.0, 2.0}}, 1.0);
+  maps.on_map(message(grid, 11.0));
+  EXPECT_EQ(maps.field(Solid::kOccupied, {{3.0, 2.0}}, 1.0), first);
+  EXPECT_NEAR(maps.age_s(ros::Time(11.5)), 0.5, 1e-9);
+  grid.origin.x() += grid.resolution_m;
+  maps.on_map(message(grid, 12.0));
+  EXPECT_NE(maps.field(Solid::kOccupied, {{3.0, 2.0}}, 1.0), first);
 }
 
 TEST_F(NewestMapTest, RefusedMapsAreCountedAndLeaveTheFormerOne) {

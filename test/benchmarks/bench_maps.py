@@ -1,0 +1,61 @@
+"""Plans through seeded maps of buildings: rooms, corridors with rooms, halls of pillars, mazes and clutter, from 30 to 200 m a side, cells of 5 cm.
+
+A rover goes from corner to corner: first from rest; then again while it drives the plan (4 s under way); then with what is narrowest on its
+way shut; then to a goal that is walled in. t_map is what is made of a new map before a plan (two distance fields), t_plan the whole plan with
+all classes, A* the shortest path on the same map for the robot's disc and margin alone. T/shortest is the duration over that path's length at top speed.
+"""
+import statistics
+
+from benchmarks import benchmark
+
+KINDS = ("rooms", "corridors", "pillars", "maze", "clutter")
+SIDES_M = (30, 100)
+CASES = ("first", "replan", "door_closed", "unreachable")
+
+
+def add_arguments(parser):
+    parser.add_argument("--kinds", default=",".join(KINDS), metavar="NAME,...", help=f"(default {','.join(KINDS)})")
+    parser.add_argument("--sides", default=",".join(map(str, SIDES_M)), metavar="METRES,...", help=f"(default {','.join(map(str, SIDES_M))})")
+    parser.add_argument("--seeds", type=int, default=1, metavar="N", help="maps of each kind and side (default 1)")
+    parser.add_argument("--json", metavar="FILE", help="write the rows there")
+
+
+def median(rows, key):
+    values = [row[key] for row in rows if key in row]
+    return statistics.median(values) if values else None
+
+
+def text(value, factor, width, decimals):
+    return f"{'-' if value is None else format(factor * value, f'.{decimals}f'):>{width}}"
+
+
+def print_table(rows):
+    print(f"{'medians':34}{'t_map [ms]':>11}{'t_plan [ms]':>12}{'A* [ms]':>9}{'classes':>9}{'T [s]':>8}{'T/shortest':>12}  solved")
+    for name, side, case in dict.fromkeys((row["map"], row["side_m"], row["case"]) for row in rows):
+        some = [row for row in rows if (row["map"], row["side_m"], row["case"]) == (name, side, case)]
+        solved = sum(row["reason"] == "solved" for row in some)
+        print(f"{f'{name}, {side:g} m, {case}':34}{text(median(some, 't_map_s'), 1e3, 11, 1)}{text(median(some, 't_plan_s'), 1e3, 12, 1)}"
+              f"{text(median(some, 't_astar_s'), 1e3, 9, 1)}{text(median(some, 'classes'), 1, 9, 0)}{text(median(some, 'T_s'), 1, 8, 1)}"
+              f"{text(median(some, 'T_over_shortest'), 1, 12, 3)}  {solved}/{len(some)}")
+
+
+def print_summary(rows):
+    print()
+    for case in CASES:
+        times = [row["t_plan_s"] for row in rows if row["case"] == case]
+        if times:
+            print(f"{case:12} median {1e3 * statistics.median(times):8.1f} ms, longest {1e3 * max(times):8.1f} ms")
+
+
+def run(options):
+    program = benchmark.build("maps")
+    rows = []
+    for side in map(float, options.sides.split(",")):
+        for kind in options.kinds.split(","):
+            for seed in range(1, options.seeds + 1):
+                found = benchmark.call(program, kind, side, seed)["rows"]
+                rows += [{**row, "side_m": side, "seed": seed} for row in found]
+    print_table(rows)
+    print_summary(rows)
+    benchmark.write({"rows": rows}, options.json)
+    return 0
