@@ -162,6 +162,14 @@ GlobalSeeds FrontEnd::after(const std::vector<Phase>& before, const PlanQuery& q
   return result;
 }
 
+bool FrontEnd::may_reach(const Vector2& start, const Vector2& goal,
+                         const StaticMap& static_map) const {
+  const double half_diagonal_m = M_SQRT2 * static_map.detail_m();
+  const auto space =
+      static_map.connectivity(std::max(0.0, required_clearance_m() - half_diagonal_m));
+  return !space || !space->holds(start) || space->connects(start, goal);
+}
+
 bool FrontEnd::reaches(const Vector2& start, const Vector2& goal,
                        const StaticMap& static_map) const {
   const TravelCost cost(static_map, start, {}, options_.travel);
@@ -172,6 +180,9 @@ bool FrontEnd::reaches(const Vector2& start, const Vector2& goal,
 std::optional<NarrowPlace> FrontEnd::narrowest(const Vector2& start, const Vector2& goal,
                                                const StaticMap& static_map) const {
   const double needed_m = passable_gap_m(robot_);
+  // What is not even a cell wide is no way.
+  const auto space = static_map.connectivity(0.5 * static_map.detail_m());
+  if (space && space->holds(start) && !space->connects(start, goal)) return std::nullopt;
   for (const double free_radius_m : {options_.travel.escape_radius_m, 0.0}) {
     const auto narrow = narrowest_place(static_map, start, goal, kLatticeStep_m, free_radius_m);
     if (narrow && narrow->width_m < needed_m) return narrow;
@@ -181,6 +192,8 @@ std::optional<NarrowPlace> FrontEnd::narrowest(const Vector2& start, const Vecto
 
 Vector2 FrontEnd::nearest_reachable(const Vector2& start, const Vector2& goal,
                                     const StaticMap& static_map) const {
+  const auto space = static_map.connectivity(required_clearance_m());
+  if (space && space->holds(start)) return space->nearest(start, goal).value_or(start);
   const TravelCost cost(static_map, start, {}, options_.travel);
   Vector2 nearest = start;
   find_nearest_place(static_map, start, cost, kReachableStep_m, TravelCost::kInfinity,

@@ -41,6 +41,9 @@ class FrontEnd {
   GlobalSeeds after_parking_out(const PlanQuery& query, const PlanningScene& scene,
                                 const Vector2& goal) const;
 
+  /// False only where no path can lead to the goal, team-mates or not; takes no search.
+  bool may_reach(const Vector2& start, const Vector2& goal, const StaticMap& static_map) const;
+
   /// Whether there is any path, team-mates aside.
   bool reaches(const Vector2& start, const Vector2& goal, const StaticMap& static_map) const;
 

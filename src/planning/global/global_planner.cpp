@@ -130,6 +130,16 @@ void GlobalPlanner::run(const PlanQuery& query, const GlobalSeeds& seeds,
   result.switches_class = chosen && seeds.driven && chosen->signature != *seeds.driven;
 }
 
+void GlobalPlanner::search(const PlanQuery& query, const PlanningScene& scene, const Vector2& goal,
+                           const std::function<bool()>& should_stop, PlanResult& result) const {
+  run(query, front_end_.seeds(query, scene, goal), scene, should_stop, result);
+  for (const auto& other_start : {&FrontEnd::after_braking, &FrontEnd::after_parking_out}) {
+    if (result.reason == PlanReason::kSolved) return;
+    const GlobalSeeds seeds = (front_end_.*other_start)(query, scene, goal);
+    if (!seeds.list.empty()) run(query, seeds, scene, should_stop, result);
+  }
+}
+
 PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scene,
                                const std::function<bool()>& should_stop) const {
   if (auto refused = refusal(query, scene)) return *refused;
@@ -148,16 +158,12 @@ PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scen
   PlanResult result = failure(PlanReason::kNoPath, "no path from " + place(start.pose.position) +
                                                        " to " + place(*goal) + " on the map");
   result.goal = *goal;
-  run(query, front_end_.seeds(query, scene, *goal), scene, should_stop, result);
-  if (result.reason == PlanReason::kSolved) return result;
-  for (const auto& other_start : {&FrontEnd::after_braking, &FrontEnd::after_parking_out}) {
-    const GlobalSeeds seeds = (front_end_.*other_start)(query, scene, *goal);
-    if (!seeds.list.empty()) run(query, seeds, scene, should_stop, result);
-    if (result.reason == PlanReason::kSolved) return result;
-  }
-  if (!result.candidates.empty()) return result;
   const StaticMap& static_map = *scene.static_map;
-  if (!scene.peers.empty() && front_end_.reaches(start.pose.position, *goal, static_map)) {
+  const bool may_reach = front_end_.may_reach(start.pose.position, *goal, static_map);
+  if (may_reach) search(query, scene, *goal, should_stop, result);
+  if (result.reason == PlanReason::kSolved || !result.candidates.empty()) return result;
+  if (may_reach && !scene.peers.empty() &&
+      front_end_.reaches(start.pose.position, *goal, static_map)) {
     result.reason = PlanReason::kPeerConflict;
     result.message = "team-mates stand on every path to " + place(*goal);
   } else {

@@ -30,6 +30,9 @@ class GlobalPlanner {
   std::string obstruction(const Vector2& start, const Vector2& goal,
                           const StaticMap& static_map) const;
   PlanResult turn_only(const PlanQuery& query, const PlanningScene& scene) const;
+  /// Runs from where the robot is, then after braking, then after parking out, until solved.
+  void search(const PlanQuery& query, const PlanningScene& scene, const Vector2& goal,
+              const std::function<bool()>& should_stop, PlanResult& result) const;
   /// Sets the candidates, and selects one, if there is one to be driven.
   void run(const PlanQuery& query, const GlobalSeeds& seeds, const PlanningScene& scene,
            const std::function<bool()>& should_stop, PlanResult& result) const;

@@ -17,6 +17,9 @@ class GridStaticMap : public StaticMap {
   const DistanceField& field() const override { return *field_; }
   const Eigen::AlignedBox2d& bounds() const override { return bounds_; }
   double detail_m() const override { return 0.5 * field_->resolution_m(); }
+  std::optional<Connectivity> connectivity(double clearance_m) const override {
+    return Connectivity(*field_, clearance_m);
+  }
   std::vector<ObstacleGroup> groups_within(const Eigen::AlignedBox2d& window,
                                            double clearance_m) const override;
 

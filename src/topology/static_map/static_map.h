@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
+#include "topology/static_map/connectivity.h"
 #include "topology/static_map/obstacle_group.h"
 #include "world/obstacle_field.h"
 
@@ -18,6 +20,10 @@ class StaticMap {
   virtual const Eigen::AlignedBox2d& bounds() const = 0;
   /// Whatever is smaller than this does not show [m]: half a cell of a map.
   virtual double detail_m() const = 0;
+  /// What is connected for a centre that keeps `clearance_m` >= 0, on a map that can tell without a
+  /// search.
+  virtual std::optional<Connectivity> connectivity(double) const { return std::nullopt; }
+
   /// The obstacles, for a robot whose centre keeps `clearance_m` > 0. Nowhere can it pass between
   /// two parts of one group; whether it can pass between two groups, the field says.
   std::vector<ObstacleGroup> groups(double clearance_m) const {
