@@ -126,39 +126,45 @@ void clutter(OccupancyGrid& grid, std::mt19937& random) {
   }
 }
 
-using Draw = std::function<void(OccupancyGrid&, std::mt19937&)>;
+/// How a kind is drawn. Start and goal are in the middle of squares of `pitch_m` in two corners,
+/// which are cleared unless they are rooms.
+struct Kind {
+  double pitch_m;
+  bool has_rooms;
+  std::function<void(OccupancyGrid&, std::mt19937&)> draw;
+};
 
-Draw rooms(const Rooms::Layout& layout) {
-  return
-      [layout](OccupancyGrid& grid, std::mt19937& random) { Rooms(grid, layout, random).draw(); };
+Kind rooms(const Rooms::Layout& layout) {
+  return {layout.pitch_m, true, [layout](OccupancyGrid& grid, std::mt19937& random) {
+            Rooms(grid, layout, random).draw();
+          }};
 }
 
-const std::map<std::string, Draw> kKinds = {{"rooms", rooms({6.0, kDoor_m, 0.5, 0})},
+const std::map<std::string, Kind> kKinds = {{"rooms", rooms({6.0, kDoor_m, 0.5, 0})},
                                             {"corridors", rooms({5.0, kDoor_m, 0.1, 3})},
                                             {"maze", rooms({2.2, 2.0, 0.02, 0})},
-                                            {"pillars", pillars},
-                                            {"clutter", clutter}};
+                                            {"pillars", {5.0, false, pillars}},
+                                            {"clutter", {5.0, false, clutter}}};
 
 }  // namespace
 
-std::optional<Building> building(const std::string& kind, double side_m, unsigned seed) {
-  const auto draw = kKinds.find(kind);
-  if (draw == kKinds.end()) return std::nullopt;
+std::optional<Building> building(const std::string& name, double side_m, unsigned seed) {
+  const auto found = kKinds.find(name);
+  if (found == kKinds.end()) return std::nullopt;
+  const Kind& kind = found->second;
   Building building;
   OccupancyGrid& grid = building.grid;
   grid.resolution_m = kCell_m;
   grid.width = grid.height = static_cast<int>(std::lround(side_m / kCell_m));
   grid.cells.assign(static_cast<std::size_t>(grid.width) * grid.height, OccupancyGrid::kFree);
   std::mt19937 random(seed);
-  draw->second(grid, random);
-  const double pitch_m = kind == "maze" ? 2.2 : kind == "rooms" ? 6.0 : 5.0;
-  const double last_m = (std::floor(side_m / pitch_m) - 0.5) * pitch_m + 0.5 * kWall_m;
-  building.start = Vector2::Constant(0.5 * pitch_m + 0.5 * kWall_m);
+  kind.draw(grid, random);
+  const double last_m = (std::floor(side_m / kind.pitch_m) - 0.5) * kind.pitch_m + 0.5 * kWall_m;
+  building.start = Vector2::Constant(0.5 * kind.pitch_m + 0.5 * kWall_m);
   building.goal = Vector2::Constant(last_m);
-  if (kind == "pillars" || kind == "clutter") {
-    for (const Vector2& place : {building.start, building.goal})
-      fill_disc(grid, place, kFree_m, OccupancyGrid::kFree);
-  }
+  if (kind.has_rooms) return building;
+  for (const Vector2& place : {building.start, building.goal})
+    fill_disc(grid, place, kFree_m, OccupancyGrid::kFree);
   return building;
 }
 

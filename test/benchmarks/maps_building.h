@@ -14,9 +14,9 @@ struct Building {
   Vector2 goal = Vector2::Zero();
 };
 
-/// Cells of 5 cm, `side_m` on each side, at least 30. Kinds: rooms, corridors, pillars, maze,
-/// clutter; none for another word.
-std::optional<Building> building(const std::string& kind, double side_m, unsigned seed);
+/// Cells of 5 cm, `side_m` on each side, at least 30. Names: rooms, corridors, pillars, maze,
+/// clutter; nothing for another one.
+std::optional<Building> building(const std::string& name, double side_m, unsigned seed);
 
 /// The map with a wall of 0.2 m about a square of 3 m, its middle free.
 OccupancyGrid walled_in(const OccupancyGrid& grid, const Vector2& place);
