@@ -164,10 +164,15 @@ GlobalSeeds FrontEnd::after(const std::vector<Phase>& before, const PlanQuery& q
 
 bool FrontEnd::may_reach(const Vector2& start, const Vector2& goal,
                          const StaticMap& static_map) const {
+  // No motion has less room, not even one that leaves a tight place: see parking_out.
+  const double least_m = std::min(
+      required_clearance_m(), robot_.footprint.inscribed_radius_m() -
+                                  Requirements(robot_)[RequirementName::kPlan].leaving.deepest_m);
+  // From closer, paths may be as close as the start.
+  if (static_map.field().distance_bound(start) < least_m) return true;
   const double half_diagonal_m = M_SQRT2 * static_map.detail_m();
-  const auto space =
-      static_map.connectivity(std::max(0.0, required_clearance_m() - half_diagonal_m));
-  return !space || !space->holds(start) || space->connects(start, goal);
+  const auto space = static_map.connectivity(std::max(0.0, least_m - half_diagonal_m));
+  return !space || space->connects(start, goal);
 }
 
 bool FrontEnd::reaches(const Vector2& start, const Vector2& goal,

@@ -41,6 +41,17 @@ TEST_F(FrontEndTest, FindsASeedOnEitherSideWithWhatItCostsAtLeast) {
   }
 }
 
+TEST_F(FrontEndTest, GivesUpBeforeTheSearchOnlyWhereNothingCanLead) {
+  const Vector2 start(-2.0, 0.0);
+  const auto may_reach = [&] { return front_end_.may_reach(start, kGoal, *static_map_of(grid_)); };
+  EXPECT_TRUE(may_reach());
+  fill_box(grid_, {-0.2, -4.0}, {0.2, 4.0});
+  EXPECT_FALSE(may_reach());
+  // From a tight place, a way out may be tighter than paths are.
+  fill_box(grid_, {-2.5, 0.2}, {-1.5, 0.6});
+  EXPECT_TRUE(may_reach());
+}
+
 TEST_F(FrontEndTest, KnowsTheClassThatIsBeingDriven) {
   const GlobalSeeds fresh = seeds();
   const std::vector<Vector2>& path = fresh.list[1].start_maneuvers[0].path;
