@@ -73,14 +73,15 @@ std::vector<Vector2> YieldPolicy::wanted_path(const RobotIntent& intent, const V
 std::optional<YieldRequest> YieldPolicy::ask(const RobotIntent& intent, const Vector2& there,
                                              const SceneSource& scene, double now_s) {
   if (!asking_.due(now_s, stands(intent.state))) return std::nullopt;
-  const PlanningScene around = scene({intent.state.pose.position, there});
+  const Vector2& here = intent.state.pose.position;
+  const PlanningScene around = scene({here, there});
   const std::vector<Vector2> path = wanted_path(intent, there, around, now_s);
   const bool on_it = yielding_.is_near(path, around, now_s, 0.0);
   const bool near_it = yielding_.is_near(path, around, now_s, kNear_m);
   if (!asking_.look(now_s, on_it, near_it) || path.empty()) return std::nullopt;
-  const Rank& own = yielding_.own();
-  const bool for_another = intent.pull_over && outranks(intent.pull_over->whose, own);
-  return yielding_.request_for(path, for_another ? intent.pull_over->whose : own);
+  // Who made it pull over may not need the way any more, while another one does.
+  const auto in_way_of = yielding_.in_way_of(here, now_s);
+  return yielding_.request_for(path, in_way_of ? *in_way_of : yielding_.own());
 }
 
 std::optional<YieldRequest> YieldPolicy::withdrawal() {

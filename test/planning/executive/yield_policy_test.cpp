@@ -16,8 +16,8 @@ constexpr double kTolerance_m = 0.15;
 /// ugv5 in an open place, with ugv2 asking for the way along the x axis.
 class YieldPolicyTest : public ::testing::Test {
  protected:
-  void hear(const std::string& agent, std::vector<Vector2> path) {
-    policy_.hear({agent, 1, {false, 0, agent}, 0.3, 1.0, std::move(path)}, kNow_s);
+  void hear(const std::string& agent, std::vector<Vector2> path, double now_s = kNow_s) {
+    policy_.hear({agent, 1, {false, 0, agent}, 0.3, 1.0, std::move(path)}, now_s);
   }
   void stand(const std::string& agent, const Vector2& place) {
     scene_.peers = {std::make_shared<PeerObstacle>(
@@ -126,11 +126,29 @@ TEST_F(YieldPolicyTest, AsksForTheWayThatItDrivesElseForThatOnTheMapAndWithdraws
   const auto next = policy_.ask(intent, {6.0, 0.0}, scene, kNow_s + 3.0);
   ASSERT_TRUE(next);
   EXPECT_NEAR(next->path.back().x(), 5.8, 1e-6);
-  EXPECT_EQ(next->rank.agent, "ugv2");  // in the name of the higher rank
   EXPECT_FALSE(policy_.withdrawal());
   policy_.begin_path();
   ASSERT_TRUE(policy_.withdrawal());
   EXPECT_FALSE(policy_.withdrawal());
+}
+
+TEST_F(YieldPolicyTest, AsksInTheNameOfTheHighestWhoseWayItIsInNow) {
+  stand("ugv2", {1.0, 0.0});
+  const SceneSource scene = [this](const auto&) { return scene_; };
+  RobotIntent intent = stays({0.0, 0.0});
+  intent.pull_over = PullOverPoint{{6.0, 0.0}, {false, 0, "ugv2"}};
+  policy_.ask(intent, {6.0, 0.0}, scene, kNow_s);
+  const auto asks = [&](double now_s) {
+    return policy_.ask(intent, {6.0, 0.0}, scene, now_s).value().rank.agent;
+  };
+  hear("ugv2", along_x_, kNow_s + 2.0);
+  EXPECT_EQ(asks(kNow_s + 2.0), "ugv2");
+  // It needs the way no more, and stands in that of another.
+  hear("ugv2", {}, kNow_s + 3.0);
+  hear("ugv1", along_x_, kNow_s + 3.0);
+  EXPECT_EQ(asks(kNow_s + 3.0), "ugv1");
+  hear("ugv1", {}, kNow_s + 4.0);
+  EXPECT_EQ(asks(kNow_s + 4.0), "ugv5");
 }
 
 }  // namespace
