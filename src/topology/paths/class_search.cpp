@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <queue>
 #include <stdexcept>
 #include <string>
-#include <unordered_set>
 #include <utility>
 
 namespace mocha {
@@ -19,81 +20,105 @@ constexpr int kSignatures = 4;      // of one node that are looked at, for each 
 
 /// One direction of an edge, without its shape.
 struct Arc {
+  int from;
   int to;
   int edge;
   double length_m;
-  SignatureKey key;
 };
-using Arcs = std::vector<std::vector<Arc>>;  // of each node
+
+/// Arcs by the node that they lead from.
+class Arcs {
+ public:
+  Arcs(std::size_t nodes, const std::vector<Arc>& arcs) : first_(nodes + 1, 0), arcs_(arcs.size()) {
+    for (const Arc& arc : arcs) ++first_[arc.from + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    std::vector<int> next(first_.begin(), first_.end() - 1);
+    for (const Arc& arc : arcs) arcs_[next[arc.from]++] = arc;
+  }
+
+  std::size_t nodes() const { return first_.size() - 1; }
+  std::size_t size() const { return arcs_.size(); }
+  /// Those of a node are numbers first(node) to before first(node + 1).
+  int first(int node) const { return first_[node]; }
+  const Arc& operator[](int number) const { return arcs_[number]; }
+
+  /// The arcs that lead to each node.
+  Arcs reversed() const {
+    std::vector<Arc> back = arcs_;
+    for (Arc& arc : back) std::swap(arc.from, arc.to);
+    return Arcs(nodes(), back);
+  }
+
+ private:
+  std::vector<int> first_;
+  std::vector<Arc> arcs_;
+};
 
 template <int D>
-SignatureKey key_along(const Cuts<D>& cuts, const Roadmap<D>& roadmap,
-                       const typename Roadmap<D>::Edge& edge) {
+Arcs arcs_of(const Roadmap<D>& roadmap, const Cuts<D>&) {
+  std::vector<Arc> arcs;
+  arcs.reserve(2 * roadmap.edges.size());
+  for (std::size_t i = 0; i < roadmap.edges.size(); ++i) {
+    const auto& edge = roadmap.edges[i];
+    arcs.push_back({edge.from, edge.to, static_cast<int>(i), edge.length_m});
+    arcs.push_back({edge.to, edge.from, static_cast<int>(i), edge.length_m});
+  }
+  return Arcs(roadmap.nodes.size(), arcs);
+}
+
+template <int D>
+Arcs arcs_of(const Roadmap<D>& roadmap, const SampledSpace<D>& space) {
+  std::vector<Arc> arcs;
+  const auto add = [&](int from, int to, std::size_t edge) {
+    if (space.in_order(roadmap.nodes[from].position, roadmap.nodes[to].position))
+      arcs.push_back({from, to, static_cast<int>(edge), roadmap.edges[edge].length_m});
+  };
+  for (std::size_t i = 0; i < roadmap.edges.size(); ++i) {
+    add(roadmap.edges[i].from, roadmap.edges[i].to, i);
+    add(roadmap.edges[i].to, roadmap.edges[i].from, i);
+  }
+  return Arcs(roadmap.nodes.size(), arcs);
+}
+
+template <int D>
+SignatureKey key_along(const Arc& arc, const Roadmap<D>& roadmap, const Cuts<D>& cuts) {
+  const auto& edge = roadmap.edges[arc.edge];
   SignatureKey key = 0;
   typename Roadmap<D>::Point last = roadmap.nodes[edge.from].position;
   for (const auto& point : edge.between) {
     key += key_of<D>(cuts, last, point);
     last = point;
   }
-  return key + key_of<D>(cuts, last, roadmap.nodes[edge.to].position);
+  key += key_of<D>(cuts, last, roadmap.nodes[edge.to].position);
+  return edge.from == arc.from ? key : SignatureKey(0) - key;
 }
 
 template <int D>
-Arcs arcs_of(const Roadmap<D>& roadmap, const Cuts<D>& cuts) {
-  Arcs arcs(roadmap.nodes.size());
-  for (std::size_t i = 0; i < roadmap.edges.size(); ++i) {
-    const auto& edge = roadmap.edges[i];
-    const SignatureKey key = key_along(cuts, roadmap, edge);
-    arcs[edge.from].push_back({edge.to, static_cast<int>(i), edge.length_m, key});
-    arcs[edge.to].push_back({edge.from, static_cast<int>(i), edge.length_m, SignatureKey(0) - key});
-  }
-  return arcs;
+SignatureKey key_along(const Arc& arc, const Roadmap<D>& roadmap, const SampledSpace<D>& space) {
+  return space.key(roadmap.nodes[arc.from].position, roadmap.nodes[arc.to].position);
 }
 
-template <int D>
-Arcs arcs_of(const Roadmap<D>& roadmap, const SampledSpace<D>& space) {
-  Arcs arcs(roadmap.nodes.size());
-  const auto add = [&](int from, int to, std::size_t edge) {
-    const auto& p = roadmap.nodes[from].position;
-    const auto& q = roadmap.nodes[to].position;
-    if (!space.in_order(p, q)) return;
-    const double length_m = roadmap.edges[edge].length_m;
-    arcs[from].push_back({to, static_cast<int>(edge), length_m, space.key(p, q)});
-  };
-  for (std::size_t i = 0; i < roadmap.edges.size(); ++i) {
-    add(roadmap.edges[i].from, roadmap.edges[i].to, i);
-    add(roadmap.edges[i].to, roadmap.edges[i].from, i);
-  }
-  return arcs;
-}
-
-/// The arcs that lead to each node; only their ends and lengths.
-Arcs reversed(const Arcs& arcs) {
-  Arcs back(arcs.size());
-  for (std::size_t from = 0; from < arcs.size(); ++from) {
-    for (const Arc& arc : arcs[from])
-      back[arc.to].push_back({static_cast<int>(from), arc.edge, arc.length_m, 0});
-  }
-  return back;
-}
-
-/// Shortest distance of every node to `goal`.
-std::vector<double> distances_to(int goal, const Arcs& arcs) {
-  const Arcs back = reversed(arcs);
-  std::vector<double> distance_m(arcs.size(), kInfinity);
+/// Shortest distance to the goal of every node from which it is no longer than `longest_ratio`
+/// times that of the start; of others, none shorter.
+std::vector<double> distances_to_goal(const Arcs& arcs, double longest_ratio) {
+  const Arcs back = arcs.reversed();
+  std::vector<double> distance_m(arcs.nodes(), kInfinity);
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
-  distance_m[goal] = 0.0;
-  queue.push({0.0, goal});
+  distance_m[Roadmap<2>::kGoal] = 0.0;
+  queue.push({0.0, Roadmap<2>::kGoal});
+  double longest_m = kInfinity;
   while (!queue.empty()) {
     const auto [reached_m, node] = queue.top();
     queue.pop();
+    if (reached_m > longest_m) break;
     if (reached_m > distance_m[node]) continue;
-    for (const Arc& arc : back[node]) {
-      const double next_m = reached_m + arc.length_m;
-      if (next_m >= distance_m[arc.to]) continue;
-      distance_m[arc.to] = next_m;
-      queue.push({next_m, arc.to});
+    if (node == Roadmap<2>::kStart) longest_m = (1.0 + kRounding) * longest_ratio * reached_m;
+    for (int i = back.first(node); i < back.first(node + 1); ++i) {
+      const double next_m = reached_m + back[i].length_m;
+      if (next_m >= distance_m[back[i].to]) continue;
+      distance_m[back[i].to] = next_m;
+      queue.push({next_m, back[i].to});
     }
   }
   return distance_m;
@@ -110,13 +135,18 @@ class Search {
     double length_m;
   };
 
-  Search(const Arcs& arcs, std::vector<double> to_goal_m, const ClassSearchOptions& options)
+  using KeyOf = std::function<SignatureKey(const Arc&)>;
+
+  Search(const Arcs& arcs, KeyOf key_of, const ClassSearchOptions& options)
       : arcs_(arcs),
-        to_goal_m_(std::move(to_goal_m)),
+        key_of_(std::move(key_of)),
+        keys_(arcs.size()),
+        to_goal_m_(distances_to_goal(arcs, options.longest_ratio)),
         options_(options),
         longest_m_((1.0 + kRounding) * options.longest_ratio * to_goal_m_[Roadmap<2>::kStart]),
         most_signatures_(static_cast<std::size_t>(kSignatures) * options.classes),
-        seen_(arcs.size()) {}
+        seen_(arcs.nodes()),
+        visited_by_(arcs.nodes(), kNone) {}
 
   /// The last steps of the paths found.
   std::vector<int> run() {
@@ -127,15 +157,18 @@ class Search {
       const int current = queue_.top().second;
       queue_.pop();
       const Step step = steps_[current];
-      auto& seen = seen_[step.node];
-      if (seen.size() >= most_signatures_ || !seen.insert(step.key).second) continue;
+      if (seen_[step.node].size() >= most_signatures_ || is_seen(step)) continue;
+      seen_[step.node].push_back(step.key);
       if (step.node == Roadmap<2>::kGoal) {
         found.push_back(current);
         continue;
       }
-      for (const Arc& arc : arcs_[step.node]) {
-        if (visits(current, arc.to)) continue;
-        push({arc.to, current, arc.edge, step.key + arc.key, step.length_m + arc.length_m});
+      mark_visited(current);
+      for (int i = arcs_.first(step.node); i < arcs_.first(step.node + 1); ++i) {
+        const Arc& arc = arcs_[i];
+        const double length_m = step.length_m + arc.length_m;
+        if (length_m + to_goal_m_[arc.to] > longest_m_ || visited_by_[arc.to] == current) continue;
+        push({arc.to, current, arc.edge, step.key + key(i), length_m});
       }
     }
     return found;
@@ -145,27 +178,39 @@ class Search {
 
  private:
   void push(const Step& step) {
+    if (is_seen(step)) return;
     const double bound_m = step.length_m + to_goal_m_[step.node];
-    if (bound_m > longest_m_ || seen_[step.node].count(step.key) > 0) return;
     queue_.push({bound_m, static_cast<int>(steps_.size())});
     steps_.push_back(step);
   }
 
-  bool visits(int last, int node) const {
-    for (int i = last; i != kNone; i = steps_[i].before) {
-      if (steps_[i].node == node) return true;
-    }
-    return false;
+  bool is_seen(const Step& step) const {
+    const std::vector<SignatureKey>& seen = seen_[step.node];
+    return std::find(seen.begin(), seen.end(), step.key) != seen.end();
+  }
+
+  /// Of an arc; most are never asked for.
+  SignatureKey key(int arc) {
+    if (!keys_[arc]) keys_[arc] = key_of_(arcs_[arc]);
+    return *keys_[arc];
+  }
+
+  /// The nodes of a path.
+  void mark_visited(int last) {
+    for (int i = last; i != kNone; i = steps_[i].before) visited_by_[steps_[i].node] = last;
   }
 
   const Arcs& arcs_;
+  const KeyOf key_of_;
+  std::vector<std::optional<SignatureKey>> keys_;
   const std::vector<double> to_goal_m_;
   const ClassSearchOptions options_;
   const double longest_m_;
   const std::size_t most_signatures_;
   std::vector<Step> steps_;
-  std::vector<std::unordered_set<SignatureKey>> seen_;  // of each node
-  using Entry = std::pair<double, int>;                 // bound and step; ties in order of age
+  std::vector<std::vector<SignatureKey>> seen_;  // of each node
+  std::vector<int> visited_by_;  // each node: the last step of the last path that was marked there
+  using Entry = std::pair<double, int>;  // bound and step; ties in order of age
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue_;
 };
 
@@ -203,7 +248,8 @@ std::vector<ClassPath<D>> search(const Roadmap<D>& roadmap, const Classes& class
                                  const ClassSearchOptions& options) {
   check(options);
   const Arcs arcs = arcs_of(roadmap, classes);
-  Search search(arcs, distances_to(Roadmap<D>::kGoal, arcs), options);
+  Search search(
+      arcs, [&](const Arc& arc) { return key_along<D>(arc, roadmap, classes); }, options);
   std::vector<ClassPath<D>> paths;
   for (const int last : search.run()) paths.push_back(trace(search, last, roadmap));
   return paths;

@@ -1,20 +1,14 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "topology/paths/class_roadmap.h"
 #include "topology/paths/grid_path.h"
 #include "topology/signatures/h_signature.h"
 #include "topology/static_map/travel_cost.h"
 
 namespace mocha {
-
-enum class RoadmapKind { kApollonius, kVisibilityPrm };
-
-/// By its name: `apollonius`, `visibility_prm`, or `best` for the former where it was built. Throws
-/// std::invalid_argument for other names, and for `apollonius` where it was not built.
-RoadmapKind roadmap_kind(const std::string& name);
 
 struct HomotopyPathOptions {
   TravelOptions travel;

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "topology/roadmaps/map_skeleton.h"
+
 namespace mocha {
 namespace {
 
@@ -115,6 +117,13 @@ Vector2 off_the_lattice(const Vector2& p) {
 GridStaticMap::GridStaticMap(std::shared_ptr<const DistanceField> field)
     : field_(std::move(field)),
       bounds_(field_->origin(), field_->corner(field_->columns() - 1, field_->rows() - 1)) {}
+
+std::shared_ptr<const MapSkeleton> GridStaticMap::skeleton(const TravelOptions& options) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!skeleton_ || !(skeleton_->options() == options))
+    skeleton_ = std::make_shared<MapSkeleton>(field_, options);
+  return skeleton_;
+}
 
 std::vector<ObstacleGroup> GridStaticMap::groups_within(const Eigen::AlignedBox2d& box,
                                                         double clearance_m) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 
 #include "topology/static_map/static_map.h"
 #include "world/distance_field.h"
@@ -20,12 +21,15 @@ class GridStaticMap : public StaticMap {
   std::optional<Connectivity> connectivity(double clearance_m) const override {
     return Connectivity(*field_, clearance_m);
   }
+  std::shared_ptr<const MapSkeleton> skeleton(const TravelOptions& options) const override;
   std::vector<ObstacleGroup> groups_within(const Eigen::AlignedBox2d& window,
                                            double clearance_m) const override;
 
  private:
   std::shared_ptr<const DistanceField> field_;
   Eigen::AlignedBox2d bounds_;
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<const MapSkeleton> skeleton_;  // that was asked for last
 };
 
 }  // namespace mocha

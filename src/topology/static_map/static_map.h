@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,9 @@
 #include "world/obstacle_field.h"
 
 namespace mocha {
+
+class MapSkeleton;
+struct TravelOptions;
 
 /// Static surroundings as searches for paths see them.
 class StaticMap {
@@ -23,6 +27,11 @@ class StaticMap {
   /// What is connected for a centre that keeps `clearance_m` >= 0, on a map that can tell without a
   /// search.
   virtual std::optional<Connectivity> connectivity(double) const { return std::nullopt; }
+
+  /// The skeleton of its free space for a robot, on a map that keeps one; else null.
+  virtual std::shared_ptr<const MapSkeleton> skeleton(const TravelOptions&) const {
+    return nullptr;
+  }
 
   /// The obstacles, for a robot whose centre keeps `clearance_m` > 0. Nowhere can it pass between
   /// two parts of one group; whether it can pass between two groups, the field says.

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "topology/roadmaps/corner_window.h"
+#include "world/distance_field.h"
+
+namespace mocha {
+
+/// What stands in one tile of a map: solid matter, and the gaps in it that a robot cannot pass,
+/// whose centre keeps a clearance.
+struct ObstacleTile {
+  /// What hangs together in the tile.
+  struct Part {
+    Vector2 deepest;   ///< the place in it that is deepest inside of solid matter
+    float distance_m;  ///< of that; above 0 where all of the part is a gap
+  };
+  std::vector<Part> parts;
+  /// Corners on the border, as numbers (y * columns of the field + x), and the part of each: the
+  /// neighbours' parts go on there.
+  std::vector<std::pair<int, int>> border;
+};
+
+ObstacleTile obstacle_tile(const DistanceField& field, const CornerWindow& window,
+                           double clearance_m);
+
+}  // namespace mocha

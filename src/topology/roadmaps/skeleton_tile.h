@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "topology/roadmaps/corner_window.h"
+#include "topology/static_map/travel_cost.h"
+#include "world/distance_field.h"
+
+namespace mocha {
+
+/// The skeleton of the free space of one tile of a map, as a part of a roadmap.
+///
+/// Wherever a way leaves the tile there is a gate: one for each stretch of its border on which one
+/// may be, the same seen from either side. Between gates, the skeleton has the pieces and the holes
+/// of the tile's free space. So each path on the map can be deformed into one along the skeletons
+/// of its tiles.
+struct SkeletonTile {
+  struct Edge {
+    int from;                      ///< index of a node
+    int to;                        ///< of another one
+    std::vector<Vector2> between;  ///< corners from one to the other, ends left out
+    double cost_m;
+  };
+  std::vector<int> nodes;  ///< numbers of corners: y * columns of the field + x
+  std::vector<Edge> edges;
+};
+
+/// `anchors`: numbers of corners of the window that are to be nodes, if one may be there at all.
+/// Besides the skeleton, nodes that see each other have straight edges to the nearest of them.
+SkeletonTile skeleton_tile(const DistanceField& field, const CornerWindow& window,
+                           const TravelCost& cost, const std::vector<int>& anchors);
+
+}  // namespace mocha
