@@ -27,7 +27,6 @@
 #include "ros_bridge/runtime/step_loop.h"
 #include "ros_bridge/runtime/transport.h"
 #include "stack/goal_planning.h"
-#include "topology/static_map/grid_static_map.h"
 
 namespace mocha {
 namespace {
@@ -154,9 +153,7 @@ class GlobalPlannerNode {
   }
 
   PlanningScene scene(const std::vector<Vector2>& places) {
-    return {std::make_shared<GridStaticMap>(
-                map_.field(DistanceField::Solid::kOccupied, places, kMapBorder_m)),
-            peers_.obstacles(), [this, places] {
+    return {map_.static_map(places, kMapBorder_m), peers_.obstacles(), [this, places] {
               return map_.field(DistanceField::Solid::kOccupiedOrUnknown, places, kMapBorder_m);
             }};
   }

@@ -24,7 +24,6 @@
 #include "ros_bridge/runtime/step_loop.h"
 #include "ros_bridge/runtime/transport.h"
 #include "stack/local_replanning.h"
-#include "topology/static_map/grid_static_map.h"
 #include "world/margin_budget.h"
 
 namespace mocha {
@@ -129,8 +128,7 @@ class LocalReplannerNode {
 
   LocalScene scene(ros::Time now, const Vector2& here) {
     LocalScene scene =
-        local_scene(std::make_shared<GridStaticMap>(
-                        map_.field(DistanceField::Solid::kOccupied, {here}, kMapBorder_m)),
+        local_scene(map_.static_map({here}, kMapBorder_m),
                     map_.field(DistanceField::Solid::kOccupiedOrUnknown, {here}, kMapBorder_m));
     scene.peers = peers_.obstacles();
     scene.confident = predictions_.obstacles();

@@ -11,40 +11,62 @@
 namespace mocha {
 namespace {
 
-/// Marks the corners of all cells that are (or are not) solid as sites.
-std::vector<float> corner_sites(const OccupancyGrid& grid, DistanceField::Solid solid,
-                                bool wanted) {
+constexpr double kSlackCells = 1.5;  // between a corner and a place between corners
+
+/// Marks the corners of all cells that are (or are not) solid as sites, in a window.
+std::vector<float> corner_sites(const OccupancyGrid& grid, DistanceField::Solid solid, bool wanted,
+                                const CornerWindow& window) {
   const bool unknown_too = solid == DistanceField::Solid::kOccupiedOrUnknown;
-  const int columns = grid.width + 1;
-  std::vector<float> sites(static_cast<std::size_t>(columns) * (grid.height + 1));
-  std::vector<std::uint8_t> below(columns);  // corners of wanted cells in the row below
-  std::vector<std::uint8_t> above(columns);
-  for (int y = 0; y <= grid.height; ++y) {
+  const int columns = window.columns();
+  std::vector<float> sites(static_cast<std::size_t>(columns) * window.rows());
+  std::vector<std::uint8_t> below(columns + 1);  // corners of wanted cells in the row below
+  std::vector<std::uint8_t> above(columns + 1);
+  const int first = std::max(0, window.x0 - 1);
+  const int last = std::min(grid.width - 1, window.x1);
+  for (int y = window.y0 - 1; y <= window.y1; ++y) {
     below.swap(above);
     std::fill(above.begin(), above.end(), std::uint8_t{0});
-    for (int x = 0; y < grid.height && x < grid.width; ++x) {
+    for (int x = first; y >= 0 && y < grid.height && x <= last; ++x) {
       const std::int8_t cell = grid.at(x, y);
       const bool is_solid =
           cell == OccupancyGrid::kOccupied || (unknown_too && cell == OccupancyGrid::kUnknown);
       const std::uint8_t is_wanted = is_solid == wanted;
-      above[x] |= is_wanted;
-      above[x + 1] = is_wanted;
+      if (x >= window.x0) above[x - window.x0] |= is_wanted;
+      above[x + 1 - window.x0] = is_wanted;
     }
-    float* row = &sites[static_cast<std::size_t>(y) * columns];
+    if (y < window.y0) continue;
+    float* row = &sites[static_cast<std::size_t>(y - window.y0) * columns];
     for (int x = 0; x < columns; ++x) row[x] = (below[x] | above[x]) != 0 ? 0.0f : kNoSite;
   }
   return sites;
 }
 
 /// Corners on the rim of the map become sites as well: outside is solid.
-void add_rim(std::vector<float>& sites, int columns, int rows) {
-  for (int x = 0; x < columns; ++x) {
-    sites[x] = sites[static_cast<std::size_t>(rows - 1) * columns + x] = 0.0f;
+void add_rim(const OccupancyGrid& grid, const CornerWindow& window, std::vector<float>& sites) {
+  for (int y = window.y0; y <= window.y1; ++y) {
+    float* row = &sites[static_cast<std::size_t>(y - window.y0) * window.columns()];
+    if (y == 0 || y == grid.height) std::fill(row, row + window.columns(), 0.0f);
+    if (window.x0 == 0) row[0] = 0.0f;
+    if (window.x1 == grid.width) row[window.columns() - 1] = 0.0f;
   }
-  for (int y = 0; y < rows; ++y) {
-    const std::size_t row = static_cast<std::size_t>(y) * columns;
-    sites[row] = sites[row + columns - 1] = 0.0f;
+}
+
+/// Distances of the corners of a window [m], by the sites in it.
+std::vector<float> distances_m(const OccupancyGrid& grid, DistanceField::Solid solid,
+                               const CornerWindow& window) {
+  const auto scale = static_cast<float>(grid.resolution_m);
+  std::vector<float> distances = corner_sites(grid, solid, true, window);
+  const bool outside_solid = solid == DistanceField::Solid::kOccupiedOrUnknown;
+  if (outside_solid) add_rim(grid, window, distances);
+  distance_transform(distances, window.columns(), window.rows());
+  for (float& distance : distances) distance = scale * std::sqrt(distance);
+  if (outside_solid) return distances;
+  std::vector<float> inside = corner_sites(grid, solid, false, window);
+  distance_transform(inside, window.columns(), window.rows());
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    if (inside[i] > 0.0f) distances[i] = -scale * std::sqrt(inside[i]);
   }
+  return distances;
 }
 
 }  // namespace
@@ -61,17 +83,74 @@ DistanceField::DistanceField(const OccupancyGrid& grid, Solid solid)
   if (cells == 0 || grid.cells.size() != cells || !(grid.resolution_m > 0.0)) {
     throw std::invalid_argument("DistanceField: the grid is empty or its sizes do not match");
   }
-  distance_m_ = corner_sites(grid, solid, true);
-  if (outside_solid_) add_rim(distance_m_, columns_, rows_);
-  distance_transform(distance_m_, columns_, rows_);
-  const auto scale = static_cast<float>(resolution_m_);
-  for (float& distance : distance_m_) distance = scale * std::sqrt(distance);
-  if (outside_solid_) return;
-  std::vector<float> inside = corner_sites(grid, solid, false);
-  distance_transform(inside, columns_, rows_);
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    if (inside[i] > 0.0f) distance_m_[i] = -scale * std::sqrt(inside[i]);
+  distance_m_ = distances_m(grid, solid, corners());
+}
+
+CornerWindow DistanceField::repair(const OccupancyGrid& grid, const CornerWindow& cells) {
+  if (grid.width + 1 != columns_ || grid.height + 1 != rows_ || grid.origin != origin_ ||
+      grid.resolution_m != resolution_m_)
+    throw std::invalid_argument("DistanceField: the changed map is another one");
+  const CornerWindow changed =
+      CornerWindow{cells.x0, cells.y0, cells.x1 + 1, cells.y1 + 1}.within(corners());
+  if (changed.empty()) return changed;
+  const CornerWindow reach = reach_of(changed);
+  // What is nearest to a place in reach lies as far beyond its rim as it is away from there at
+  // most.
+  float most_m = 0.0f;
+  visit_rim(reach, [&](int x, int y) {
+    most_m = std::max(most_m, std::abs(distance_m_[static_cast<std::size_t>(y) * columns_ + x]));
+  });
+  const double margin = std::min(most_m * cells_per_m_ + kSlackCells, columns_ + rows_ + 0.0);
+  const CornerWindow sources = reach.grown(static_cast<int>(margin) + 1).within(corners());
+  const Solid solid = outside_solid_ ? Solid::kOccupiedOrUnknown : Solid::kOccupied;
+  return take_over(distances_m(grid, solid, sources), sources, reach);
+}
+
+/// The corners whose nearest obstacle may be in `changed`, before or after the change. Around it
+/// goes a rim of corners that all are closer to something than to what changed. Whatever is beyond
+/// and has its nearest obstacle in `changed` would be seen from a corner of the rim.
+CornerWindow DistanceField::reach_of(const CornerWindow& changed) const {
+  for (int margin = 4;; margin += std::max(4, margin / 2)) {
+    const CornerWindow reach = changed.grown(margin).within(corners());
+    bool is_apart = true;
+    visit_rim(reach, [&](int x, int y) {
+      const double away = std::hypot(std::max({changed.x0 - x, 0, x - changed.x1}),
+                                     std::max({changed.y0 - y, 0, y - changed.y1}));
+      is_apart = is_apart && std::abs(at_corner(x, y)) * cells_per_m_ < away - kSlackCells;
+    });
+    if (is_apart) return reach;
   }
+}
+
+/// The corners at the sides of a window beyond which the map goes on.
+template <typename Visit>
+void DistanceField::visit_rim(const CornerWindow& window, const Visit& visit) const {
+  for (int x = window.x0; x <= window.x1; ++x) {
+    if (window.y0 > 0) visit(x, window.y0);
+    if (window.y1 < rows_ - 1) visit(x, window.y1);
+  }
+  for (int y = window.y0; y <= window.y1; ++y) {
+    if (window.x0 > 0) visit(window.x0, y);
+    if (window.x1 < columns_ - 1) visit(window.x1, y);
+  }
+}
+
+/// Those in reach; returns where they differ from what they were.
+CornerWindow DistanceField::take_over(const std::vector<float>& made, const CornerWindow& sources,
+                                      const CornerWindow& reach) {
+  CornerWindow differ{columns_, rows_, -1, -1};
+  for (int y = reach.y0; y <= reach.y1; ++y) {
+    for (int x = reach.x0; x <= reach.x1; ++x) {
+      const std::size_t from =
+          static_cast<std::size_t>(y - sources.y0) * sources.columns() + (x - sources.x0);
+      float& distance_m = distance_m_[static_cast<std::size_t>(y) * columns_ + x];
+      if (distance_m == made[from]) continue;
+      distance_m = made[from];
+      differ = {std::min(differ.x0, x), std::min(differ.y0, y), std::max(differ.x1, x),
+                std::max(differ.y1, y)};
+    }
+  }
+  return differ;
 }
 
 inline DistanceField::Sample DistanceField::interpolated(const Vector2& at) const {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "world/corner_window.h"
 #include "world/obstacle_field.h"
 #include "world/occupancy_grid.h"
 
@@ -27,6 +28,12 @@ class DistanceField : public ObstacleField<2> {
   /// Throws std::invalid_argument for an empty grid or sizes that do not match.
   DistanceField(const OccupancyGrid& grid, Solid solid);
 
+  /// Brings it up to date with a map in which only some cells have changed since: as if made anew,
+  /// at the cost of what is around those. Both ends of `cells` included. Returns the corners whose
+  /// distances differ now; an empty window if there are none. Not while others read it. Throws
+  /// std::invalid_argument for a map of another size or place.
+  CornerWindow repair(const OccupancyGrid& grid, const CornerWindow& cells);
+
   Sample sample(const Vector2& p) const override;
   double distance_bound(const Vector2& p) const override;
   double room(const Vector& p, double radius_m) const override;
@@ -36,6 +43,7 @@ class DistanceField : public ObstacleField<2> {
   const Vector2& origin() const { return origin_; }
   int columns() const { return columns_; }  ///< corners along x: cells + 1
   int rows() const { return rows_; }
+  CornerWindow corners() const { return {0, 0, columns_ - 1, rows_ - 1}; }
   /// Signed distance [m] at a corner of the lattice.
   double at_corner(int x, int y) const {
     return distance_m_[static_cast<std::size_t>(y) * columns_ + x];
@@ -45,6 +53,11 @@ class DistanceField : public ObstacleField<2> {
  private:
   /// Of a place in cells from the origin, inside the lattice.
   Sample interpolated(const Vector2& at) const;
+  CornerWindow reach_of(const CornerWindow& changed) const;
+  template <typename Visit>
+  void visit_rim(const CornerWindow& window, const Visit& visit) const;
+  CornerWindow take_over(const std::vector<float>& made, const CornerWindow& sources,
+                         const CornerWindow& reach);
 
   double resolution_m_;
   double cells_per_m_;

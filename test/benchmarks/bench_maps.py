@@ -1,8 +1,10 @@
 """Plans through seeded maps of buildings: rooms, corridors with rooms, halls of pillars, mazes and clutter, from 30 to 200 m a side, cells of 5 cm.
 
 A rover goes from corner to corner: first from rest; then again while it drives the plan (4 s under way); then with what is narrowest on its
-way shut; then to a goal that is walled in. t_map is what is made of a new map before a plan (two distance fields), t_plan the whole plan with
-all classes, A* the shortest path on the same map for the robot's disc and margin alone. T/shortest is the duration over that path's length at top speed.
+way shut; then to a goal that is walled in. t_map is what a new map costs before a plan: two distance fields in the first case, then their repair;
+in replan, after some cells of the walls within 12 m have changed. t_plan is the whole plan with all classes, with the skeleton of the whole map in
+the first case, its repair later; A* the shortest path on the same map for the robot's disc and margin alone. T/shortest is the duration over that
+path's length at top speed.
 """
 import statistics
 

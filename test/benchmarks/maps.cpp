@@ -6,12 +6,13 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <random>
 #include <string>
 
 #include "benchmarks/maps_building.h"
 #include "planning/global/global_planner.h"
+#include "stack/known_map.h"
 #include "topology/paths/grid_path.h"
-#include "topology/static_map/grid_static_map.h"
 #include "world/margin_budget.h"
 #include "world/robot_model.h"
 
@@ -19,6 +20,7 @@ namespace mocha {
 namespace {
 
 constexpr double kReplan_s = 4.0;  // so long it has been under way
+constexpr double kSeen_m = 12.0;   // as far as a lidar sees
 constexpr double kShut_m = 0.9;    // radius of what closes a door
 
 double seconds(const std::function<void()>& work) {
@@ -36,7 +38,7 @@ double length_m(const std::vector<Vector2>& path) {
 /// One case: a map and what is asked of the planner.
 struct Case {
   const char* name;
-  const OccupancyGrid& grid;
+  const OccupancyGrid grid;
   PlanQuery query;
 };
 
@@ -56,7 +58,7 @@ class Bench {
       PlanQuery under_way = from_rest;
       under_way.start_time_s = first.switch_time(kReplan_s);
       under_way.committed = under_way.driven = first;
-      row({"replan", building_.grid, under_way});
+      row({"replan", with_noise(first.position(under_way.start_time_s)), under_way});
       OccupancyGrid shut = building_.grid;
       fill_disc(shut, narrowest(first), kShut_m, OccupancyGrid::kOccupied);
       row({"door_closed", shut, from_rest});
@@ -72,6 +74,21 @@ class Bench {
         Motion(-1.0, {StandPhase{{building_.start, std::atan2(ahead.y(), ahead.x())}, 0.1}});
     query.goal = building_.goal;
     return query;
+  }
+
+  /// As a scan changes a map: here and there a cell of the walls around has changed.
+  OccupancyGrid with_noise(const Vector2& here) const {
+    OccupancyGrid grid = building_.grid;
+    std::mt19937 random(1);
+    for (int y = 1; y + 1 < grid.height; ++y) {
+      for (int x = 1; x + 1 < grid.width; ++x) {
+        const bool at_wall = building_.grid.at(x, y) == OccupancyGrid::kOccupied &&
+                             building_.grid.at(x + 1, y) == OccupancyGrid::kFree;
+        if (at_wall && (grid.cell_centre(x, y) - here).norm() < kSeen_m && random() % 50 == 0)
+          grid.at(x, y) = OccupancyGrid::kFree;
+      }
+    }
+    return grid;
   }
 
   /// Where the middle of a motion is closest to obstacles.
@@ -91,10 +108,9 @@ class Bench {
     std::shared_ptr<const StaticMap> static_map;
     std::shared_ptr<const DistanceField> unseen;
     const double map_s = seconds([&] {
-      static_map = std::make_shared<GridStaticMap>(
-          std::make_shared<DistanceField>(asked.grid, DistanceField::Solid::kOccupied));
-      unseen =
-          std::make_shared<DistanceField>(asked.grid, DistanceField::Solid::kOccupiedOrUnknown);
+      known_.take(asked.grid);
+      static_map = known_.static_map({}, 0.0);
+      unseen = known_.field(DistanceField::Solid::kOccupiedOrUnknown, {}, 0.0);
     });
     const PlanningScene scene{static_map, {}, [&] { return unseen; }};
     PlanResult plan;
@@ -134,6 +150,7 @@ class Bench {
   const Building building_;
   const RobotModel robot_;
   const GlobalPlanner planner_;
+  KnownMap known_;
   bool first_ = true;
 };
 

@@ -253,5 +253,65 @@ TEST(OccupancyGrid, GrowsAndFills) {
   EXPECT_EQ(grown.at(grown.width - 1, 0), OccupancyGrid::kUnknown);
 }
 
+/// Rooms with some clutter, and much that has not been seen.
+OccupancyGrid building(std::mt19937& random) {
+  OccupancyGrid grid;
+  grid.width = 150 + static_cast<int>(random() % 50);
+  grid.height = 120;
+  grid.origin = {-2.0, 1.0};
+  grid.cells.assign(static_cast<std::size_t>(grid.width) * grid.height, OccupancyGrid::kFree);
+  for (int i = 0; i < 8; ++i) {
+    const bool upright = random() % 2 == 0;
+    const int at = static_cast<int>(random() % (upright ? grid.width : grid.height));
+    for (int k = 0; k < (upright ? grid.height : grid.width); ++k) {
+      if (k % 40 > 12) grid.at(upright ? at : k, upright ? k : at) = OccupancyGrid::kOccupied;
+    }
+  }
+  for (int i = 0; i < 400; ++i) grid.cells[random() % grid.cells.size()] = OccupancyGrid::kUnknown;
+  return grid;
+}
+
+TEST(DistanceField, RepairedIsAsIfMadeAnew) {
+  std::mt19937 random(3);
+  for (const auto solid :
+       {DistanceField::Solid::kOccupied, DistanceField::Solid::kOccupiedOrUnknown}) {
+    for (int trial = 0; trial < 60; ++trial) {
+      OccupancyGrid grid = building(random);
+      if (trial % 10 == 0) std::fill(grid.cells.begin(), grid.cells.end(), OccupancyGrid::kFree);
+      DistanceField field(grid, solid);
+      const DistanceField before = field;
+      const int x0 = static_cast<int>(random() % grid.width);
+      const int y0 = static_cast<int>(random() % grid.height);
+      const CornerWindow cells{x0, y0,
+                               std::min(x0 + static_cast<int>(random() % 12), grid.width - 1),
+                               std::min(y0 + static_cast<int>(random() % 12), grid.height - 1)};
+      const std::int8_t values[] = {OccupancyGrid::kFree, OccupancyGrid::kOccupied,
+                                    OccupancyGrid::kUnknown};
+      for (int y = cells.y0; y <= cells.y1; ++y) {
+        for (int x = cells.x0; x <= cells.x1; ++x) grid.at(x, y) = values[random() % 3];
+      }
+      const CornerWindow differ = field.repair(grid, cells);
+      const DistanceField fresh(grid, solid);
+      for (int y = 0; y < field.rows(); ++y) {
+        for (int x = 0; x < field.columns(); ++x) {
+          ASSERT_EQ(field.at_corner(x, y), fresh.at_corner(x, y)) << trial << ": " << x << " " << y;
+          const bool differs = field.at_corner(x, y) != before.at_corner(x, y);
+          EXPECT_LE(differs, differ.holds(x, y));
+        }
+      }
+    }
+  }
+}
+
+TEST(DistanceField, WhereNothingChangedNothingDiffers) {
+  std::mt19937 random(5);
+  const OccupancyGrid grid = building(random);
+  DistanceField field(grid, DistanceField::Solid::kOccupied);
+  EXPECT_TRUE(field.repair(grid, {20, 20, 40, 40}).empty());
+  OccupancyGrid other = grid;
+  other.origin.x() += 0.05;
+  EXPECT_THROW(field.repair(other, {20, 20, 40, 40}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace mocha

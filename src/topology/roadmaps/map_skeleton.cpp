@@ -7,13 +7,13 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
 namespace mocha {
 namespace {
 
-constexpr int kTile = 64;            // cells along a side
 constexpr double kNarrowest = 0.5;   // passage that obstacles are told apart by, of the required
 constexpr std::size_t kInSight = 8;  // nodes that straight edges from start and goal are tried to
 
@@ -47,7 +47,7 @@ class Assembly {
     if (std::isfinite(cost_m)) roadmap_.edges.push_back({end, to, {}, cost_m, 0.0});
   }
 
-  /// Straight to the nearest nodes that it sees, and to the nearest of the corners given.
+  /// Straight to those of the nearest nodes that it sees.
   void join_nearest(int end, const TravelCost& cost) {
     const Vector2 place = roadmap_.nodes[end].position;
     std::vector<std::pair<double, int>> others;
@@ -94,10 +94,6 @@ int entry_corner(const DistanceField& field, const Vector2& p, const TravelCost&
   return best;
 }
 
-bool holds(const CornerWindow& window, int x, int y) {
-  return x >= window.x0 && x <= window.x1 && y >= window.y0 && y <= window.y1;
-}
-
 /// Parts of all tiles, numbered one tile after the other: which ones hang together.
 class Parts {
  public:
@@ -122,60 +118,39 @@ class Parts {
 
 }  // namespace
 
-MapSkeleton::MapSkeleton(std::shared_ptr<const DistanceField> field, const TravelOptions& options)
-    : field_(std::move(field)),
-      options_(options),
-      tile_columns_((field_->columns() - 2) / kTile + 1),
-      tile_rows_((field_->rows() - 2) / kTile + 1),
-      tiles_(static_cast<std::size_t>(tile_columns_) * tile_rows_) {}
-
-MapSkeleton::MapSkeleton(const MapSkeleton& before, std::shared_ptr<const DistanceField> field,
-                         const CornerWindow& changed)
-    : MapSkeleton(std::move(field), before.options_) {
-  const std::lock_guard<std::mutex> lock(before.mutex_);
-  tiles_ = before.tiles_;
-  for (int tile = 0; tile < static_cast<int>(tiles_.size()); ++tile) {
-    const CornerWindow own = window(tile);
-    const bool apart =
-        own.x1 < changed.x0 || own.x0 > changed.x1 || own.y1 < changed.y0 || own.y0 > changed.y1;
-    if (!apart) tiles_[tile].reset();
-  }
+MapSkeleton::MapSkeleton(std::shared_ptr<const DistanceField> field, SkeletonTiles tiles)
+    : field_(std::move(field)), tiles_(std::move(tiles)) {
+  if (tiles_.columns() != field_->columns() || tiles_.rows() != field_->rows())
+    throw std::invalid_argument("MapSkeleton: the tiles are those of a map of another size");
 }
 
-CornerWindow MapSkeleton::window(int tile) const {
-  const int x0 = tile % tile_columns_ * kTile;
-  const int y0 = tile / tile_columns_ * kTile;
-  return {x0, y0, std::min(x0 + kTile, field_->columns() - 1),
-          std::min(y0 + kTile, field_->rows() - 1)};
+SkeletonTiles MapSkeleton::tiles() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return tiles_;
 }
 
-std::vector<int> MapSkeleton::tiles_at(const Vector2& low, const Vector2& high) const {
-  const double tile_m = kTile * field_->resolution_m();
-  const double margin_m = field_->resolution_m();
-  const auto index = [&](double m, int axis, int count) {
-    const double tiles = (m - field_->origin()[axis]) / tile_m;
-    return static_cast<int>(std::clamp(std::floor(tiles), 0.0, count - 1.0));
+CornerWindow MapSkeleton::around(const Vector2& place, double radius_m) const {
+  const auto corner = [&](double m, int axis, int corners) {
+    const double cells = (m - field_->origin()[axis]) / field_->resolution_m();
+    return static_cast<int>(std::clamp(cells, 0.0, corners - 1.0));
   };
-  std::vector<int> tiles;
-  for (int y = index(low.y() - margin_m, 1, tile_rows_);
-       y <= index(high.y() + margin_m, 1, tile_rows_); ++y) {
-    for (int x = index(low.x() - margin_m, 0, tile_columns_);
-         x <= index(high.x() + margin_m, 0, tile_columns_); ++x)
-      tiles.push_back(y * tile_columns_ + x);
-  }
-  return tiles;
+  const double reach_m = radius_m + field_->resolution_m();
+  return {corner(place.x() - reach_m, 0, field_->columns()),
+          corner(place.y() - reach_m, 1, field_->rows()),
+          corner(place.x() + reach_m, 0, field_->columns()),
+          corner(place.y() + reach_m, 1, field_->rows())};
 }
 
 void MapSkeleton::complete(const TravelCost& cost) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (is_complete_) return;
   const TravelCost priced = anywhere(cost);
-  tbb::parallel_for(std::size_t{0}, tiles_.size(), [&](std::size_t tile) {
-    if (tiles_[tile]) return;
-    const CornerWindow own = window(static_cast<int>(tile));
-    tiles_[tile] = std::make_shared<Tile>(
-        Tile{skeleton_tile(*field_, own, priced, {}),
-             obstacle_tile(*field_, own, kNarrowest * options_.required_clearance_m)});
+  const double narrow_m = kNarrowest * options().required_clearance_m;
+  tbb::parallel_for(0, tiles_.size(), [&](int tile) {
+    if (tiles_.has(tile)) return;
+    const CornerWindow own = tiles_.window(tile);
+    tiles_.set(tile,
+               {skeleton_tile(*field_, own, priced, {}), obstacle_tile(*field_, own, narrow_m)});
   });
   obstacles_ = joined_obstacles();
   is_complete_ = true;
@@ -184,14 +159,14 @@ void MapSkeleton::complete(const TravelCost& cost) const {
 std::vector<Vector2> MapSkeleton::joined_obstacles() const {
   std::vector<const ObstacleTile::Part*> parts;
   std::vector<int> first;  // of each tile
-  for (const auto& tile : tiles_) {
+  for (int tile = 0; tile < tiles_.size(); ++tile) {
     first.push_back(static_cast<int>(parts.size()));
-    for (const ObstacleTile::Part& part : tile->obstacles.parts) parts.push_back(&part);
+    for (const ObstacleTile::Part& part : tiles_[tile].obstacles.parts) parts.push_back(&part);
   }
   Parts joined(parts.size());
   std::unordered_map<int, int> at_corner;  // a part of those that go on there
-  for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
-    for (const auto& [corner, part] : tiles_[tile]->obstacles.border) {
+  for (int tile = 0; tile < tiles_.size(); ++tile) {
+    for (const auto& [corner, part] : tiles_[tile].obstacles.border) {
       const auto [known, is_new] = at_corner.emplace(corner, first[tile] + part);
       if (!is_new) joined.join(known->second, first[tile] + part);
     }
@@ -215,32 +190,29 @@ const std::vector<Vector2>& MapSkeleton::obstacles(const TravelCost& cost) const
 
 Roadmap<2> MapSkeleton::roadmap(const TravelCost& cost, const Vector2& goal) const {
   complete(cost);
-  const std::array<Vector2, 2> ends = {cost.start(), goal};
   std::map<int, std::vector<int>> remade;  // tiles that are special now, and their anchors
-  std::array<int, 2> entries;
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    entries[i] = entry_corner(*field_, ends[i], cost);
-    for (const int tile : tiles_at(ends[i], ends[i])) {
-      std::vector<int>& anchors = remade[tile];
-      const CornerWindow own = window(tile);
-      const int x = entries[i] % field_->columns();
-      const int y = entries[i] / field_->columns();
-      if (entries[i] >= 0 && holds(own, x, y)) anchors.push_back(entries[i]);
-    }
-  }
-  const auto remake = [&](const Vector2& centre, double radius_m) {
-    const Vector2 reach(radius_m, radius_m);
-    for (const int tile : tiles_at(centre - reach, centre + reach)) remade[tile];
+  const auto remake = [&](const Vector2& place, double radius_m) {
+    for (const int tile : tiles_.at(around(place, radius_m))) remade[tile];
   };
-  remake(cost.start(), options_.escape_radius_m);
+  remake(cost.start(), options().escape_radius_m);
+  remake(goal, 0.0);
   for (const BlockedDisc& disc : cost.blocked()) remake(disc.centre, disc.radius_m);
   Assembly assembly(*field_, cost.start(), goal);
-  for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
-    const auto special = remade.find(static_cast<int>(tile));
+  const std::array<int, 2> entries = {entry_corner(*field_, cost.start(), cost),
+                                      entry_corner(*field_, goal, cost)};
+  for (auto& [tile, anchors] : remade) {
+    for (const int entry : entries) {
+      const int x = entry % field_->columns();
+      const int y = entry / field_->columns();
+      if (entry >= 0 && tiles_.window(tile).holds(x, y)) anchors.push_back(entry);
+    }
+  }
+  for (int tile = 0; tile < tiles_.size(); ++tile) {
+    const auto special = remade.find(tile);
     if (special == remade.end()) {
-      assembly.add(tiles_[tile]->skeleton);
+      assembly.add(tiles_[tile].skeleton);
     } else {
-      assembly.add(skeleton_tile(*field_, window(static_cast<int>(tile)), cost, special->second));
+      assembly.add(skeleton_tile(*field_, tiles_.window(tile), cost, special->second));
     }
   }
   for (int end = 0; end < 2; ++end) {

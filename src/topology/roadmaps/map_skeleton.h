@@ -4,25 +4,22 @@
 #include <mutex>
 #include <vector>
 
-#include "topology/roadmaps/obstacle_tile.h"
 #include "topology/roadmaps/roadmap.h"
-#include "topology/roadmaps/skeleton_tile.h"
-#include "topology/static_map/travel_options.h"
+#include "topology/roadmaps/skeleton_tiles.h"
 
 namespace mocha {
 
-/// The skeleton of a map's free space and what stands between, for one robot: in tiles, which are
-/// made when they are first asked for and kept from map to map.
+/// The skeleton of a map's free space and what stands between, for one robot. Its tiles are made
+/// when they are first asked for; those that another one has made may be handed on to it.
 class MapSkeleton {
  public:
-  MapSkeleton(std::shared_ptr<const DistanceField> field, const TravelOptions& options);
+  /// `tiles`: what is known of them already. Throws std::invalid_argument where they are those of a
+  /// map of another size.
+  MapSkeleton(std::shared_ptr<const DistanceField> field, SkeletonTiles tiles);
 
-  /// That of the same map after a change, `before` its distances: where those of a tile are the
-  /// same, the tile is. `changed` holds all corners whose distances differ.
-  MapSkeleton(const MapSkeleton& before, std::shared_ptr<const DistanceField> field,
-              const CornerWindow& changed);
-
-  const TravelOptions& options() const { return options_; }
+  const TravelOptions& options() const { return tiles_.options(); }
+  /// As far as they are made.
+  SkeletonTiles tiles() const;
 
   /// A place inside of each obstacle: of what stands, one for what hangs together and has no gap
   /// that is half as wide as the robot needs.
@@ -35,25 +32,16 @@ class MapSkeleton {
   Roadmap<2> roadmap(const TravelCost& cost, const Vector2& goal) const;
 
  private:
-  struct Tile {
-    SkeletonTile skeleton;
-    ObstacleTile obstacles;
-  };
-
-  CornerWindow window(int tile) const;
-  /// Those that share a corner with the box.
-  std::vector<int> tiles_at(const Vector2& low, const Vector2& high) const;
   /// Makes what is missing.
   void complete(const TravelCost& cost) const;
   std::vector<Vector2> joined_obstacles() const;
+  /// The corners around a place, as far as the map has them.
+  CornerWindow around(const Vector2& place, double radius_m) const;
 
-  std::shared_ptr<const DistanceField> field_;
-  const TravelOptions options_;
-  int tile_columns_;
-  int tile_rows_;
+  const std::shared_ptr<const DistanceField> field_;
   mutable std::mutex mutex_;
-  mutable std::vector<std::shared_ptr<const Tile>> tiles_;  // row by row; null: not made yet
-  mutable bool is_complete_ = false;                        // all made, obstacles joined
+  mutable SkeletonTiles tiles_;
+  mutable bool is_complete_ = false;  // all made, obstacles joined
   mutable std::vector<Vector2> obstacles_;
 };
 

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "topology/roadmaps/corner_window.h"
+#include "world/corner_window.h"
 #include "world/distance_field.h"
 
 namespace mocha {

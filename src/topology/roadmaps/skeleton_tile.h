@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "topology/roadmaps/corner_window.h"
 #include "topology/static_map/travel_cost.h"
+#include "world/corner_window.h"
 #include "world/distance_field.h"
 
 namespace mocha {

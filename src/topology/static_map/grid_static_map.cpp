@@ -118,11 +118,22 @@ GridStaticMap::GridStaticMap(std::shared_ptr<const DistanceField> field)
     : field_(std::move(field)),
       bounds_(field_->origin(), field_->corner(field_->columns() - 1, field_->rows() - 1)) {}
 
+GridStaticMap::GridStaticMap(std::shared_ptr<const DistanceField> field, SkeletonTiles tiles)
+    : GridStaticMap(std::move(field)) {
+  skeleton_ = std::make_shared<MapSkeleton>(field_, std::move(tiles));
+}
+
 std::shared_ptr<const MapSkeleton> GridStaticMap::skeleton(const TravelOptions& options) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!skeleton_ || !(skeleton_->options() == options))
-    skeleton_ = std::make_shared<MapSkeleton>(field_, options);
+    skeleton_ = std::make_shared<MapSkeleton>(
+        field_, SkeletonTiles(options, field_->columns(), field_->rows()));
   return skeleton_;
+}
+
+std::optional<SkeletonTiles> GridStaticMap::tiles() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return skeleton_ ? std::optional(skeleton_->tiles()) : std::nullopt;
 }
 
 std::vector<ObstacleGroup> GridStaticMap::groups_within(const Eigen::AlignedBox2d& box,

@@ -2,7 +2,9 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 
+#include "topology/roadmaps/skeleton_tiles.h"
 #include "topology/static_map/static_map.h"
 #include "world/distance_field.h"
 
@@ -14,6 +16,9 @@ namespace mocha {
 class GridStaticMap : public StaticMap {
  public:
   explicit GridStaticMap(std::shared_ptr<const DistanceField> field);
+  /// `tiles`: what is known already of its skeleton. Throws std::invalid_argument where they are
+  /// those of a map of another size.
+  GridStaticMap(std::shared_ptr<const DistanceField> field, SkeletonTiles tiles);
 
   const DistanceField& field() const override { return *field_; }
   const Eigen::AlignedBox2d& bounds() const override { return bounds_; }
@@ -22,6 +27,8 @@ class GridStaticMap : public StaticMap {
     return Connectivity(*field_, clearance_m);
   }
   std::shared_ptr<const MapSkeleton> skeleton(const TravelOptions& options) const override;
+  /// The tiles of the skeleton that was asked for last, if any was.
+  std::optional<SkeletonTiles> tiles() const;
   std::vector<ObstacleGroup> groups_within(const Eigen::AlignedBox2d& window,
                                            double clearance_m) const override;
 

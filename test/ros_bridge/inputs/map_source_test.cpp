@@ -23,22 +23,22 @@ nav_msgs::OccupancyGrid message(const OccupancyGrid& grid, double stamp_s,
   return map;
 }
 
-struct NewestMapTest : ::testing::Test {
-  NewestMapTest() {
+struct MapInputTest : ::testing::Test {
+  MapInputTest() {
     ros::Time::init();  // warnings are throttled
     fill_disc(grid, {2.0, 2.0}, 0.5, OccupancyGrid::kOccupied);
   }
 
-  NewestMap maps{"map"};
+  MapInput maps{"map"};
   OccupancyGrid grid = free_grid({0.0, 0.0}, {6.0, 4.0});
 };
 
-TEST_F(NewestMapTest, HasNothingAtFirst) {
+TEST_F(MapInputTest, HasNothingAtFirst) {
   EXPECT_FALSE(maps.available());
   EXPECT_EQ(maps.age_s(ros::Time(100.0)), std::numeric_limits<double>::infinity());
 }
 
-TEST_F(NewestMapTest, KnowsAgeAndDistances) {
+TEST_F(MapInputTest, KnowsAgeAndDistances) {
   maps.on_map(message(grid, 10.0));
   ASSERT_TRUE(maps.available());
   EXPECT_NEAR(maps.age_s(ros::Time(11.5)), 1.5, 1e-9);
@@ -46,36 +46,7 @@ TEST_F(NewestMapTest, KnowsAgeAndDistances) {
   EXPECT_NEAR(field->distance_bound({3.0, 2.0}), 0.5, 0.05);
 }
 
-TEST_F(NewestMapTest, UnknownSpaceIsSolidOnlyWhereAskedFor) {
-  fill_box(grid, {4.0, 0.0}, {6.0, 4.0}, OccupancyGrid::kUnknown);
-  maps.on_map(message(grid, 10.0));
-  EXPECT_GT(maps.field(Solid::kOccupied, {{5.0, 2.0}}, 1.0)->distance_bound({5.0, 2.0}), 2.0);
-  EXPECT_EQ(maps.field(Solid::kOccupiedOrUnknown, {{5.0, 2.0}}, 1.0)->distance_bound({5.0, 2.0}),
-            0.0);
-}
-
-TEST_F(NewestMapTest, GrowsToHoldThePoints) {
-  maps.on_map(message(grid, 10.0));
-  const auto field = maps.field(Solid::kOccupied, {{-3.0, 9.0}, {1.0, 1.0}}, 2.0);
-  EXPECT_LE(field->origin().x(), -5.0 + 0.051);
-  EXPECT_GE(field->corner(0, field->rows() - 1).y(), 11.0 - 0.051);
-  EXPECT_NEAR(field->distance_bound({3.0, 2.0}), 0.5, 0.05);  // the map is where it was
-}
-
-TEST_F(NewestMapTest, FieldsAreKeptWhileTheyServe) {
-  maps.on_map(message(grid, 10.0));
-  const auto first = maps.field(Solid::kOccupied, {{3.0, 2.0}}, 1.0);
-  EXPECT_EQ(maps.field(Solid::kOccupied, {{3.5, 2.0}}, 1.0), first);
-  EXPECT_NE(maps.field(Solid::kOccupiedOrUnknown, {{3.0, 2.0}}, 1.0), first);
-  EXPECT_EQ(maps.field(Solid::kOccupied, {{3.0, 2.0}}, 1.0), first);  // both kinds are kept
-  const auto wider = maps.field(Solid::kOccupied, {{9.0, 2.0}}, 1.0);
-  EXPECT_NE(wider, first);
-  fill_disc(grid, {4.0, 2.0}, 0.1, OccupancyGrid::kOccupied);
-  maps.on_map(message(grid, 11.0));
-  EXPECT_NE(maps.field(Solid::kOccupied, {{9.0, 2.0}}, 1.0), wider);
-}
-
-TEST_F(NewestMapTest, AMapInWhichNothingChangedOnlyMakesItNewer) {
+TEST_F(MapInputTest, AMapInWhichNothingChangedOnlyMakesItNewer) {
   maps.on_map(message(grid, 10.0));
   const auto first = maps.field(Solid::kOccupied, {{3.0, 2.0}}, 1.0);
   maps.on_map(message(grid, 11.0));
@@ -86,7 +57,7 @@ TEST_F(NewestMapTest, AMapInWhichNothingChangedOnlyMakesItNewer) {
   EXPECT_NE(maps.field(Solid::kOccupied, {{3.0, 2.0}}, 1.0), first);
 }
 
-TEST_F(NewestMapTest, RefusedMapsAreCountedAndLeaveTheFormerOne) {
+TEST_F(MapInputTest, RefusedMapsAreCountedAndLeaveTheFormerOne) {
   maps.on_map(message(grid, 10.0));
   const int revision = maps.revision();
   maps.on_map(message(grid, 11.0, "odom"));
@@ -99,16 +70,6 @@ TEST_F(NewestMapTest, RefusedMapsAreCountedAndLeaveTheFormerOne) {
   EXPECT_EQ(maps.refused(), 3);
   EXPECT_EQ(maps.revision(), revision);
   EXPECT_NEAR(maps.age_s(ros::Time(12.0)), 2.0, 1e-9);
-}
-
-TEST_F(NewestMapTest, PlacesOutOfThisWorldAreLeftOut) {
-  maps.on_map(message(grid, 10.0));
-  for (const double far :
-       {1e6, 1e9, 1e300, -1e300, std::numeric_limits<double>::infinity(), std::nan("")}) {
-    const auto field = maps.field(Solid::kOccupied, {{3.0, 2.0}, {far, 1.0}}, 3.0);
-    EXPECT_LT(field->columns(), 1000) << far;
-    EXPECT_NEAR(field->distance_bound({3.0, 2.0}), 0.5, 0.05) << far;
-  }
 }
 
 }  // namespace

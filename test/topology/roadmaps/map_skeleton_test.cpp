@@ -128,7 +128,10 @@ TEST(MapSkeleton, RepairedIsAsIfMadeAnew) {
   }
   const Found old(before);
   const Found fresh(after);
-  const MapSkeleton repaired(*old.skeleton, field, changed);
+  SkeletonTiles tiles = old.skeleton->tiles();
+  const MapSkeleton not_repaired(field, tiles);
+  tiles.forget(changed);
+  const MapSkeleton repaired(field, tiles);
   EXPECT_EQ(repaired.obstacles(fresh.cost), fresh.skeleton->obstacles(fresh.cost));
   const Roadmap<2> roadmap = repaired.roadmap(fresh.cost, kGoal);
   ASSERT_EQ(roadmap.edges.size(), fresh.roadmap.edges.size());
@@ -136,7 +139,6 @@ TEST(MapSkeleton, RepairedIsAsIfMadeAnew) {
     EXPECT_EQ(roadmap.edges[i].between, fresh.roadmap.edges[i].between);
     EXPECT_EQ(roadmap.edges[i].length_m, fresh.roadmap.edges[i].length_m);
   }
-  const MapSkeleton not_repaired(*old.skeleton, field, {0, 0, 0, 0});
   EXPECT_NE(not_repaired.roadmap(fresh.cost, kGoal).edges.size(), fresh.roadmap.edges.size());
 }
 
