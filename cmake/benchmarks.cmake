@@ -18,19 +18,20 @@ target_link_libraries(benchmark_localization mocha_perception mocha_simulation)
 mocha_benchmark(tracks)
 target_link_libraries(benchmark_tracks mocha_ros_bridge)
 
-# Table II has planners of OMPL beside ours.
+# Planners of OMPL stand beside ours.
 find_package(ompl QUIET)
 if(ompl_FOUND)
   list(REMOVE_ITEM OMPL_LIBRARIES ode)  # for its physics, which nothing here uses
   foreach(name table2 table2_curves)
     mocha_benchmark(${name} test/benchmarks/table2_world.cpp test/benchmarks/table2_plan.cpp test/benchmarks/table2_mocha.cpp
-      test/benchmarks/ompl_peers.cpp)
+      test/benchmarks/ompl_peers.cpp test/benchmarks/bitstar.cpp)
     target_include_directories(benchmark_${name} SYSTEM PRIVATE ${OMPL_INCLUDE_DIRS})
     target_link_libraries(benchmark_${name} ${OMPL_LIBRARIES})
   endforeach()
+  mocha_benchmark(maps test/benchmarks/maps_building.cpp test/benchmarks/bitstar.cpp)
+  target_include_directories(benchmark_maps SYSTEM PRIVATE ${OMPL_INCLUDE_DIRS})
+  target_link_libraries(benchmark_maps ${OMPL_LIBRARIES})
 endif()
-
-mocha_benchmark(maps test/benchmarks/maps_building.cpp)
 
 mocha_benchmark(replan test/benchmarks/replan_scene.cpp test/benchmarks/replan_run.cpp test/benchmarks/space_time_solver.cpp)
 

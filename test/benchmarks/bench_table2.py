@@ -11,7 +11,7 @@ import statistics
 from benchmarks import benchmark
 
 TARGETS = (1, 2, 3)
-METHODS = ("mocha", "sst_first", "sst_1.5s", "bitstar_0.1s")
+METHODS = ("mocha", "sst_first", "sst_1.5s", "bitstar_first", "bitstar_0.1s")
 COLUMNS = ("t_plan_s", "classes", "L_m", "T_s", "v_max", "v_avg", "T_over_kinematic_limit")
 # t_plan [s], L [m], T [s], v_max, v_avg [m/s]
 PAPER = {(1, "MOCHA"): (0.029, 144.57, 68.45, 3.00, 2.11), (1, "TRR"): (0.187, 145.80, 108.93, 2.14, 1.38),

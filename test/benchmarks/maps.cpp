@@ -6,9 +6,11 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 
+#include "benchmarks/bitstar.h"
 #include "benchmarks/maps_building.h"
 #include "planning/global/global_planner.h"
 #include "stack/known_map.h"
@@ -19,9 +21,10 @@
 namespace mocha {
 namespace {
 
-constexpr double kReplan_s = 4.0;  // so long it has been under way
-constexpr double kSeen_m = 12.0;   // as far as a lidar sees
-constexpr double kShut_m = 0.9;    // radius of what closes a door
+constexpr double kReplan_s = 4.0;    // so long it has been under way
+constexpr double kPatience_s = 5.0;  // with BIT*
+constexpr double kSeen_m = 12.0;     // as far as a lidar sees
+constexpr double kShut_m = 0.9;      // radius of what closes a door
 
 double seconds(const std::function<void()>& work) {
   const auto begin = std::chrono::steady_clock::now();
@@ -40,6 +43,13 @@ struct Case {
   const char* name;
   const OccupancyGrid grid;
   PlanQuery query;
+};
+
+struct Times {
+  double map_s;
+  double plan_s;
+  double astar_s;
+  std::optional<double> bitstar_s;  // of a solution
 };
 
 class Bench {
@@ -124,17 +134,26 @@ class Bench {
       const TravelCost cost(*static_map, start, {}, {needs_m, needs_m, 0.0, 0.0});
       shortest = find_grid_path(*static_map, start, building_.goal, cost, kLatticeStep_m);
     });
-    print(asked, map_s, plan_s, astar_s, plan, length_m(shortest.points));
+    std::vector<Vector2> peer;
+    const double bitstar_s = seconds([&] {
+      if (shortest.points.empty()) return;  // it would search for all of its patience
+      peer = path_by_bitstar({static_map->field(), needs_m, static_map->bounds(), start,
+                              building_.goal, static_map->detail_m()},
+                             std::nullopt, kPatience_s);
+    });
+    print(asked, {map_s, plan_s, astar_s, peer.empty() ? std::nullopt : std::optional(bitstar_s)},
+          plan, length_m(shortest.points));
     return plan.motion;
   }
 
-  void print(const Case& asked, double map_s, double plan_s, double astar_s, const PlanResult& plan,
-             double shortest_m) {
+  void print(const Case& asked, const Times& times, const PlanResult& plan, double shortest_m) {
     std::printf(
         "%s{\"map\": \"%s\", \"cells\": %zu, \"case\": \"%s\", \"t_map_s\": %.4f, "
         "\"t_plan_s\": %.4f, \"t_astar_s\": %.4f, \"classes\": %zu, \"reason\": \"%s\"",
-        first_ ? "" : ",\n  ", kind_.c_str(), asked.grid.cells.size(), asked.name, map_s, plan_s,
-        astar_s, plan.candidates.size(), plan.motion.empty() ? plan.message.c_str() : "solved");
+        first_ ? "" : ",\n  ", kind_.c_str(), asked.grid.cells.size(), asked.name, times.map_s,
+        times.plan_s, times.astar_s, plan.candidates.size(),
+        plan.motion.empty() ? plan.message.c_str() : "solved");
+    if (times.bitstar_s) std::printf(", \"t_bitstar_s\": %.4f", *times.bitstar_s);
     if (!plan.motion.empty()) {
       const double T_s = plan.motion.end_time() - asked.query.start_time_s;
       std::printf(", \"T_s\": %.3f", T_s);
@@ -161,6 +180,7 @@ int main(int argc, char** argv) {
   if (argc != 4) return 2;
   auto building = mocha::building(argv[1], std::atof(argv[2]), std::atoi(argv[3]));
   if (!building) return 2;
+  mocha::set_up_ompl();
   std::printf("{\"rows\": [");
   mocha::Bench(argv[1], std::move(*building)).run();
   std::printf("]}\n");

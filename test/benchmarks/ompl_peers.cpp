@@ -1,27 +1,27 @@
 #include "benchmarks/ompl_peers.h"
 
+#include <ompl/base/OptimizationObjective.h>
 #include <ompl/base/goals/GoalSampleableRegion.h>
-#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/control/PathControl.h>
 #include <ompl/control/SpaceInformation.h>
 #include <ompl/control/planners/sst/SST.h>
 #include <ompl/control/spaces/RealVectorControlSpace.h>
-#include <ompl/geometric/PathGeometric.h>
-#include <ompl/geometric/PathSimplifier.h>
-#include <ompl/geometric/planners/informedtrees/BITstar.h>
 
 #include <chrono>
+#include <vector>
+
+#include "benchmarks/bitstar.h"
 
 namespace mocha {
 namespace {
 
 namespace ob = ompl::base;
 namespace oc = ompl::control;
-namespace og = ompl::geometric;
 using Clock = std::chrono::steady_clock;
 using Reals = ob::RealVectorStateSpace::StateType;
 
+constexpr double kPatience_s = 30.0;   // until a first solution
 constexpr double kResolution_m = 0.1;  // of the checks for obstacles
 constexpr double kMissed_m = 0.002;    // at most, by which a step of that length cuts a circle
 constexpr double kRounding = 1e-6;     // share of the limits
@@ -205,16 +205,17 @@ double trapezoid(double along_m, double length_m) {
 
 /// A path driven from rest to rest: accelerate, go on at the highest speed, brake. Requires a path
 /// that is long enough for that.
-PlanarPath driven(const og::PathGeometric& path) {
+PlanarPath driven(const std::vector<Vector2>& path) {
   constexpr double kShortest_m = 1e-6;
   constexpr double kRamp_m = 0.5 * kMaxSpeed * kMaxSpeed / kMaxAcceleration;
-  const double length_m = path.length();
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i] - path[i - 1]).norm();
   std::vector<PlanarPath::Piece> pieces;
   std::vector<double> durations_s;
   double along_m = 0.0;
-  for (std::size_t i = 0; i + 1 < path.getStateCount(); ++i) {
-    Vector2 from = position(path.getState(i));
-    const Vector2 to = position(path.getState(i + 1));
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    Vector2 from = path[i];
+    const Vector2 to = path[i + 1];
     const double corner_m = along_m + (to - from).norm();
     const Vector2 direction = (to - from).normalized();
     for (const double change_m : {kRamp_m, length_m - kRamp_m, corner_m}) {
@@ -234,14 +235,8 @@ PlanarPath driven(const og::PathGeometric& path) {
 
 }  // namespace
 
-void set_up_ompl() {
-  ompl::msg::noOutputHandler();
-  ompl::RNG::setSeed(1);
-}
-
 Table2Plan plan_with_sst(const Table2World& world, const Vector2& target,
                          std::optional<double> budget_s, Overspeed overspeed) {
-  constexpr double kPatience_s = 30.0;
   const auto begin = Clock::now();
   const PrimitiveField<2> field = obstacle_field(world);
   const SstTuning& tuning = budget_s ? kFastest : kSoonest;
@@ -271,33 +266,18 @@ Table2Plan plan_with_sst(const Table2World& world, const Vector2& target,
   return plan;
 }
 
-Table2Plan plan_with_bitstar(const Table2World& world, const Vector2& target, double budget_s) {
+Table2Plan plan_with_bitstar(const Table2World& world, const Vector2& target,
+                             std::optional<double> budget_s) {
   const auto begin = Clock::now();
   const PrimitiveField<2> field = obstacle_field(world);
-  const auto space = std::make_shared<ob::RealVectorStateSpace>(2);
-  space->setBounds(-Table2World::kBorder_m, Table2World::kSide_m + Table2World::kBorder_m);
-  const auto information = std::make_shared<ob::SpaceInformation>(space);
-  information->setStateValidityChecker(is_clear(field));
-  information->setStateValidityCheckingResolution(kResolution_m / space->getMaximumExtent());
-  information->setup();
-  const auto problem = std::make_shared<ob::ProblemDefinition>(information);
-  ob::ScopedState<ob::RealVectorStateSpace> start(information);
-  ob::ScopedState<ob::RealVectorStateSpace> goal(information);
-  for (int i = 0; i < 2; ++i) {
-    start[i] = world.start[i];
-    goal[i] = target[i];
-  }
-  problem->setStartAndGoalStates(start, goal);
-  problem->setOptimizationObjective(
-      std::make_shared<ob::PathLengthOptimizationObjective>(information));
-  og::BITstar planner(information);
-  planner.setProblemDefinition(problem);
+  const Vector2 border = Vector2::Constant(Table2World::kBorder_m);
+  const Eigen::AlignedBox2d bounds(-border, Vector2::Constant(Table2World::kSide_m) + border);
+  const std::vector<Vector2> path = path_by_bitstar(
+      {field, Table2Robot::kRadius_m + kMissed_m, bounds, world.start, target, kResolution_m},
+      budget_s, kPatience_s);
   Table2Plan plan;
-  plan.t_plan_s = budget_s;
-  if (planner.solve(within(budget_s)) == ob::PlannerStatus::EXACT_SOLUTION) {
-    auto& path = *problem->getSolutionPath()->as<og::PathGeometric>();
-    og::PathSimplifier(information, problem->getGoal()).simplifyMax(path);
-    plan.t_plan_s = seconds_since(begin);
+  plan.t_plan_s = seconds_since(begin);
+  if (!path.empty()) {
     plan.curve = driven(path);
     plan.classes = 1;
   }

@@ -2,12 +2,10 @@
 
 #include <optional>
 
+#include "benchmarks/bitstar.h"
 #include "benchmarks/table2_plan.h"
 
 namespace mocha {
-
-/// Silences OMPL and fixes its seed. To be called before anything else of OMPL.
-void set_up_ompl();
 
 /// What SST's model does with a control that would drive faster than the limit.
 enum class Overspeed {
@@ -21,9 +19,10 @@ enum class Overspeed {
 Table2Plan plan_with_sst(const Table2World& world, const Vector2& target,
                          std::optional<double> budget_s, Overspeed overspeed);
 
-/// BIT* for `budget_s` in the plane, then PathSimplifier::simplifyMax. A path has no timing: the
-/// curve drives its length from rest to rest within the limits, as if corners cost no time, so that
-/// its duration is the kinematic limit.
-Table2Plan plan_with_bitstar(const Table2World& world, const Vector2& target, double budget_s);
+/// BIT* in the plane, for `budget_s` or to its first solution, then PathSimplifier::simplifyMax. A
+/// path has no timing: the curve drives its length from rest to rest within the limits, as if
+/// corners cost no time, so that its duration is the kinematic limit.
+Table2Plan plan_with_bitstar(const Table2World& world, const Vector2& target,
+                             std::optional<double> budget_s);
 
 }  // namespace mocha

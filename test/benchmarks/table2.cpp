@@ -74,6 +74,8 @@ void run(int worlds) {
     std::printf(",");
     task.print_sst(Overspeed::kForbidden);
     std::printf(",");
+    task.print("bitstar_first", plan_with_bitstar(task.world(), task.target(), std::nullopt));
+    std::printf(",");
     task.print("bitstar_0.1s", plan_with_bitstar(task.world(), task.target(), kBitstarBudget_s));
   });
   std::printf(",\n");
