@@ -1,4 +1,5 @@
-"""Plans through seeded maps of buildings: rooms, corridors with rooms, halls of pillars, mazes and clutter, from 30 to 200 m a side, cells of 5 cm.
+"""Plans through seeded maps of buildings: rooms, corridors with rooms, halls of pillars, mazes and clutter, from 30 to 200 m a side, cells of 5 cm; and the
+given lidar logs of buildings (../shared/data, or MOCHA_DATA) turned into maps, from where each begins to its farthest place.
 
 A rover goes from corner to corner: first from rest; then again while it drives the plan (4 s under way); then with what is narrowest on its
 way shut; then to a goal that is walled in. t_map is what a new map costs before a plan: two distance fields in the first case, then their repair;
@@ -6,11 +7,15 @@ in replan, after some cells of the walls within 12 m have changed. t_plan is the
 the first case, its repair later; A* the shortest path on the same map for the robot's disc and margin alone; BIT* the first solution of OMPL's, simplified, for the same (none within 5 s: not counted). T/shortest is the duration over that
 path's length at top speed.
 """
+import gzip
+import os
+import pathlib
 import statistics
+import tempfile
 
 from benchmarks import benchmark
 
-KINDS = ("rooms", "corridors", "pillars", "maze", "clutter")
+KINDS = ("rooms", "corridors", "pillars", "maze", "clutter", "logs")
 SIDES_M = (30, 100)
 CASES = ("first", "replan", "door_closed", "unreachable")
 
@@ -36,7 +41,7 @@ def print_table(rows):
     for name, side, case in dict.fromkeys((row["map"], row["side_m"], row["case"]) for row in rows):
         some = [row for row in rows if (row["map"], row["side_m"], row["case"]) == (name, side, case)]
         solved = sum(row["reason"] == "solved" for row in some)
-        print(f"{f'{name}, {side:g} m, {case}':34}{text(median(some, 't_map_s'), 1e3, 11, 1)}{text(median(some, 't_plan_s'), 1e3, 12, 1)}"
+        print(f"{f'{name}, {side:.0f} m, {case}':34}{text(median(some, 't_map_s'), 1e3, 11, 1)}{text(median(some, 't_plan_s'), 1e3, 12, 1)}"
               f"{text(median(some, 't_astar_s'), 1e3, 9, 1)}{text(median(some, 't_bitstar_s'), 1e3, 10, 1)}{text(median(some, 'classes'), 1, 9, 0)}{text(median(some, 'T_s'), 1, 8, 1)}"
               f"{text(median(some, 'T_over_shortest'), 1, 12, 3)}  {solved}/{len(some)}")
 
@@ -49,14 +54,31 @@ def print_summary(rows):
             print(f"{case:12} median {1e3 * statistics.median(times):8.1f} ms, longest {1e3 * max(times):8.1f} ms")
 
 
+def rows_of_logs(program):
+    """Of each log that is there."""
+    folder = pathlib.Path(os.environ.get("MOCHA_DATA", os.path.join(benchmark.ROOT, "../shared/data"))) / "carmen"
+    rows = []
+    for packed in sorted(folder.glob("*.log.gz")):
+        with tempfile.NamedTemporaryFile() as log:
+            log.write(gzip.decompress(packed.read_bytes()))
+            log.flush()
+            found = benchmark.call(program, "log", log.name)["rows"]
+        rows += [{**row, "map": packed.name.split("-corrected")[0], "side_m": 0.05 * row["cells"] ** 0.5} for row in found]
+    if not rows:
+        print(f"no lidar logs in {folder}: left out")
+    return rows
+
+
 def run(options):
     program = benchmark.build("maps")
     rows = []
     for side in map(float, options.sides.split(",")):
-        for kind in options.kinds.split(","):
+        for kind in [kind for kind in options.kinds.split(",") if kind != "logs"]:
             for seed in range(1, options.seeds + 1):
                 found = benchmark.call(program, kind, side, seed)["rows"]
                 rows += [{**row, "side_m": side, "seed": seed} for row in found]
+    if "logs" in options.kinds.split(","):
+        rows += rows_of_logs(program)
     print_table(rows)
     print_summary(rows)
     benchmark.write({"rows": rows}, options.json)

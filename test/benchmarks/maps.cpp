@@ -1,9 +1,10 @@
-// Plans through a seeded map of a building. Prints JSON. Arguments: a kind of map (see
-// maps_building.h), its side in m, a seed.
+// Plans through a map of a building. Prints JSON. Arguments: a kind of map (see maps_building.h),
+// its side in m, a seed; or `log` and a file (see maps_log.h).
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "benchmarks/bitstar.h"
 #include "benchmarks/maps_building.h"
+#include "benchmarks/maps_log.h"
 #include "planning/global/global_planner.h"
 #include "stack/known_map.h"
 #include "topology/paths/grid_path.h"
@@ -177,8 +179,14 @@ class Bench {
 }  // namespace mocha
 
 int main(int argc, char** argv) {
-  if (argc != 4) return 2;
-  auto building = mocha::building(argv[1], std::atof(argv[2]), std::atoi(argv[3]));
+  using mocha::Building;
+  std::optional<Building> building;
+  if (argc == 3 && std::string(argv[1]) == "log") {
+    std::ifstream log(argv[2]);
+    building = mocha::building_of_log(log);
+  } else if (argc == 4) {
+    building = mocha::building(argv[1], std::atof(argv[2]), std::atoi(argv[3]));
+  }
   if (!building) return 2;
   mocha::set_up_ompl();
   std::printf("{\"rows\": [");

@@ -17,11 +17,11 @@ constexpr double kFree_m = 1.2;  // about start and goal
 
 /// Sets the cells of a box, as far as the grid holds it.
 void fill(OccupancyGrid& grid, const Vector2& low, const Vector2& high, std::int8_t value) {
-  const auto index = [&](double place_m) {
-    return static_cast<int>(std::lround(place_m / kCell_m));
+  const auto index = [&](const Vector2& place, int axis) {
+    return static_cast<int>(std::lround((place[axis] - grid.origin[axis]) / kCell_m));
   };
-  for (int y = std::max(0, index(low.y())); y < std::min(grid.height, index(high.y())); ++y) {
-    for (int x = std::max(0, index(low.x())); x < std::min(grid.width, index(high.x())); ++x)
+  for (int y = std::max(0, index(low, 1)); y < std::min(grid.height, index(high, 1)); ++y) {
+    for (int x = std::max(0, index(low, 0)); x < std::min(grid.width, index(high, 0)); ++x)
       grid.at(x, y) = value;
   }
 }
