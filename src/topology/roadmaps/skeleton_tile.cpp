@@ -69,9 +69,8 @@ class Builder {
   int y_of(int place) const { return window_.y0 + place / figure_.columns; }
   int number_of(int place) const { return y_of(place) * field_.columns() + x_of(place); }
   Vector2 position(int place) const { return field_.corner(x_of(place), y_of(place)); }
-  double cost_at(int place) const {
-    return cost_.at(position(place), field_.at_corner(x_of(place), y_of(place)));
-  }
+  double distance_m(int place) const { return field_.at_corner(x_of(place), y_of(place)); }
+  double cost_at(int place) const { return cost_.at(position(place), distance_m(place)); }
 
   void add_gates() {
     const int last_row = (figure_.rows - 1) * figure_.columns;
@@ -89,7 +88,7 @@ class Builder {
       while (end < count && figure_.room[from + end * step] >= 0.0f) ++end;
       if (end > begin) {
         const auto is_roomy = [&](int k) {
-          return figure_.room[from + k * step] >= cost_.options().preferred_clearance_m;
+          return distance_m(from + k * step) >= cost_.options().preferred_clearance_m;
         };
         const int middle = widest(from, step, begin, end);
         nodes_.push_back(from + middle * step);
@@ -104,12 +103,13 @@ class Builder {
     }
   }
 
-  /// Of a stretch, where there is most room up to what could be wished for, closest to the middle.
+  /// Of a stretch, where the map has most room up to what could be wished for, closest to the
+  /// middle. Discs do not count: the neighbour may know nothing of them.
   int widest(int from, int step, int begin, int end) const {
-    const auto plenty = static_cast<float>(cost_.options().preferred_clearance_m);
+    const double plenty_m = cost_.options().preferred_clearance_m;
     const int doubled_middle = begin + end - 1;
     const auto worth = [&](int k) {
-      return std::pair(std::min(plenty, figure_.room[from + k * step]),
+      return std::pair(std::min(plenty_m, distance_m(from + k * step)),
                        -std::abs(2 * k - doubled_middle));
     };
     int best = begin;

@@ -92,6 +92,17 @@ TEST(MapSkeleton, PassesPillarsAndDiscsOnEitherSide) {
   EXPECT_EQ(Found(grid, {{{3.7, 3.2}, 0.7}}).sides(), 8);
 }
 
+TEST(MapSkeleton, TilesFitTogetherWhereADiscIsNearABorder) {
+  OccupancyGrid grid = free_grid({0.0, 0.0}, {60.0, 3.0});
+  fill_box(grid, {0.0, 0.0}, {60.0, 0.9});
+  fill_box(grid, {0.0, 2.3}, {60.0, 3.0});
+  const double border_m = 9 * 64 * 0.05;
+  for (const double off_m : {-0.3, -0.2, -0.15, -0.11, -0.06, 0.0, 0.04, 0.2}) {
+    const Found found(grid, {{{border_m + off_m, 1.6}, 0.1}}, {0.6, 1.6}, {59.4, 1.6});
+    EXPECT_EQ(found.sides(), 2) << off_m;
+  }
+}
+
 TEST(MapSkeleton, LeadsOutOfWhereTheStartIsNarrow) {
   OccupancyGrid grid = free_grid({0.0, 0.0}, {8.0, 6.0});
   fill_box(grid, {0.0, 0.0}, {8.0, 0.2});  // the start is closer to this wall than required
