@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -171,14 +172,26 @@ std::vector<Vector2> MapSkeleton::joined_obstacles() const {
       if (!is_new) joined.join(known->second, first[tile] + part);
     }
   }
-  std::vector<const ObstacleTile::Part*> deepest(parts.size(), nullptr);
+  std::vector<ObstacleTile::Part> whole(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const ObstacleTile::Part*& best = deepest[joined.root(static_cast<int>(i))];
-    if (!best || parts[i]->distance_m < best->distance_m) best = parts[i];
+    ObstacleTile::Part& obstacle = whole[joined.root(static_cast<int>(i))];
+    obstacle.solid_corners += parts[i]->solid_corners;
+    obstacle.sum += parts[i]->sum;
+  }
+  // The nearest to the mean, so that a path which only touches the rim of the matter is still
+  // classified by the side on which it passes.
+  std::vector<double> away_m(parts.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const int root = joined.root(static_cast<int>(i));
+    const Vector2 mean = whole[root].sum / std::max(1, whole[root].solid_corners);
+    const double this_m = (parts[i]->innermost - mean).norm();
+    if (parts[i]->solid_corners == 0 || !(this_m < away_m[root])) continue;
+    away_m[root] = this_m;
+    whole[root].innermost = parts[i]->innermost;
   }
   std::vector<Vector2> obstacles;
-  for (const ObstacleTile::Part* part : deepest) {
-    if (part) obstacles.push_back(part->deepest);
+  for (const ObstacleTile::Part& obstacle : whole) {
+    if (obstacle.solid_corners > 0) obstacles.push_back(obstacle.innermost);
   }
   return obstacles;
 }

@@ -50,14 +50,13 @@ class Builder {
 
   void spread(int x, int y) {
     const int number = static_cast<int>(tile_.parts.size());
-    ObstacleTile::Part part{field_.corner(x, y), static_cast<float>(field_.at_corner(x, y))};
+    solid_.clear();
     part_at(x, y) = number;
     front_.assign(1, {x, y});
     while (!front_.empty()) {
       const auto [cx, cy] = front_.back();
       front_.pop_back();
-      const auto distance_m = static_cast<float>(field_.at_corner(cx, cy));
-      if (distance_m < part.distance_m) part = {field_.corner(cx, cy), distance_m};
+      if (field_.at_corner(cx, cy) <= 0.0) solid_.push_back(field_.corner(cx, cy));
       for (int ny = std::max(window_.y0, cy - 1); ny <= std::min(window_.y1, cy + 1); ++ny) {
         for (int nx = std::max(window_.x0, cx - 1); nx <= std::min(window_.x1, cx + 1); ++nx) {
           if (part_at(nx, ny) != kNone || passable(cx, cy, nx, ny)) continue;
@@ -66,7 +65,20 @@ class Builder {
         }
       }
     }
-    tile_.parts.push_back(part);
+    tile_.parts.push_back(part_of_solid());
+  }
+
+  ObstacleTile::Part part_of_solid() const {
+    ObstacleTile::Part part;
+    if (solid_.empty()) return part;
+    part.solid_corners = static_cast<int>(solid_.size());
+    for (const Vector2& place : solid_) part.sum += place;
+    const Vector2 mean = part.sum / part.solid_corners;
+    part.innermost =
+        *std::min_element(solid_.begin(), solid_.end(), [&](const Vector2& a, const Vector2& b) {
+          return (a - mean).squaredNorm() < (b - mean).squaredNorm();
+        });
+    return part;
   }
 
   void add_border(int x, int y) {
@@ -79,6 +91,7 @@ class Builder {
   const double least_gap_m_;
   std::vector<int> part_;
   std::vector<std::pair<int, int>> front_;
+  std::vector<Vector2> solid_;  // corners of the part
   ObstacleTile tile_;
 };
 

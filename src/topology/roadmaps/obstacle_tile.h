@@ -13,8 +13,9 @@ namespace mocha {
 struct ObstacleTile {
   /// What hangs together in the tile.
   struct Part {
-    Vector2 deepest;   ///< the place in it that is deepest inside of solid matter
-    float distance_m;  ///< of that; above 0 where all of the part is a gap
+    int solid_corners = 0;                ///< in it; 0 where all of the part is a gap
+    Vector2 sum = Vector2::Zero();        ///< of their places
+    Vector2 innermost = Vector2::Zero();  ///< that of them which is nearest to their mean
   };
   std::vector<Part> parts;
   /// Corners on the border, as numbers (y * columns of the field + x), and the part of each: the
