@@ -54,8 +54,9 @@ void make_own(std::shared_ptr<DistanceField>& field) {
 
 bool KnownMap::take(OccupancyGrid grid) {
   const auto cells = static_cast<std::size_t>(std::max(0, grid.width)) * std::max(0, grid.height);
-  if (cells == 0 || grid.cells.size() != cells || !(grid.resolution_m > 0.0))
-    throw std::invalid_argument("the grid is empty or its sizes do not match");
+  if (cells == 0 || grid.cells.size() != cells || !(grid.resolution_m > 0.0) ||
+      !grid.origin.allFinite())
+    throw std::invalid_argument("the grid is empty, or its sizes or its place are none");
   if (is_same(grid, newest_)) return false;
   if (const auto place = place_of(grid)) {
     repair(grid, *place);
@@ -63,7 +64,6 @@ bool KnownMap::take(OccupancyGrid grid) {
     forget();
   }
   newest_ = std::move(grid);
-  ++revision_;
   return true;
 }
 

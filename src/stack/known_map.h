@@ -17,13 +17,11 @@ class KnownMap {
  public:
   using Solid = DistanceField::Solid;
 
-  /// Whether anything changed. Throws std::invalid_argument for a grid without cells, or whose
-  /// sizes do not match.
+  /// Whether anything changed. Throws std::invalid_argument for a grid without cells, whose
+  /// sizes do not match, or whose origin is not finite.
   bool take(OccupancyGrid grid);
 
   bool available() const { return newest_.width > 0; }
-  /// Counts up with every map that differs from the one before.
-  int revision() const { return revision_; }
 
   /// Distances on the newest map, grown to hold the points with a border. Points so far away that
   /// this would take tens of millions of cells are left out.
@@ -44,7 +42,6 @@ class KnownMap {
   void repair(const OccupancyGrid& grid, const Eigen::Vector2i& place);
 
   OccupancyGrid newest_;  // as it came
-  int revision_ = 0;
   OccupancyGrid held_;  // grown; without cells where nothing is derived
   std::shared_ptr<DistanceField> occupied_;
   std::shared_ptr<DistanceField> unseen_;

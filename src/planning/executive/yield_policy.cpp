@@ -79,7 +79,7 @@ std::optional<YieldRequest> YieldPolicy::ask(const RobotIntent& intent, const Ve
   const bool on_it = yielding_.is_near(path, around, now_s, 0.0);
   const bool near_it = yielding_.is_near(path, around, now_s, kNear_m);
   if (!asking_.look(now_s, on_it, near_it) || path.empty()) return std::nullopt;
-  // Who made it pull over may not need the way any more, while another one does.
+  // The robot that made this one pull over may need the way no more, while another does.
   const auto in_way_of = yielding_.in_way_of(here, now_s);
   return yielding_.request_for(path, in_way_of ? *in_way_of : yielding_.own());
 }
