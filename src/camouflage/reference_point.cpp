@@ -25,13 +25,15 @@ class ReferenceChooser {
   std::optional<Point> reference_for(int from, int to) const {
     const Point chord = path_.col(to) - path_.col(from);
     const Point side = side_of(from, to, chord);
-    const double preferred =
-        room_beside(from, to, side) >= room_beside(from, to, -side) ? 1.0 : -1.0;
-    for (const double sign : {preferred, -preferred}) {
-      const Point apex = path_.col(from) + 0.5 * (chord + sign * chord.norm() * side);
-      if (keeps_angle(from, to, apex)) return apex;
+    std::optional<Point> apex;
+    for (const double sign : {1.0, -1.0}) {
+      const Point there = path_.col(from) + 0.5 * (chord + sign * chord.norm() * side);
+      if (!keeps_angle(from, to, there)) continue;
+      // Room is asked for last: it takes long, and most stretches keep no angle.
+      const bool sparser = apex && room_beside(from, to, -side) > room_beside(from, to, side);
+      if (!apex || sparser) apex = there;
     }
-    return std::nullopt;
+    return apex;
   }
 
  private:
