@@ -170,8 +170,7 @@ inline DistanceField::Sample DistanceField::interpolated(const Vector2& at) cons
 
 DistanceField::Sample DistanceField::sample(const Vector2& p) const {
   const Vector2 at = cells_per_m_ * (p - origin_);
-  if (at.x() >= 0.0 && at.x() <= columns_ - 1.0 && at.y() >= 0.0 && at.y() <= rows_ - 1.0)
-    return interpolated(at);
+  if (is_inside(at)) return interpolated(at);
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   if (!p.allFinite()) return {kNan, Vector2(kNan, kNan)};
   const Vector2 inside(std::clamp(at.x(), 0.0, columns_ - 1.0),
@@ -189,16 +188,21 @@ DistanceField::Sample DistanceField::sample(const Vector2& p) const {
 }
 
 double DistanceField::distance_bound(const Vector2& p) const {
-  if (!p.allFinite()) return 0.0;
-  const Vector2 at = (p - origin_) / resolution_m_;
+  const Vector2 at = cells_per_m_ * (p - origin_);
+  if (is_inside(at)) return bound_inside(at);
+  if (!p.allFinite() || outside_solid_) return 0.0;
   const Vector2 inside(std::clamp(at.x(), 0.0, columns_ - 1.0),
                        std::clamp(at.y(), 0.0, rows_ - 1.0));
   const double beyond_m = resolution_m_ * (at - inside).norm();
-  if (beyond_m > 0.0 && outside_solid_) return 0.0;
-  const int i = std::min(static_cast<int>(inside.x()), columns_ - 2);
-  const int j = std::min(static_cast<int>(inside.y()), rows_ - 2);
-  const double u = inside.x() - i;
-  const double v = inside.y() - j;
+  // Every solid cell lies inside the map, and a distance changes no faster than one moves.
+  return std::max(beyond_m, bound_inside(inside) - beyond_m);
+}
+
+double DistanceField::bound_inside(const Vector2& at) const {
+  const int i = std::min(static_cast<int>(at.x()), columns_ - 2);
+  const int j = std::min(static_cast<int>(at.y()), rows_ - 2);
+  const double u = at.x() - i;
+  const double v = at.y() - j;
   const auto squared = [this](int x, int y) {
     const double distance = std::max(0.0, at_corner(x, y));
     return distance * distance;
@@ -206,15 +210,19 @@ double DistanceField::distance_bound(const Vector2& p) const {
   const double mean = (1 - v) * ((1 - u) * squared(i, j) + u * squared(i + 1, j)) +
                       v * ((1 - u) * squared(i, j + 1) + u * squared(i + 1, j + 1));
   const double sag = resolution_m_ * resolution_m_ * (u * (1 - u) + v * (1 - v));
-  const double bound = std::sqrt(std::max(0.0, mean - sag));
-  // Every solid cell lies inside the map, and a distance changes no faster than one moves.
-  return beyond_m > 0.0 ? std::max(beyond_m, bound - beyond_m) : bound;
+  return std::sqrt(std::max(0.0, mean - sag));
 }
 
 double DistanceField::room(const Vector& p, double radius_m) const {
-  // sample() falls short of the true distance by the interpolation, less than a cell. Beyond the
-  // map's rim, going along and going away both count.
-  return std::max(0.0, (distance_bound(p) - radius_m - resolution_m_) * M_SQRT1_2);
+  // Asked for at every sample of a trajectory, so by the nearest corner alone, inside: it is at
+  // most half a cell's diagonal away. sample() falls short of the true distance by the
+  // interpolation, less than a cell. Beyond the map's rim, going along and going away both count.
+  const Vector2 at = cells_per_m_ * (p - origin_);
+  const double bound_m =
+      is_inside(at) ? at_corner(static_cast<int>(at.x() + 0.5), static_cast<int>(at.y() + 0.5)) -
+                          M_SQRT1_2 * resolution_m_
+                    : distance_bound(p);
+  return std::max(0.0, (bound_m - radius_m - resolution_m_) * M_SQRT1_2);
 }
 
 bool DistanceField::clear(const Box& box, double radius_m) const {

@@ -51,8 +51,12 @@ class DistanceField : public ObstacleField<2> {
   Vector2 corner(int x, int y) const { return origin_ + resolution_m_ * Vector2(x, y); }
 
  private:
-  /// Of a place in cells from the origin, inside the lattice.
+  // Places in cells from the origin: whether one is inside the lattice, and what is there if so.
+  bool is_inside(const Vector2& at) const {
+    return at.x() >= 0.0 && at.x() <= columns_ - 1.0 && at.y() >= 0.0 && at.y() <= rows_ - 1.0;
+  }
   Sample interpolated(const Vector2& at) const;
+  double bound_inside(const Vector2& at) const;
   CornerWindow reach_of(const CornerWindow& changed) const;
   template <typename Visit>
   void visit_rim(const CornerWindow& window, const Visit& visit) const;
