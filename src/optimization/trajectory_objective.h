@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "camouflage/knot_map.h"
+#include "optimization/curvature_model.h"
 #include "optimization/duration_cost.h"
 #include "optimization/time_quadrature.h"
 #include "trajectory/minco.h"
@@ -48,6 +49,13 @@ class TrajectoryObjective {
   /// The cost at x, and its gradient.
   double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& gradient);
 
+  /// Makes a model of the curvature at the last evaluation, see CurvatureModel. `damping` >= 0 is
+  /// added to it in all directions. False where that is not enough to make it positive definite.
+  bool prepare_steps(double damping);
+
+  /// A gradient becomes the step to where it vanishes by the newest model, backwards.
+  void to_step(Eigen::VectorXd& gradient) { curvature_.solve(gradient); }
+
   /// The trajectory and the cost's parts of the last evaluation.
   typename Minco<D, S>::Curve curve() const { return minco_.curve(); }
   CostTerms terms() const;
@@ -58,11 +66,15 @@ class TrajectoryObjective {
   Options options_;
   Minco<D, S> minco_;
   TimeQuadrature<D, S> quadrature_;
+  CurvatureModel<D, S> curvature_;
+  Knots tangents_;  // of the knots by their variables
   Knots knots_;
   Knots by_knot_;
   Eigen::VectorXd slopes_;  // of the knot map
   Eigen::VectorXd durations_;
   Eigen::VectorXd by_duration_;
+  Eigen::VectorXd row_;  // of the tangents
+  Eigen::VectorXd eta_;
   std::vector<Piece> by_piece_;
   std::vector<double> shares_;
   double effort_ = 0.0;

@@ -20,6 +20,9 @@ struct OptimizerOptions {
   int max_evaluations;
   double relative_cost;  ///< stop when the cost falls by less than this share over 5 iterations
   std::function<bool()> should_stop;
+  /// Whether steps are taken by a CurvatureModel besides: fewer, the more so the longer a
+  /// trajectory is, though each takes longer.
+  bool model_curvature = false;
 };
 
 template <int D, int S>
@@ -32,8 +35,8 @@ struct OptimizedTrajectory {
   Eigen::VectorXd variables;          ///< of that curve
 };
 
-/// Minimises the objective by L-BFGS from `x`. Returns the best trajectory seen, whatever ended the
-/// search.
+/// Minimises the objective by L-BFGS from `x`, with or without a model of the curvature. Returns
+/// the best trajectory seen, whatever ended the search.
 template <int D, int S>
 OptimizedTrajectory<D, S> optimize(TrajectoryObjective<D, S>& objective, Eigen::VectorXd x,
                                    const OptimizerOptions& options);

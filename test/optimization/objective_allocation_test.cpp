@@ -61,7 +61,7 @@ TrajectoryObjective<2, 3> full_objective(const DistanceField& field, bool camouf
   return TrajectoryObjective<2, 3>(std::move(options));
 }
 
-TEST(TrajectoryObjective, EvaluationAllocatesNothing) {
+TEST(TrajectoryObjective, EvaluationsAndStepsAllocateNothing) {
   OccupancyGrid grid;
   grid.width = 200;
   grid.height = 100;
@@ -75,7 +75,11 @@ TEST(TrajectoryObjective, EvaluationAllocatesNothing) {
     Eigen::VectorXd gradient(objective.variables());
     const long before = allocations;
     double cost = 0.0;
-    for (int i = 0; i < 10; ++i) cost = objective.evaluate(x, gradient);
+    for (int i = 0; i < 10; ++i) {
+      cost = objective.evaluate(x, gradient);
+      EXPECT_TRUE(objective.prepare_steps(1.0));
+      objective.to_step(gradient);
+    }
     EXPECT_EQ(allocations - before, 0) << (camouflage ? "with" : "without") << " camouflage";
     for (const auto& term : objective.terms()) {
       EXPECT_GT(term.second, 0.0) << term.first << " took no part";

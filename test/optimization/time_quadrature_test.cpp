@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -204,6 +205,90 @@ TEST(TimeQuadrature, GradientMatchesDifferences) {  // paper (23)-(26)
     for (int row = 0; row < 2; ++row) {
       for (int column = 0; column < 6; ++column) {
         EXPECT_NEAR(result.by_piece[i](row, column), slope(i, row, column, -1), 1e-5);
+      }
+    }
+  }
+}
+
+/// The cube of a sum of derivatives: Gauss and Newton's curvature is the true one.
+class CubeOfSum : public Penalty<2> {
+ public:
+  const char* name() const override { return "cube of sum"; }
+  Derivatives wanted(const PieceBounds<2>&) const override {
+    return kPosition | kVelocity | kAcceleration | kJerk;
+  }
+  void add(const PieceSamples<2>& s, PenaltyRows<2>& rows) const override {
+    for (int j = 0; j < s.size(); ++j) {
+      double sum = 0.0;
+      for (int order = 0; order < kOrders; ++order)
+        sum += along_[order].dot(s.derivative[order].row(j));
+      const Cubic cube = cubic(sum);
+      rows.value[j] += kWeight * cube.value;
+      for (int order = 0; order < kOrders; ++order)
+        rows.by_derivative[order].row(j) += kWeight * cube.slope * along_[order];
+    }
+  }
+
+ private:
+  static constexpr double kWeight = 5.0;
+  const std::array<Eigen::RowVector2d, kOrders> along_ = {
+      Eigen::RowVector2d{0.4, 0.3}, {0.5, -0.2}, {-0.1, 0.3}, {0.02, 0.01}};
+};
+
+constexpr double kEffortWeight = 0.3;
+constexpr double kLasts_s = 1.7;
+
+/// The cost of one piece by the states at its ends, and its gradient by differences.
+class OnePiece {
+ public:
+  using Ends = Eigen::Matrix<double, 12, 1>;
+
+  explicit OnePiece(bool penalised) {
+    if (penalised) penalties_.push_back(std::make_unique<CubeOfSum>());
+    minco_.resize(1);
+  }
+
+  double cost(const Ends& ends) {
+    solve(ends);
+    std::vector<PlanarMinco::Piece> by_piece(1, PlanarMinco::Piece::Zero());
+    Eigen::VectorXd by_duration = Eigen::VectorXd::Zero(1);
+    std::vector<double> shares(penalties_.size(), 0.0);
+    return kEffortWeight * minco_.effort() +
+           quadrature_.add(minco_, penalties_, by_piece, by_duration, shares);
+  }
+
+  Eigen::Matrix<double, 12, 12> curvature(const Ends& ends) {
+    solve(ends);
+    return quadrature_.curvature(minco_, penalties_, kEffortWeight, 0, 0.0).topLeftCorner<12, 12>();
+  }
+
+ private:
+  void solve(const Ends& ends) {
+    minco_.solve(Eigen::Map<const PlanarMinco::State>(ends.data()),
+                 Eigen::Map<const PlanarMinco::State>(ends.data() + 6), PlanarMinco::Knots(2, 0),
+                 Eigen::VectorXd::Constant(1, kLasts_s));
+  }
+
+  PlanarMinco minco_;
+  TimeQuadrature<2, 3>::Penalties penalties_;
+  TimeQuadrature<2, 3> quadrature_{8, 1, 1};
+};
+
+TEST(TimeQuadrature, CurvatureIsThatOfEffortAndCubes) {
+  constexpr double kStep = 1e-3;
+  for (const bool penalised : {false, true}) {
+    OnePiece piece(penalised);
+    OnePiece::Ends ends;
+    ends << 0.5, 0.2, 1.0, 0.1, 0.3, -0.2, 2.0, 0.6, 0.8, 0.4, -0.1, 0.2;
+    const auto curvature = piece.curvature(ends);
+    for (int k = 0; k < 12; ++k) {
+      for (int l = 0; l < 12; ++l) {
+        const OnePiece::Ends dk = kStep * OnePiece::Ends::Unit(k);
+        const OnePiece::Ends dl = kStep * OnePiece::Ends::Unit(l);
+        const double difference = piece.cost(ends + dk + dl) - piece.cost(ends + dk - dl) -
+                                  piece.cost(ends - dk + dl) + piece.cost(ends - dk - dl);
+        EXPECT_NEAR(curvature(k, l), difference / (4.0 * kStep * kStep), 1e-4 * curvature.norm())
+            << k << ' ' << l;
       }
     }
   }

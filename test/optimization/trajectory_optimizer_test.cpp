@@ -59,6 +59,26 @@ TEST(TrajectoryOptimizer, StraightLineIsNearlyTimeOptimal) {
   }
 }
 
+/// A model of the curvature is of the whole curve at once: a longer one takes no more steps.
+TEST(TrajectoryOptimizer, WithAModelALongCurveTakesAboutAsManyEvaluationsAsAShortOne) {
+  constexpr double kFine = 1e-5;
+  const auto evaluations = [](int pieces) {
+    auto objective = straight_line(pieces, 1.0);
+    const auto result =
+        optimize<2, 3>(objective, slow_start(objective), {4000, kFine, kGoOn, true});
+    EXPECT_EQ(result.stop, StopReason::kConverged);
+    return result.evaluations;
+  };
+  EXPECT_LT(evaluations(200), 2 * evaluations(10));
+}
+
+TEST(TrajectoryOptimizer, WithAModelItComesToTheSameCost) {
+  auto objective = straight_line(8, 1.0, 2.5);
+  const Eigen::VectorXd x = slow_start(objective);
+  const double cost = optimize<2, 3>(objective, x, {4000, 1e-6, kGoOn}).cost;
+  EXPECT_NEAR((optimize<2, 3>(objective, x, {4000, 1e-6, kGoOn, true}).cost), cost, 1e-3 * cost);
+}
+
 TEST(TrajectoryOptimizer, ADearerSecondMakesItFaster) {
   auto patient = straight_line(8, 0.1);
   auto hasty = straight_line(8, 10.0);
@@ -116,12 +136,14 @@ TEST(TrajectoryOptimizer, SaysThatTheStartIsNotFinite) {
 
 TEST(TrajectoryOptimizer, SurvivesDurationsThatAreFarOff) {
   for (const double duration_s : {1e-3, 1e3}) {
-    auto objective = straight_line(8, 1.0);
-    const Eigen::VectorXd x = objective.initial(Eigen::VectorXd::Constant(8, duration_s));
-    const auto result = optimize<2, 3>(objective, x, {4000, kRelativeCost, kGoOn});
-    ASSERT_EQ(result.curve.pieces(), 8);
-    EXPECT_TRUE(std::isfinite(result.cost));
-    EXPECT_LT(result.curve.duration(), 1e3);
+    for (const bool model : {false, true}) {
+      auto objective = straight_line(8, 1.0);
+      const Eigen::VectorXd x = objective.initial(Eigen::VectorXd::Constant(8, duration_s));
+      const auto result = optimize<2, 3>(objective, x, {4000, kRelativeCost, kGoOn, model});
+      ASSERT_EQ(result.curve.pieces(), 8);
+      EXPECT_TRUE(std::isfinite(result.cost));
+      EXPECT_LT(result.curve.duration(), 1e3);
+    }
   }
 }
 

@@ -24,7 +24,12 @@ constexpr double kShareOfAcceleration = 0.95;
 constexpr double kShareOfYawRate = 0.92;
 constexpr double kShareOfWheelSpeed = 0.97;
 constexpr double kShareOfRoom_m = 0.005;
-constexpr double kRelativeCost = 1e-4;  // falling by less, the search has converged
+// A search has converged where the cost falls by less. With a model of the curvature, each step
+// goes farther: measured on maps of 30 to 100 m, drives of many pieces come out better than without
+// it, and in about half the time; those of few pieces gain nothing.
+constexpr double kRelativeCost = 1e-4;
+constexpr double kRelativeModelledCost = 1e-3;
+constexpr int kManyPieces = 50;
 constexpr double kNarrowStep_m = 0.05;  // between the places where a path may be narrow, at least
 constexpr double kSpacingOfRoom = 1.5;  // knots apart, over the room beside the path
 constexpr double kLeastPieces = 10.0;   // of a drive, for its ramps
@@ -294,8 +299,10 @@ OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
   options.kappa = options_.samples_per_piece;
   options.metres_per_eta = knots.metres_per_eta();
   TrajectoryObjective<2, 3> objective(std::move(options));
-  auto found = optimize<2, 3>(objective, objective.initial(knots.durations_s),
-                              {options_.max_evaluations, kRelativeCost, should_stop});
+  const bool many = objective.pieces() >= kManyPieces;
+  auto found = optimize<2, 3>(
+      objective, objective.initial(knots.durations_s),
+      {options_.max_evaluations, many ? kRelativeModelledCost : kRelativeCost, should_stop, many});
   undo(effort, found);
   return found;
 }

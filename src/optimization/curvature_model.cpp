@@ -1,0 +1,93 @@
+#include "optimization/curvature_model.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kLeastCurvature = 1e-9;  // of the free derivatives, relative
+
+}  // namespace
+
+template <int D, int S>
+CurvatureModel<D, S>::CurvatureModel(int pieces, int per_knot)
+    : per_knot_(per_knot), columns_(kSize, pieces) {
+  matrix_.resize(pieces);
+}
+
+template <int D, int S>
+void CurvatureModel<D, S>::clear() {
+  matrix_.set_zero();
+}
+
+template <int D, int S>
+void CurvatureModel<D, S>::add(int i, const PieceCurvature& piece,
+                               const Eigen::Matrix<double, D, Eigen::Dynamic>& tangents,
+                               double slope) {
+  // Rows and columns: the start's state, then the end's and the duration.
+  PieceCurvature by_variables = piece;
+  const auto pull_back = [&](int knot, int at) {
+    Eigen::Matrix<double, D, D> tangent = Eigen::Matrix<double, D, D>::Zero();
+    tangent.leftCols(per_knot_) = tangents.middleCols(knot * per_knot_, per_knot_);
+    by_variables.template middleRows<D>(at) =
+        (tangent.transpose() * by_variables.template middleRows<D>(at)).eval();
+    by_variables.template middleCols<D>(at) =
+        (by_variables.template middleCols<D>(at) * tangent).eval();
+  };
+  if (i > 0) pull_back(i - 1, 0);
+  if (i + 1 < pieces()) {
+    pull_back(i, kEnd);
+  } else {  // its end is given
+    by_variables.template middleRows<kEnd>(kEnd).setZero();
+    by_variables.template middleCols<kEnd>(kEnd).setZero();
+  }
+  by_variables.template bottomRows<1>() *= slope;
+  by_variables.template rightCols<1>() *= slope;
+  matrix_.diagonal(i) += by_variables.template bottomRightCorner<kSize, kSize>();
+  if (i == 0) return;  // so is its start
+  matrix_.diagonal(i - 1).template topLeftCorner<kEnd, kEnd>() +=
+      by_variables.template topLeftCorner<kEnd, kEnd>();
+  matrix_.below(i).template leftCols<kEnd>() +=
+      by_variables.template bottomLeftCorner<kSize, kEnd>();
+}
+
+template <int D, int S>
+bool CurvatureModel<D, S>::factor(double damping) {
+  for (int i = 0; i < pieces(); ++i) {
+    auto& block = matrix_.diagonal(i);
+    const int placed = i + 1 < pieces() ? per_knot_ : 0;
+    for (int k = 0; k < kEnd; ++k) {
+      if (k < placed) {
+        block(k, k) += damping;
+      } else if (k < D || i + 1 == pieces()) {
+        block(k, k) += 1.0;  // no variable
+      } else {
+        block(k, k) *= 1.0 + kLeastCurvature;
+      }
+    }
+    block(kEnd, kEnd) += damping;
+  }
+  return matrix_.factor();
+}
+
+template <int D, int S>
+void CurvatureModel<D, S>::solve(Eigen::VectorXd& x) {
+  const int placed = per_knot_ * (pieces() - 1);
+  columns_.setZero();
+  for (int i = 0; i < pieces(); ++i) {
+    if (i + 1 < pieces()) columns_.col(i).head(per_knot_) = x.segment(i * per_knot_, per_knot_);
+    columns_(kEnd, i) = x[placed + i];
+  }
+  matrix_.solve(columns_);
+  for (int i = 0; i < pieces(); ++i) {
+    if (i + 1 < pieces()) x.segment(i * per_knot_, per_knot_) = columns_.col(i).head(per_knot_);
+    x[placed + i] = columns_(kEnd, i);
+  }
+}
+
+template class CurvatureModel<2, 2>;
+template class CurvatureModel<2, 3>;
+template class CurvatureModel<2, 4>;
+template class CurvatureModel<3, 2>;
+template class CurvatureModel<3, 3>;
+template class CurvatureModel<3, 4>;
+
+}  // namespace mocha
