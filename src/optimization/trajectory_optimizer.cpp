@@ -113,8 +113,7 @@ class Descent {
     return false;
   }
 
-  /// Goes as far along the step as meets the weak Wolfe conditions; false where nothing does. The
-  /// cost is known there already: halving and doubling takes few evaluations.
+  /// Goes as far along the step as meets the weak Wolfe conditions; false where nothing does.
   bool search_along(Eigen::VectorXd& x) {
     double low = 0.0;
     double high = std::numeric_limits<double>::infinity();

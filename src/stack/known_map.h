@@ -42,7 +42,7 @@ class KnownMap {
   void repair(const OccupancyGrid& grid, const Eigen::Vector2i& place);
 
   OccupancyGrid newest_;  // as it came
-  OccupancyGrid held_;  // grown; without cells where nothing is derived
+  OccupancyGrid held_;    // grown; without cells where nothing is derived
   std::shared_ptr<DistanceField> occupied_;
   std::shared_ptr<DistanceField> unseen_;
   std::shared_ptr<const GridStaticMap> static_map_;

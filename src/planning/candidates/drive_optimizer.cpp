@@ -25,8 +25,8 @@ constexpr double kShareOfYawRate = 0.92;
 constexpr double kShareOfWheelSpeed = 0.97;
 constexpr double kShareOfRoom_m = 0.005;
 // A search has converged where the cost falls by less. With a model of the curvature, each step
-// goes farther: measured on maps of 30 to 100 m, drives of many pieces come out better than without
-// it, and in about half the time; those of few pieces gain nothing.
+// goes farther: measured on maps of 100 m and of lidar logs, drives of many pieces come out no
+// worse than without it, in half to seven tenths of the time; those of few pieces gain nothing.
 constexpr double kRelativeCost = 1e-4;
 constexpr double kRelativeModelledCost = 1e-3;
 constexpr int kManyPieces = 50;
