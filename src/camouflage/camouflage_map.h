@@ -21,6 +21,7 @@ class CamouflageMap : public KnotMap<D> {
   /// finite or a reference lies on its knot.
   CamouflageMap(const Knots& prey, const Knots& references, double travel_m);
 
+  Parameterisation parameterisation() const override { return Parameterisation::kCamouflage; }
   int knots() const override { return static_cast<int>(prey_.cols()); }
   int variables() const override { return knots(); }
   Eigen::VectorXd initial() const override;

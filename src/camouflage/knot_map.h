@@ -4,6 +4,9 @@
 
 namespace mocha {
 
+/// By which variables knots are placed.
+enum class Parameterisation { kNone, kCamouflage, kWaypoints };
+
 /// How unconstrained optimisation variables place the interior knots of a trajectory.
 template <int D>
 class KnotMap {
@@ -11,6 +14,8 @@ class KnotMap {
   using Knots = Eigen::Matrix<double, D, Eigen::Dynamic>;
 
   virtual ~KnotMap() = default;
+
+  virtual Parameterisation parameterisation() const = 0;
 
   /// Number of interior knots, and of variables.
   virtual int knots() const = 0;
@@ -36,6 +41,7 @@ class WaypointMap : public KnotMap<D> {
   using typename KnotMap<D>::Knots;
   explicit WaypointMap(const Knots& prey) : prey_(prey) {}
 
+  Parameterisation parameterisation() const override { return Parameterisation::kWaypoints; }
   int knots() const override { return static_cast<int>(prey_.cols()); }
   int variables() const override { return static_cast<int>(prey_.size()); }
   Eigen::VectorXd initial() const override {

@@ -1,8 +1,8 @@
 #include <diagnostic_updater/diagnostic_updater.h>
-#include <mocha_ugv/PlanTrajectory.h>
 #include <ros/ros.h>
 #include <std_srvs/SetBool.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -15,11 +15,13 @@
 #include "ros_bridge/inputs/goal_inputs.h"
 #include "ros_bridge/inputs/map_source.h"
 #include "ros_bridge/inputs/peer_source.h"
+#include "ros_bridge/inputs/plan_service.h"
 #include "ros_bridge/inputs/pose_source.h"
 #include "ros_bridge/inputs/yield_requests.h"
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/status_conversions.h"
 #include "ros_bridge/outputs/planner_outputs.h"
+#include "ros_bridge/runtime/callback_queue.h"
 #include "ros_bridge/runtime/live_parameters.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/robot_identity.h"
@@ -27,11 +29,15 @@
 #include "ros_bridge/runtime/step_loop.h"
 #include "ros_bridge/runtime/transport.h"
 #include "stack/goal_planning.h"
+#include "stack/local_replanning.h"
+#include "stack/plan_worker.h"
 
 namespace mocha {
 namespace {
 
 constexpr double kMapBorder_m = 3.0;
+
+double steady_now_s() { return ros::SteadyTime::now().toSec(); }
 
 /// Finds the way: goals and maps in, plans out.
 class GlobalPlannerNode {
@@ -40,13 +46,16 @@ class GlobalPlannerNode {
       : identity_(robot_identity()),
         model_(own_robot_model(values)),
         values_(values),
+        map_(node, identity_.map_frame),
+        worker_({steady_now_s, [this] { call_soon([this] { step(loop_.now()); }); },
+                 !ros::Time::isSimTime()}),
         planning_(model_, values,
                   {false, neighbour_parameters("trajectory_broadcaster").integer("priority"),
                    identity_.name},
+                  handover_s(neighbour_parameters("local_replanner")), worker_,
                   ros::names::resolve("map")),
-        stop_(node),
+        stop_(node, [this] { heed_stop(); }),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
-        map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
         committed_(node, identity_.name),
         outputs_(node, identity_, model_),
@@ -60,14 +69,15 @@ class GlobalPlannerNode {
             node.subscribe("replan_request", 10, &GlobalPlannerNode::on_request, this, at_once())),
         replanner_(node.subscribe("replanner_status", 10, &GlobalPlannerNode::on_replanner, this,
                                   at_once())),
-        service_(node.advertiseService("plan", &GlobalPlannerNode::on_plan_service, this)),
         pauses_(node.advertiseService("pause", &GlobalPlannerNode::on_pause, this)),
         inputs_(node, identity_, pose_.transforms(),
                 {[this](std::deque<Goal> goals) { take(std::move(goals)); },
                  [this](const std::string& why) { stop(why); }, [this] { return stop_.reason(); }}),
         parameters_(values_,
                     [this](const ParameterTable& changed) { planning_.set_options(changed); }),
-        loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }) {
+        loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }),
+        service_(node, {[this](const auto& request) { return work_on(request); },
+                        [this](const PlanResult& result) { return response_to(result); }}) {
     diagnostics_.setHardwareID(identity_.name);
     diagnostics_.add("planning", this, &GlobalPlannerNode::diagnose);
     ROS_INFO("%s: passes gaps of %.2f m, turns on the spot in %.2f m", identity_.name.c_str(),
@@ -123,13 +133,22 @@ class GlobalPlannerNode {
     now_ = now;
     diagnostics_.update();
     heed_stop();
-    const PoseReading reading = pose_.read(now);
+    go_on();
+    if (worker_.busy()) {
+      loop_.hold();
+    } else {
+      loop_.release();
+    }
+  }
+
+  void go_on() {
+    const PoseReading reading = pose_.read(now_);
     if (!reading.state) {
       if (!executive_.idle()) report(PlanReason::kNoPose, {}, reading.missing);
       return;
     }
-    if (!executive_.idle()) inputs_.feedback(*reading.state, now);
-    show(planning_.step(now.toSec(), *reading.state, committed_.motion(), scenes()));
+    if (!executive_.idle()) inputs_.feedback(*reading.state, now_);
+    show(planning_.step(now_.toSec(), *reading.state, committed_.motion(), scenes()));
   }
 
   void heed_stop() {
@@ -146,16 +165,16 @@ class GlobalPlannerNode {
     }
   }
 
-  /// Empty while there is no map.
+  /// The newest map whenever it is asked for, on any thread, with the team-mates of now. Empty while
+  /// there is no map.
   SceneSource scenes() {
     if (!map_.available()) return {};
-    return [this](const std::vector<Vector2>& places) { return scene(places); };
-  }
-
-  PlanningScene scene(const std::vector<Vector2>& places) {
-    return {map_.static_map(places, kMapBorder_m), peers_.obstacles(), [this, places] {
-              return map_.field(DistanceField::Solid::kOccupiedOrUnknown, places, kMapBorder_m);
-            }};
+    return [this, peers = peers_.obstacles()](const std::vector<Vector2>& places) {
+      return PlanningScene{map_.static_map(places, kMapBorder_m), peers, [this, places] {
+                             return map_.field(DistanceField::Solid::kOccupiedOrUnknown, places,
+                                               kMapBorder_m);
+                           }};
+    };
   }
 
   void stop(const std::string& why) {
@@ -165,9 +184,8 @@ class GlobalPlannerNode {
     report(PlanReason::kNoGoal, {}, why);
   }
 
-  bool on_plan_service(mocha_ugv::PlanTrajectory::Request& request,
-                       mocha_ugv::PlanTrajectory::Response& response) {
-    const PlanResult result = plan_for(request);
+  PlanService::Response response_to(const PlanResult& result) {
+    PlanService::Response response;
     response.success = result.reason == PlanReason::kSolved;
     response.status =
         to_message(result.reason, result.violation, result.message, identity_.map_frame, now_);
@@ -175,10 +193,10 @@ class GlobalPlannerNode {
     for (const auto& candidate : result.candidates) {
       response.candidates.push_back(to_message(candidate, identity_.map_frame, now_));
     }
-    return true;
+    return response;
   }
 
-  PlanResult plan_for(const mocha_ugv::PlanTrajectory::Request& request) {
+  PlanService::Work work_on(const PlanService::Request& request) {
     PlanResult refusal;
     refusal.reason = PlanReason::kInvalidInput;
     const bool from_here = request.start.header.frame_id.empty();
@@ -186,12 +204,12 @@ class GlobalPlannerNode {
     const auto start = from_here ? std::nullopt : inputs_.to_goal(request.start);
     if (!goal || (!from_here && !start)) {
       refusal.message = "start or goal is not usable: " + inputs_.refusal();
-      return refusal;
+      return [refusal](const auto&) { return refusal; };
     }
     if (!map_.available() || (from_here && committed_.motion().empty())) {
       refusal.reason = map_.available() ? PlanReason::kNoPose : PlanReason::kNoMap;
       refusal.message = map_.available() ? "the robot's state is not known yet" : "no map yet";
-      return refusal;
+      return [refusal](const auto&) { return refusal; };
     }
     PlanQuery query = executive_.query_to(*goal, committed_.motion(), now_.toSec());
     if (start) {
@@ -199,14 +217,14 @@ class GlobalPlannerNode {
       query.committed =
           Motion(now_.toSec(), {StandPhase{{start->position, start->yaw_rad.value_or(0.0)}, 0.1}});
     }
-    return planning_.plan(query, scenes());
+    query.time_limit_s = std::numeric_limits<double>::infinity();  // nobody waits to drive
+    return planning_.work_on(query, scenes());
   }
 
   // --- what goes out ---
 
   void show(const GoalExecutive::Output& output) {
     if (output.planned) {
-      ++plans_made_;
       outputs_.show_candidates(output.planned->result, output.planned->goal, now_);
       class_switches_ += output.plan && output.planned->result.switches_class;
     }
@@ -245,8 +263,7 @@ class GlobalPlannerNode {
     status.add("state", to_text(executive_.state()));
     status.add("passes gaps of (m)", passable_gap_m(model_));
     status.add("turns on the spot in (m)", turning_room_m(model_));
-    status.add("plans made", plans_made_);
-    status.add("plans adopted", outputs_.adopted());
+    outputs_.diagnose(status);
     status.add("switches to another class of paths", class_switches_);
     status.add("last request", request_);
     status.add("parameter changes refused", parameters_.refused());
@@ -258,29 +275,29 @@ class GlobalPlannerNode {
   const RobotIdentity identity_;
   const RobotModel model_;
   ParameterTable values_;
+  MapSource map_;
+  PlanWorker worker_;  // uses the map
   GoalPlanning planning_;
   GoalExecutive& executive_ = planning_.executive();
   EmergencyStopListener stop_;
   PoseSource pose_;
-  MapSource map_;
   PeerSource peers_;
   CommittedTrajectorySource committed_;
   PlannerOutputs outputs_;
   YieldRequests yield_requests_;
   ros::Time now_;
   std::string request_;
-  int plans_made_ = 0;
   int class_switches_ = 0;
   int refused_ = 0;
   ros::Subscriber followed_;
   ros::Subscriber requests_;
   ros::Subscriber replanner_;
-  ros::ServiceServer service_;
   ros::ServiceServer pauses_;
   diagnostic_updater::Updater diagnostics_;
   GoalInputs inputs_;
   LiveParameters parameters_;
   StepLoop loop_;
+  PlanService service_;
 };
 
 }  // namespace

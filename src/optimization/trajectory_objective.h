@@ -41,6 +41,7 @@ class TrajectoryObjective {
   explicit TrajectoryObjective(Options options);
 
   int variables() const { return options_.knot_map->variables() + pieces(); }
+  Parameterisation parameterisation() const { return options_.knot_map->parameterisation(); }
   int pieces() const { return options_.knot_map->knots() + 1; }
 
   /// The knots on the prey path, and the given durations [s].

@@ -203,6 +203,7 @@ OptimizedTrajectory<D, S> optimize(TrajectoryObjective<D, S>& objective, Eigen::
   } catch (const std::logic_error&) {  // the direction did not descend: rounding
     result.stop = StopReason::kLineSearchEnded;
   }
+  result.parameterisation = objective.parameterisation();
   result.evaluations = watched.evaluations();
   result.cost = watched.best_cost();
   if (!std::isfinite(result.cost)) {

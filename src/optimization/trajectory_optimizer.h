@@ -28,6 +28,7 @@ struct OptimizerOptions {
 template <int D, int S>
 struct OptimizedTrajectory {
   StopReason stop = StopReason::kInvalidInput;
+  Parameterisation parameterisation = Parameterisation::kNone;
   int evaluations = 0;
   double cost = 0.0;
   CostTerms terms;

@@ -19,17 +19,20 @@ std::string no_progress_for(double time_s) {
 }  // namespace
 
 GoalPlanning::GoalPlanning(const RobotModel& robot, const ParameterTable& values, const Rank& rank,
-                           std::string map_name)
+                           double handover_s, PlanRunner& runner, std::string map_name)
     : robot_(robot),
+      handover_s_(handover_s),
       map_name_(std::move(map_name)),
-      planner_(std::make_unique<GlobalPlanner>(robot, PlannerOptions::from(values))),
-      executive_(GoalExecutiveOptions::from(values), robot,
+      runner_(runner),
+      planner_(std::make_shared<GlobalPlanner>(robot, PlannerOptions::from(values))),
+      executive_(GoalExecutiveOptions::from(values, handover_s), robot,
                  Yielding(rank, robot, PlannerOptions::from(values))),
       goal_timeout_s_(GoalOptions::from(values).timeout_s) {}
 
 void GoalPlanning::set_options(const ParameterTable& values) {
-  planner_ = std::make_unique<GlobalPlanner>(robot_, PlannerOptions::from(values));
-  executive_.set_options(GoalExecutiveOptions::from(values), PlannerOptions::from(values));
+  planner_ = std::make_shared<GlobalPlanner>(robot_, PlannerOptions::from(values));
+  executive_.set_options(GoalExecutiveOptions::from(values, handover_s_),
+                         PlannerOptions::from(values));
   goal_timeout_s_ = GoalOptions::from(values).timeout_s;
 }
 
@@ -47,9 +50,12 @@ GoalPlanning::StopNews GoalPlanning::heed(bool stopped, int stops) {
 GoalExecutive::Output GoalPlanning::step(double now_s, const RobotState& measured,
                                          const Motion& committed, const SceneSource& scene) {
   PlannerInterface planner;
+  planner.answer = [&] { return runner_.answer(); };
+  planner.scene = scene;
   if (scene) {
-    planner.plan = [&](const PlanQuery& query) { return plan(query, scene); };
-    planner.scene = scene;
+    planner.ask = [&](const PlanQuery& query) {
+      runner_.begin(work_on(query, scene), query.time_limit_s);
+    };
   }
   const bool has_plan = !executive_.plan().empty();
   GoalExecutive::Output output = executive_.step(now_s, measured, committed, planner);
@@ -81,8 +87,12 @@ void GoalPlanning::explain(bool has_plan, double now_s, GoalExecutive::Output& o
   said_ = std::move(report);
 }
 
-PlanResult GoalPlanning::plan(const PlanQuery& query, const SceneSource& scene) const {
-  return planner_->plan(query, scene_of(query, scene), [] { return false; });
+PlanRunner::Work GoalPlanning::work_on(const PlanQuery& query, const SceneSource& scene) const {
+  return [planner = planner_, query, scene](const std::function<bool()>& should_stop) {
+    PlanQuery bounded = query;
+    bounded.should_stop = [&] { return query.should_stop() || should_stop(); };
+    return planner->plan(bounded, scene_of(query, scene));
+  };
 }
 
 }  // namespace mocha

@@ -7,6 +7,7 @@
 #include "planning/executive/goal_executive.h"
 #include "planning/global/global_planner.h"
 #include "stack/delay_cause.h"
+#include "stack/plan_runner.h"
 
 namespace mocha {
 
@@ -16,10 +17,11 @@ class GoalPlanning {
  public:
   enum class StopNews { kNone, kStopped, kReset };
 
-  /// `values` are those of config/global_planner.yaml; rank: see YieldPolicy; `map_name`: where the
-  /// map comes from, in messages to people.
+  /// `values` are those of config/global_planner.yaml; rank: see YieldPolicy; `handover_s`: what a
+  /// plan needs until the robot is bound to it; `map_name`: where the map comes from, in messages
+  /// to people. The runner must live longer.
   GoalPlanning(const RobotModel& robot, const ParameterTable& values, const Rank& rank,
-               std::string map_name = "map");
+               double handover_s, PlanRunner& runner, std::string map_name = "map");
   /// Counts for the goals that are there, too.
   void set_options(const ParameterTable& values);
 
@@ -37,19 +39,22 @@ class GoalPlanning {
   }
 
   /// As GoalExecutive::step(), but the report is there where it is news, and says what keeps the
-  /// robot from its goal. `scene` is empty while there is no map.
+  /// robot from its goal. `scene` is empty while there is no map; plans call it wherever the runner
+  /// makes them.
   GoalExecutive::Output step(double now_s, const RobotState& measured, const Motion& committed,
                              const SceneSource& scene);
-  /// A plan to somewhere, whatever the executive is about.
-  PlanResult plan(const PlanQuery& query, const SceneSource& scene) const;
+  /// Makes a plan to somewhere, whatever the executive is about; on any thread.
+  PlanRunner::Work work_on(const PlanQuery& query, const SceneSource& scene) const;
 
  private:
   GoalExecutive::Report cause(bool has_plan, double now_s) const;
   void explain(bool has_plan, double now_s, GoalExecutive::Output& output);
 
   const RobotModel robot_;
+  const double handover_s_;
   const std::string map_name_;
-  std::unique_ptr<const GlobalPlanner> planner_;
+  PlanRunner& runner_;
+  std::shared_ptr<const GlobalPlanner> planner_;
   GoalExecutive executive_;
   DelayCause cause_;
   GoalExecutive::Report said_;

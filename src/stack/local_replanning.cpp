@@ -14,6 +14,10 @@ std::string seconds(double value) {
 
 }  // namespace
 
+double handover_s(const ParameterTable& values) {
+  return values.number("period") + values.number("settle_time");
+}
+
 LocalReplanningOptions LocalReplanningOptions::from(const ParameterTable& values) {
   return {values.number("lease"), values.number("max_map_age"), values.number("max_fleet_age"),
           values.number("max_prediction_age")};

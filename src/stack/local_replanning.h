@@ -12,6 +12,10 @@
 
 namespace mocha {
 
+/// How long a plan takes until the robot is bound to it [s]: the wait for the next step of the
+/// local replanner, and settling. `values` are those of config/local_replanner.yaml.
+double handover_s(const ParameterTable& values);
+
 /// How old data may be without which nothing is certified, and how long a lease lasts [s]; each
 /// stands in config/local_replanner.yaml.
 struct LocalReplanningOptions {

@@ -36,7 +36,8 @@ RobotStack::RobotStack(std::string name, const RobotModel& robot, const Paramete
       radius_m_(robot.footprint.circumscribed_radius_m()),
       braking_(robot.braking()),
       protocol_(protocol),
-      planning_(robot, parameters.global_planner, {false, 0, name_}),
+      planning_(robot, parameters.global_planner, {false, 0, name_},
+                handover_s(parameters.local_replanner), runner_),
       replanning_(robot, parameters.local_replanner),
       keeping_(robot, parameters.local_replanner.number("lease"), protocol) {}
 

@@ -64,6 +64,7 @@ class RobotStack {
   const double radius_m_;
   const Braking braking_;
   SettlingProtocol& protocol_;
+  InlinePlanRunner runner_;
   GoalPlanning planning_;
   LocalReplanning replanning_;
   CommitmentKeeping keeping_;

@@ -59,7 +59,7 @@ PlanQuery query_of(const Task& task) {
 
 std::vector<PlanCandidate> plan_all(const Task& task, const PlannerOptions& options) {
   return GlobalPlanner(task.robot, options)
-      .plan(query_of(task), {task.static_map, {}}, [] { return false; })
+      .plan(query_of(task), {task.static_map, {}})
       .candidates;
 }
 

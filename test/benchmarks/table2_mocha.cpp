@@ -66,7 +66,7 @@ Table2Plan plan_with_mocha(const Table2World& world, const Vector2& target) {
   const auto begin = std::chrono::steady_clock::now();
   const auto field = std::make_shared<PrimitiveField<2>>(obstacle_field(world));
   const PlanningScene scene{std::make_shared<PrimitiveStaticMap>(field, bounds), {}};
-  const PlanResult found = planner.plan(query, scene, [] { return false; });
+  const PlanResult found = planner.plan(query, scene);
   Table2Plan result;
   result.t_plan_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.curve = drive_of(found.motion);

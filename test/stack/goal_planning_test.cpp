@@ -8,6 +8,7 @@ namespace mocha {
 namespace {
 
 constexpr double kNow_s = 1.7e9;
+constexpr double kHandover_s = 0.4;
 
 class GoalPlanningTest : public ::testing::Test {
  protected:
@@ -40,7 +41,8 @@ class GoalPlanningTest : public ::testing::Test {
   const Motion standing_ = standing(kNow_s - 1.0, {0.0, 0.0}, 0.0);
   std::shared_ptr<const StaticMap> map_ = static_map_of(free_grid({-2.0, -3.0}, {12.0, 3.0}));
   SceneSource scene_ = [this](const std::vector<Vector2>&) { return PlanningScene{map_, {}}; };
-  GoalPlanning planning_{rover(), values_, {false, 0, "ugv1"}};
+  InlinePlanRunner at_once_;
+  GoalPlanning planning_{rover(), values_, {false, 0, "ugv1"}, kHandover_s, at_once_};
 };
 
 TEST_F(GoalPlanningTest, PlansToItsGoal) {
@@ -152,9 +154,69 @@ TEST_F(GoalPlanningTest, TakesNewOptions) {
   fill_box(grid, {5.9, -0.1}, {6.1, 0.1});
   const PlanQuery query{kNow_s, standing_, {6.4, 0.0}, {}, {}};
   const SceneSource scene = [&](const auto&) { return PlanningScene{static_map_of(grid), {}}; };
-  EXPECT_EQ(planning_.plan(query, scene).reason, PlanReason::kSolved);
+  const auto go_on = [] { return false; };
+  EXPECT_EQ(planning_.work_on(query, scene)(go_on).reason, PlanReason::kSolved);
   planning_.set_options(values);
-  EXPECT_EQ(planning_.plan(query, scene).reason, PlanReason::kGoalOccupied);
+  EXPECT_EQ(planning_.work_on(query, scene)(go_on).reason, PlanReason::kGoalOccupied);
+}
+
+/// Keeps what it is to do until it is told to do it.
+class LateRunner : public PlanRunner {
+ public:
+  void begin(Work work, double time_limit_s) override {
+    work_ = std::move(work);
+    time_limit_s_ = time_limit_s;
+    answer_.reset();
+  }
+  std::optional<PlanResult> answer() override { return std::exchange(answer_, std::nullopt); }
+  void work() {
+    answer_ = work_([] { return false; });
+  }
+  double time_limit_s() const { return time_limit_s_; }
+
+ private:
+  Work work_;
+  double time_limit_s_ = 0.0;
+  std::optional<PlanResult> answer_;
+};
+
+class LatePlanningTest : public GoalPlanningTest {
+ protected:
+  GoalExecutive::Output step_late(double now_s) {
+    return late_.step(now_s, {now_s, {{0.0, 0.0}, 0.0}, {0.0, 0.0}}, standing_, scene_);
+  }
+
+  LateRunner runner_;
+  GoalPlanning late_{rover(), values_, {false, 0, "ugv1"}, kHandover_s, runner_};
+};
+
+TEST_F(LatePlanningTest, StepsGoOnWhileAPlanIsUnderWay) {
+  late_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
+  EXPECT_FALSE(step_late(kNow_s).plan);
+  EXPECT_TRUE(late_.executive().awaits_plan());
+  EXPECT_DOUBLE_EQ(runner_.time_limit_s(), values_.number("planning_time"));
+  EXPECT_FALSE(step_late(kNow_s + 0.3).plan);
+  runner_.work();
+  const auto output = step_late(kNow_s + 0.35);
+  EXPECT_FALSE(late_.executive().awaits_plan());
+  ASSERT_TRUE(output.plan);
+  EXPECT_DOUBLE_EQ(output.plan->start_time(), kNow_s + values_.number("planning_time"));
+}
+
+TEST_F(LatePlanningTest, AnotherGoalStopsWhatIsUnderWay) {
+  late_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
+  step_late(kNow_s);
+  late_.executive().take({Goal{{4.0, 1.0}, std::nullopt}}, standing_, kNow_s + 0.05);
+  runner_.work();  // what was begun for the first goal
+  double now_s = kNow_s;
+  for (int i = 0; i < 5 && !late_.executive().awaits_plan(); ++i) {
+    const auto output = step_late(now_s += 0.05);
+    EXPECT_TRUE(!output.plan || output.plan->empty());  // it was about to set off, so it brakes
+  }
+  runner_.work();
+  const auto output = step_late(now_s + 0.05);
+  ASSERT_TRUE(output.plan);
+  EXPECT_LT((output.plan->end_pose().position - Vector2(4.0, 1.0)).norm(), 0.01);
 }
 
 }  // namespace

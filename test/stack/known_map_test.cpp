@@ -110,11 +110,13 @@ TEST_F(KnownMapTest, RepairsWhatChangesAsIfItWereNew) {
       expect_same(*map.field(solid, points, 2.0), *fresh.field(solid, points, 2.0));
     const TravelCost cost(*static_map, start, {}, shipped_travel_options());
     const TravelCost fresh_cost(*expected, start, {}, shipped_travel_options());
-    const auto& obstacles = static_map->skeleton(cost.options())->obstacles(cost);
-    EXPECT_EQ(obstacles, expected->skeleton(cost.options())->obstacles(fresh_cost));
-    const Roadmap<2> roadmap = static_map->skeleton(cost.options())->roadmap(cost, goal);
-    EXPECT_EQ(roadmap.edges.size(),
-              expected->skeleton(cost.options())->roadmap(fresh_cost, goal).edges.size());
+    const auto skeleton = static_map->skeleton(cost.options());
+    const auto fresh_skeleton = expected->skeleton(cost.options());
+    ASSERT_TRUE(skeleton->complete(cost, [] { return false; }));
+    ASSERT_TRUE(fresh_skeleton->complete(fresh_cost, [] { return false; }));
+    EXPECT_EQ(skeleton->obstacles(), fresh_skeleton->obstacles());
+    EXPECT_EQ(skeleton->roadmap(cost, goal).edges.size(),
+              fresh_skeleton->roadmap(fresh_cost, goal).edges.size());
     // A field that was handed out earlier keeps its values.
     if (last) expect_same(*last, *last_expected);
     last = map.field(Solid::kOccupied, points, 2.0);

@@ -285,7 +285,7 @@ PlanarMinco::State DriveOptimizer::end_state(const DriveQuery& query) const {
 
 OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
     const DriveQuery& query, const ObstacleField<2>& field, const Effort& effort,
-    const std::function<bool()>& should_stop) const {
+    const std::function<bool()>& should_stop, double most_work) const {
   if (!is_sound(query)) return {};
   const InitialKnots<2> knots = initial_knots(query, field, effort);
   const double a_max = limits_of(query).max_acceleration;
@@ -300,9 +300,12 @@ OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
   options.metres_per_eta = knots.metres_per_eta();
   TrajectoryObjective<2, 3> objective(std::move(options));
   const bool many = objective.pieces() >= kManyPieces;
+  const double affordable = std::max(1.0, most_work / objective.pieces());
+  const int evaluations =
+      static_cast<int>(std::min<double>(options_.max_evaluations, affordable));
   auto found = optimize<2, 3>(
       objective, objective.initial(knots.durations_s),
-      {options_.max_evaluations, many ? kRelativeModelledCost : kRelativeCost, should_stop, many});
+      {evaluations, many ? kRelativeModelledCost : kRelativeCost, should_stop, many});
   undo(effort, found);
   return found;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -56,10 +57,12 @@ class DriveOptimizer {
   /// `field` are the static obstacles. The result's curve is empty only if nothing finite was
   /// found (kNotFinite), or the query is none (kInvalidInput): values that are not finite or beyond
   /// 1e6, fewer than two points, no length. Cost and terms are those at the weights of the options,
-  /// whatever the effort.
-  OptimizedTrajectory<2, 3> optimize_drive(const DriveQuery& query, const ObstacleField<2>& field,
-                                           const Effort& effort,
-                                           const std::function<bool()>& should_stop) const;
+  /// whatever the effort. `most_work`: evaluations of single pieces; one of the whole is made in
+  /// any case.
+  OptimizedTrajectory<2, 3> optimize_drive(
+      const DriveQuery& query, const ObstacleField<2>& field, const Effort& effort,
+      const std::function<bool()>& should_stop,
+      double most_work = std::numeric_limits<double>::infinity()) const;
 
   /// Distance of knots on a path [m]: it follows the room between the obstacles, within the bounds
   /// that the options give.

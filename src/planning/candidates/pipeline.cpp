@@ -69,6 +69,7 @@ bool CandidatePipeline::prove(const StartManeuver& start_maneuver,
                               const OptimizedTrajectory<2, 3>& found,
                               PlanCandidate& candidate) const {
   candidate.cost = found.cost;
+  candidate.parameterisation = found.parameterisation;
   candidate.terms = found.terms;
   if (!rules_.assemble(start_maneuver, found.curve, candidate)) return false;
   rules_.certify(candidate);
@@ -81,8 +82,10 @@ void CandidatePipeline::climb(const Seed& seed, const StartManeuver& start_maneu
   const EffortLadder ladder = rules_.ladder();
   Effort effort;
   for (int attempt = 1; attempt <= ladder.attempts && !should_stop(); ++attempt) {
-    const auto found = optimizer_.optimize_drive(query, obstacles_, effort, should_stop);
+    const auto found = optimizer_.optimize_drive(query, obstacles_, effort, should_stop,
+                                                 ladder.most_work - best.work);
     best.evaluations += found.evaluations;
+    best.work += static_cast<double>(found.evaluations) * found.curve.pieces();
     PlanCandidate tried = best;
     if (found.curve.pieces() == 0 || !prove(start_maneuver, found, tried)) return;
     const double slower = is_free_in_time(query) ? slow_down(tried.violation) : 1.0;
@@ -101,14 +104,17 @@ PlanCandidate CandidatePipeline::optimise_and_certify(
   best.signature = seed.signature;
   best.driven = seed.driven;
   best.path = seed.start_maneuvers.front().path;
+  const auto is_over = [&, most_work = rules_.ladder().most_work] {
+    return should_stop() || best.work >= most_work;
+  };
   for (const StartManeuver& start_maneuver : seed.start_maneuvers) {
-    climb(seed, start_maneuver, should_stop, best);
+    climb(seed, start_maneuver, is_over, best);
     if (best.met == rules_.wanted()) break;
   }
   if (best.met != RequirementName::kNone) {
     best.reason = PlanReason::kSolved;
   } else {
-    best.reason = should_stop() ? PlanReason::kBudgetExhausted : PlanReason::kNotCertified;
+    best.reason = is_over() ? PlanReason::kBudgetExhausted : PlanReason::kNotCertified;
   }
   return best;
 }

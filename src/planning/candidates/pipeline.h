@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "planning/candidates/drive_optimizer.h"
@@ -24,6 +25,8 @@ struct Seed {
 struct EffortLadder {
   int attempts;
   double factor;  ///< of the weight of what is violated, from attempt to attempt
+  /// Evaluations of single pieces, of all attempts together.
+  double most_work = std::numeric_limits<double>::infinity();
 };
 
 /// What global and local planning do each in their own way.
@@ -56,7 +59,7 @@ class CandidatePipeline {
       : optimizer_(optimizer), obstacles_(obstacles), rules_(rules) {}
 
   /// Tries the start maneuvers of a seed in turn, each with rising effort, until what is wanted is
-  /// met or `should_stop`. Returns the last of the best.
+  /// met, the work is used up, or `should_stop`. Returns the last of the best.
   PlanCandidate optimise_and_certify(const Seed& seed,
                                      const std::function<bool()>& should_stop) const;
 

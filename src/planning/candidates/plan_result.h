@@ -38,7 +38,9 @@ struct PlanCandidate {
   Violation violation;                           ///< of what was wanted, where that is not met
   double cost = 0.0;  ///< J, paper (14), and what comes before and after the drive
   CostTerms terms;    ///< sum up to the cost
+  Parameterisation parameterisation = Parameterisation::kNone;  ///< of the motion
   int evaluations = 0;
+  double work = 0.0;  ///< evaluations of single pieces
   std::vector<Vector2> path;  ///< of the front end, from which the optimisation started
   Motion motion;
   double drive_ends_s = 0.0;  ///< absolute: there, a local plan is back on the plan that it left
@@ -61,6 +63,7 @@ struct Selection {
 struct PlanResult : Selection {
   /// Where it leads: the goal, or the nearest free place; valid where solved.
   Vector2 goal = Vector2::Zero();
+  double took_s = 0.0;  ///< of planning, where it was measured
 };
 
 }  // namespace mocha

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -29,6 +30,11 @@ struct PlanQuery {
   std::optional<double> goal_yaw_rad;
   /// The plan to the same goal that is being driven, for its class; empty if there is none.
   Motion driven;
+  /// How long planning may take [s], where its work is measured by a PlanQuery's standard: see
+  /// GlobalPlanner.
+  double time_limit_s = std::numeric_limits<double>::infinity();
+  /// Ends planning early; several threads may call it at once.
+  std::function<bool()> should_stop = [] { return false; };
 };
 
 }  // namespace mocha

@@ -1,4 +1,5 @@
 // What the goal executive makes of plans, and of their lack.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,8 @@ using E = ExecutiveEvent;
 
 constexpr double kSameGoal_m = 0.05;
 constexpr double kRounding_s = 1e-6;  // of differences of times
+constexpr double kLonger = 2.0;       // the time for planning, each time that it did not suffice
+constexpr double kLongest = 16.0;     // times as usual
 
 GoalExecutive::Report report(PlanReason reason, const std::string& message,
                              const Violation& violation = {}) {
@@ -33,7 +36,11 @@ E failure_event(PlanReason reason) {
 PlanQuery GoalExecutive::query_to(const Goal& goal, const Motion& committed, double now_s) const {
   PlanQuery query;
   query.committed = committed;
-  query.start_time_s = committed.switch_time(now_s + options_.planning_time_s);
+  const double planning_time_s = errand_.longer * options_.planning_time_s;
+  query.start_time_s = committed.switch_time(now_s + planning_time_s);
+  // From rest, a plan may take over later.
+  const bool rests = committed.at(query.start_time_s).at_rest;
+  query.time_limit_s = planning_time_s - (rests ? 0.0 : options_.handover_s);
   query.goal = goal.position;
   query.goal_yaw_rad = goal.yaw_rad;
   return query;
@@ -45,7 +52,18 @@ bool GoalExecutive::plan_is_due(double now_s) const {
 }
 
 void GoalExecutive::plan(const Input& input, Output& output) {
-  if (!input.planner.plan) {
+  if (!errand_.question && plan_is_due(input.now_s)) ask_for_plan(input, output);
+  if (!errand_.question) return;
+  std::optional<PlanResult> answer = input.planner.answer();
+  if (!answer) return;
+  errand_.question.reset();
+  const bool exhausted = answer->reason == PlanReason::kBudgetExhausted;
+  errand_.longer = exhausted ? std::min(kLonger * errand_.longer, kLongest) : 1.0;
+  consider({target(), std::move(*answer)}, input, output);
+}
+
+void GoalExecutive::ask_for_plan(const Input& input, Output& output) {
+  if (!input.planner.ask) {
     output.report = report(PlanReason::kNoMap, "no map yet");
     return;
   }
@@ -57,7 +75,14 @@ void GoalExecutive::plan(const Input& input, Output& output) {
   PlanQuery query = query_to(target(), input.committed, input.now_s);
   query.driven = errand_.plan;
   errand_.planned_s = input.now_s;
-  output.planned = Planned{target(), input.planner.plan(query)};
+  errand_.question = std::make_shared<Question>();
+  query.should_stop = [asked = std::weak_ptr(errand_.question)] { return asked.expired(); };
+  input.planner.ask(query);
+}
+
+/// What a plan that came in means for what is driven.
+void GoalExecutive::consider(Planned planned, const Input& input, Output& output) {
+  output.planned = std::move(planned);
   const PlanResult& result = output.planned->result;
   if (state_ == S::kDriving && !much_better(result, input.now_s)) return;
   if (const auto whose = in_way_of(result.motion, input.now_s)) {

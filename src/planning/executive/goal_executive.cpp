@@ -67,6 +67,12 @@ void GoalExecutive::resume() {
   if (goals_.empty()) begin_goal(E::kStopped);
 }
 
+void GoalExecutive::request() {
+  const S before = state_;
+  handle(E::kPlanRequested);
+  if (state_ != before) errand_.question.reset();
+}
+
 void GoalExecutive::follow(Motion followed) {
   if (!heeds(state_, E::kFollowed)) return;
   if ((followed.end_pose().position - destination()).norm() >= kSamePlace_m) return;
@@ -116,7 +122,7 @@ GoalExecutive::Output GoalExecutive::step(double now_s, const RobotState& measur
   if (output.ending == Ending::kNoProgress) give_up(output.ending, output);
   note_progress(input);
   if (planner.scene && !committed.empty()) yield(input, output);
-  if (plan_is_due(now_s)) plan(input, output);
+  plan(input, output);
   brake_first(input, output);
   if (planner.scene) ask(input, output);
   if (auto withdrawal = yielding_.withdrawal()) output.request = std::move(withdrawal);

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -44,8 +45,8 @@ class GoalExecutive {
   /// Goals to be reached in order, at least one, instead of those there were. Where the first lies
   /// ahead of the motion in force, the robot keeps rolling until it is planned to; else it brakes.
   void take(std::deque<Goal> goals, const Motion& committed, double now_s);
-  /// Plans anew as soon as possible.
-  void request() { handle(ExecutiveEvent::kPlanRequested); }
+  /// Plans anew as soon as possible; what is under way for another reason is given up.
+  void request();
   /// What is driven instead of what was planned, around something that moves; counts only if it
   /// leads to the same place.
   void follow(Motion followed);
@@ -65,17 +66,25 @@ class GoalExecutive {
   /// What would be asked now to get to `goal`; `committed` must not be empty.
   PlanQuery query_to(const Goal& goal, const Motion& committed, double now_s) const;
 
+  /// Whether a plan was asked for whose answer still counts.
+  bool awaits_plan() const { return errand_.question != nullptr; }
+
   ExecutiveState state() const { return state_; }
   bool idle() const { return goals_.empty(); }
   /// The plan at hand; empty if there is none.
   const Motion& plan() const { return errand_.plan; }
 
  private:
+  /// Is moot as soon as nobody holds it.
+  struct Question {};
+
   /// Where the robot is to go now, and how far that has come; begins anew with each place.
   struct Errand {
     std::optional<PullOverPoint> pull_over;  ///< in the states that make room or wait
     Motion plan;                             ///< the last one that was found
     double planned_s = -std::numeric_limits<double>::infinity();  ///< the planner was asked last
+    std::shared_ptr<const Question> question;  ///< to the planner, until it is answered
+    double longer = 1.0;  ///< than usual is the time that planning may take, as it did not suffice
     double without_plan_since_s = 0.0;  ///< for the reason that the state names
   };
 
@@ -96,6 +105,8 @@ class GoalExecutive {
   void note_progress(const Input& input);
   void yield(const Input& input, Output& output);
   void plan(const Input& input, Output& output);
+  void ask_for_plan(const Input& input, Output& output);
+  void consider(Planned planned, const Input& input, Output& output);
   void brake_first(const Input& input, Output& output);
   void ask(const Input& input, Output& output);
 

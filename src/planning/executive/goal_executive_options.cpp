@@ -7,8 +7,9 @@ constexpr double kSoonest_s = 0.2;  // between two plans, whatever is requested
 
 }  // namespace
 
-GoalExecutiveOptions GoalExecutiveOptions::from(const ParameterTable& values) {
+GoalExecutiveOptions GoalExecutiveOptions::from(const ParameterTable& values, double handover_s) {
   return {values.number("planning_time"),
+          handover_s,
           values.number("replan_period"),
           values.number("retry_period"),
           values.number("min_improvement"),

@@ -11,6 +11,7 @@ namespace mocha {
 /// When to plan and what to drive; each stands in config/global_planner.yaml.
 struct GoalExecutiveOptions {
   double planning_time_s;  ///< a plan takes over this long after planning began
+  double handover_s;       ///< of that, what a plan needs until the robot is bound to it
   double replan_period_s;
   double retry_period_s;   ///< after a failure
   double min_improvement;  ///< of the remaining time, for a plan to replace a valid one
@@ -24,7 +25,7 @@ struct GoalExecutiveOptions {
   /// How long the goals are kept in this state [s]; none where `goals.timeout_s` alone counts.
   std::optional<double> patience_s(ExecutiveState state) const;
 
-  static GoalExecutiveOptions from(const ParameterTable& values);
+  static GoalExecutiveOptions from(const ParameterTable& values, double handover_s);
 };
 
 }  // namespace mocha

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "planning/candidates/plan_result.h"
@@ -11,10 +12,12 @@ namespace mocha {
 /// What is around: surroundings that hold these places (map frame).
 using SceneSource = std::function<PlanningScene(const std::vector<Vector2>&)>;
 
-/// What the goal executive asks of planning; all functions are empty while there is no map.
+/// What the goal executive asks of planning.
 struct PlannerInterface {
-  /// A plan, or the reason why there is none.
-  std::function<PlanResult(const PlanQuery&)> plan;
+  /// Begins a plan; what was begun before is given up. Empty while there is no map, as `scene`.
+  std::function<void(const PlanQuery&)> ask;
+  /// The plan that was asked for, or the reason why there is none; nothing while it is under way.
+  std::function<std::optional<PlanResult>()> answer;
   SceneSource scene;
 };
 

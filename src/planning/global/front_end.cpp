@@ -82,6 +82,7 @@ HomotopyPaths FrontEnd::paths(std::vector<Vector2> lead_in, const PlanQuery& que
   HomotopyPathQuery paths;
   paths.lead_in = std::move(lead_in);
   paths.goal = goal;
+  paths.should_stop = query.should_stop;
   // A team-mate on the goal will hardly stay.
   for (const BlockedDisc& disc : standing_peers(scene, query.start_time_s)) {
     if ((disc.centre - goal).norm() > disc.radius_m) paths.blocked.push_back(disc);
@@ -175,28 +176,31 @@ bool FrontEnd::may_reach(const Vector2& start, const Vector2& goal,
   return !space || space->connects(start, goal);
 }
 
-bool FrontEnd::reaches(const Vector2& start, const Vector2& goal,
-                       const StaticMap& static_map) const {
+bool FrontEnd::reaches(const Vector2& start, const Vector2& goal, const StaticMap& static_map,
+                       const std::function<bool()>& should_stop) const {
   const TravelCost cost(static_map, start, {}, options_.travel);
-  return find_grid_path(static_map, start, goal, cost, kLatticeStep_m).outcome ==
+  return find_grid_path(static_map, start, goal, cost, kLatticeStep_m, should_stop).outcome ==
          GridPath::Outcome::kFound;
 }
 
 std::optional<NarrowPlace> FrontEnd::narrowest(const Vector2& start, const Vector2& goal,
-                                               const StaticMap& static_map) const {
+                                               const StaticMap& static_map,
+                                               const std::function<bool()>& should_stop) const {
   const double needed_m = passable_gap_m(robot_);
   // What is not even a cell wide is no way.
   const auto space = static_map.connectivity(0.5 * static_map.detail_m());
   if (space && space->holds(start) && !space->connects(start, goal)) return std::nullopt;
   for (const double free_radius_m : {options_.travel.escape_radius_m, 0.0}) {
-    const auto narrow = narrowest_place(static_map, start, goal, kLatticeStep_m, free_radius_m);
+    const auto narrow =
+        narrowest_place(static_map, start, goal, kLatticeStep_m, free_radius_m, should_stop);
     if (narrow && narrow->width_m < needed_m) return narrow;
   }
   return std::nullopt;
 }
 
 Vector2 FrontEnd::nearest_reachable(const Vector2& start, const Vector2& goal,
-                                    const StaticMap& static_map) const {
+                                    const StaticMap& static_map,
+                                    const std::function<bool()>& should_stop) const {
   const auto space = static_map.connectivity(required_clearance_m());
   if (space && space->holds(start)) return space->nearest(start, goal).value_or(start);
   const TravelCost cost(static_map, start, {}, options_.travel);
@@ -204,7 +208,7 @@ Vector2 FrontEnd::nearest_reachable(const Vector2& start, const Vector2& goal,
   find_nearest_place(static_map, start, cost, kReachableStep_m, TravelCost::kInfinity,
                      [&](const Vector2& place) {
                        if ((place - goal).norm() < (nearest - goal).norm()) nearest = place;
-                       return false;
+                       return should_stop();
                      });
   return nearest;
 }

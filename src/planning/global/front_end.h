@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -24,7 +25,8 @@ HomotopyPathOptions homotopy_path_options(const RobotModel& robot, const Planner
 /// Places on a motion from a time on to its end, at most 0.2 m apart at speeds up to `max_speed`.
 std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_speed);
 
-/// Finds the paths to the goal, cheapest first (paper IV-E).
+/// Finds the paths to the goal, cheapest first (paper IV-E). Where it is stopped, what it says is of
+/// no account.
 class FrontEnd {
  public:
   FrontEnd(const RobotModel& robot, const PlannerOptions& options);
@@ -45,17 +47,19 @@ class FrontEnd {
   bool may_reach(const Vector2& start, const Vector2& goal, const StaticMap& static_map) const;
 
   /// Whether there is any path, team-mates aside.
-  bool reaches(const Vector2& start, const Vector2& goal, const StaticMap& static_map) const;
+  bool reaches(const Vector2& start, const Vector2& goal, const StaticMap& static_map,
+               const std::function<bool()>& should_stop) const;
 
   /// The place nearest to the goal to which there is a path, team-mates aside; `start` where there
   /// is none.
-  Vector2 nearest_reachable(const Vector2& start, const Vector2& goal,
-                            const StaticMap& static_map) const;
+  Vector2 nearest_reachable(const Vector2& start, const Vector2& goal, const StaticMap& static_map,
+                            const std::function<bool()>& should_stop) const;
 
   /// Where the widest way to the goal is too narrow for the robot, team-mates aside; nothing where
   /// there is none at all.
   std::optional<NarrowPlace> narrowest(const Vector2& start, const Vector2& goal,
-                                       const StaticMap& static_map) const;
+                                       const StaticMap& static_map,
+                                       const std::function<bool()>& should_stop) const;
 
   /// Distance of the robot's centre from obstacles on a path [m].
   double required_clearance_m() const { return options_.travel.required_clearance_m; }

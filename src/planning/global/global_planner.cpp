@@ -83,18 +83,19 @@ PlanResult GlobalPlanner::turn_only(const PlanQuery& query, const PlanningScene&
   return result;
 }
 
-std::string GlobalPlanner::obstruction(const Vector2& start, const Vector2& goal,
+std::string GlobalPlanner::obstruction(const Vector2& goal, const PlanQuery& query,
                                        const StaticMap& static_map) const {
+  const Vector2 start = query.committed.at(query.start_time_s).pose.position;
   std::ostringstream text;
   text.precision(2);
   text << std::fixed;
-  if (const auto narrow = front_end_.narrowest(start, goal, static_map)) {
+  if (const auto narrow = front_end_.narrowest(start, goal, static_map, query.should_stop)) {
     text << "; the narrowest place of the widest way is " << place(narrow->place) << ", "
          << narrow->width_m << " m wide there, and the robot needs " << passable_gap_m(robot_)
          << " m";
   }
   text << "; the nearest place in reach is "
-       << place(front_end_.nearest_reachable(start, goal, static_map));
+       << place(front_end_.nearest_reachable(start, goal, static_map, query.should_stop));
   return text.str();
 }
 
@@ -114,12 +115,11 @@ std::optional<PlanResult> GlobalPlanner::refusal(const PlanQuery& query,
 }
 
 void GlobalPlanner::run(const PlanQuery& query, const GlobalSeeds& seeds,
-                        const PlanningScene& scene, const std::function<bool()>& should_stop,
-                        PlanResult& result) const {
+                        const PlanningScene& scene, PlanResult& result) const {
   const GlobalRules rules(robot_, options_, query, scene);
   const SwitchRule rule{options_.switch_margin, 0.0};
   const CandidatePipeline pipeline(optimizer_, scene.static_map->field(), rules);
-  result.candidates = pipeline.race(seeds.list, rule, options_.threads, should_stop);
+  result.candidates = pipeline.race(seeds.list, rule, options_.threads, query.should_stop);
   for (PlanCandidate& candidate : result.candidates) {
     if (candidate.motion.empty()) continue;
     // An optimiser may leave its class.
@@ -131,17 +131,16 @@ void GlobalPlanner::run(const PlanQuery& query, const GlobalSeeds& seeds,
 }
 
 void GlobalPlanner::search(const PlanQuery& query, const PlanningScene& scene, const Vector2& goal,
-                           const std::function<bool()>& should_stop, PlanResult& result) const {
-  run(query, front_end_.seeds(query, scene, goal), scene, should_stop, result);
+                           PlanResult& result) const {
+  run(query, front_end_.seeds(query, scene, goal), scene, result);
   for (const auto& other_start : {&FrontEnd::after_braking, &FrontEnd::after_parking_out}) {
-    if (result.reason == PlanReason::kSolved) return;
+    if (result.reason == PlanReason::kSolved || query.should_stop()) return;
     const GlobalSeeds seeds = (front_end_.*other_start)(query, scene, goal);
-    if (!seeds.list.empty()) run(query, seeds, scene, should_stop, result);
+    if (!seeds.list.empty()) run(query, seeds, scene, result);
   }
 }
 
-PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scene,
-                               const std::function<bool()>& should_stop) const {
+PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scene) const {
   if (auto refused = refusal(query, scene)) return *refused;
   const MotionState start = query.committed.at(query.start_time_s);
   if (is_at_goal(start, query)) return turn_only(query, scene);
@@ -160,16 +159,20 @@ PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scen
   result.goal = *goal;
   const StaticMap& static_map = *scene.static_map;
   const bool may_reach = front_end_.may_reach(start.pose.position, *goal, static_map);
-  if (may_reach) search(query, scene, *goal, should_stop, result);
+  if (may_reach) search(query, scene, *goal, result);
   if (result.reason == PlanReason::kSolved || !result.candidates.empty()) return result;
   if (may_reach && !scene.peers.empty() &&
-      front_end_.reaches(start.pose.position, *goal, static_map)) {
+      front_end_.reaches(start.pose.position, *goal, static_map, query.should_stop)) {
     result.reason = PlanReason::kPeerConflict;
     result.message = "team-mates stand on every path to " + place(*goal);
   } else {
-    result.message += obstruction(start.pose.position, *goal, static_map);
+    result.message += obstruction(*goal, query, static_map);
   }
-  return result;
+  if (!query.should_stop()) return result;
+  PlanResult stopped = failure(PlanReason::kBudgetExhausted,
+                               "planning was stopped before a path to " + place(*goal) + " was found");
+  stopped.goal = *goal;
+  return stopped;
 }
 
 }  // namespace mocha

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -17,25 +16,25 @@ class GlobalPlanner {
 
   /// A plan that joins what is committed, or the reason why there is none.
   ///
-  /// `should_stop` ends the work early (it may be called by several threads at once); then the
-  /// reason is kBudgetExhausted unless something was certified before.
-  PlanResult plan(const PlanQuery& query, const PlanningScene& scene,
-                  const std::function<bool()>& should_stop) const;
+  /// Where it is stopped, or the work that each path may take is used up, that is the cheapest
+  /// motion that is certified by then, or kBudgetExhausted. That work is counted in evaluations of
+  /// single pieces, so many for each second of the query's time limit.
+  PlanResult plan(const PlanQuery& query, const PlanningScene& scene) const;
 
  private:
   /// Why there is nothing to plan, if so.
   std::optional<PlanResult> refusal(const PlanQuery& query, const PlanningScene& scene) const;
   std::optional<Vector2> free_goal(const Vector2& goal, const ObstacleField<2>& obstacles) const;
   /// What is in the way to a goal to which no path leads, in words.
-  std::string obstruction(const Vector2& start, const Vector2& goal,
+  std::string obstruction(const Vector2& goal, const PlanQuery& query,
                           const StaticMap& static_map) const;
   PlanResult turn_only(const PlanQuery& query, const PlanningScene& scene) const;
   /// Runs from where the robot is, then after braking, then after parking out, until solved.
   void search(const PlanQuery& query, const PlanningScene& scene, const Vector2& goal,
-              const std::function<bool()>& should_stop, PlanResult& result) const;
+              PlanResult& result) const;
   /// Sets the candidates, and selects one, if there is one to be driven.
   void run(const PlanQuery& query, const GlobalSeeds& seeds, const PlanningScene& scene,
-           const std::function<bool()>& should_stop, PlanResult& result) const;
+           PlanResult& result) const;
 
   const RobotModel robot_;
   const PlannerOptions options_;

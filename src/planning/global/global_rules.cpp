@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kSetOff_m = 0.15;  // of any point of the body, after which it has seen more
 constexpr double kStep_s = 0.05;
+constexpr double kWorkPerSecond = 5e5;  // evaluations of single pieces, by a slow core
 
 /// When a motion from rest has moved a point of the body, `arm_m` off the base at most, so far; not
 /// within a turn in place, which is begun only where it can be ended.
@@ -66,7 +67,7 @@ GlobalRules::GlobalRules(const RobotModel& robot, const PlannerOptions& options,
 EffortLadder GlobalRules::ladder() const {
   constexpr int kAttempts = 8;
   constexpr double kFactor = 20.0;
-  return {kAttempts, kFactor};
+  return {kAttempts, kFactor, kWorkPerSecond * query_.time_limit_s};
 }
 
 DriveQuery GlobalRules::drive(const Seed&, const StartManeuver& start_maneuver) const {

@@ -1,11 +1,14 @@
 #include "ros_bridge/inputs/emergency_stop_listener.h"
 
+#include <utility>
+
 #include "ros_bridge/runtime/transport.h"
 
 namespace mocha {
 
-EmergencyStopListener::EmergencyStopListener(ros::NodeHandle& node)
-    : robot_(
+EmergencyStopListener::EmergencyStopListener(ros::NodeHandle& node, std::function<void()> stopped)
+    : on_new_stop_(std::move(stopped)),
+      robot_(
           node.subscribe("emergency_stop", 10, &EmergencyStopListener::on_stop, this, at_once())),
       fleet_(node.subscribe("fleet/emergency_stop", 10, &EmergencyStopListener::on_stop, this,
                             at_once())),
@@ -24,14 +27,22 @@ std::string EmergencyStopListener::reason() const {
 void EmergencyStopListener::on_stop(const ros::MessageEvent<const std_msgs::Bool>& event) {
   if (!event.getMessage()->data) return;
   sender_ = event.getPublisherName();
-  stops_ += !latch_.stopped();
+  const bool is_new = !latch_.stopped();
   latch_.stop();
+  count_if(is_new);
+}
+
+void EmergencyStopListener::count_if(bool is_new) {
+  if (!is_new) return;
+  ++stops_;
+  on_new_stop_();
 }
 
 void EmergencyStopListener::on_state(const mocha_ugv::EmergencyStopState& state) {
   message_ = state.message;
-  stops_ += state.stopped && !latch_.stopped();
+  const bool is_new = state.stopped && !latch_.stopped();
   latch_.hear(state.stopped, state.resets);
+  count_if(is_new);
 }
 
 }  // namespace mocha

@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 #include <std_msgs/Bool.h>
 
+#include <functional>
 #include <string>
 
 #include "control/stop_latch.h"
@@ -14,7 +15,9 @@ namespace mocha {
 /// at once, whatever else is alive, and `emergency_stop_state`, which alone says of a reset.
 class EmergencyStopListener {
  public:
-  explicit EmergencyStopListener(ros::NodeHandle& node);
+  /// `stopped` is called with each new stop.
+  explicit EmergencyStopListener(
+      ros::NodeHandle& node, std::function<void()> stopped = [] {});
 
   bool stopped() const { return latch_.stopped(); }
   /// `emergency_stop_state` has said that no stop holds.
@@ -28,6 +31,9 @@ class EmergencyStopListener {
   void on_stop(const ros::MessageEvent<const std_msgs::Bool>& event);
   void on_state(const mocha_ugv::EmergencyStopState& state);
 
+  void count_if(bool is_new);
+
+  const std::function<void()> on_new_stop_;
   StopLatch latch_;
   int stops_ = 0;
   std::string message_;  // of the state

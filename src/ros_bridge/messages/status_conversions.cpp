@@ -25,6 +25,9 @@ static_assert(static_cast<int>(ViolatedTerm::kSeparation) == Status::SEPARATION)
 static_assert(static_cast<int>(ViolatedTerm::kUnseenSpace) == Status::UNSEEN_SPACE);
 static_assert(static_cast<int>(ViolatedTerm::kWheelSpeed) == Status::WHEEL_SPEED);
 static_assert(static_cast<int>(ViolatedTerm::kSpeedBackward) == Status::SPEED_BACKWARD);
+using Effort = mocha_ugv::PlanningEffort;
+static_assert(static_cast<int>(Parameterisation::kCamouflage) == Effort::CAMOUFLAGE);
+static_assert(static_cast<int>(Parameterisation::kWaypoints) == Effort::WAYPOINTS);
 using ReplannerStatus = mocha_ugv::ReplannerStatus;
 static_assert(static_cast<int>(Row::kEmergencyStop) == ReplannerStatus::EMERGENCY_STOP);
 static_assert(static_cast<int>(Row::kDetourLikely) == ReplannerStatus::DETOUR_LIKELY);
@@ -101,6 +104,31 @@ GoalExecutive::Report from_message(const Status& status) {
   return report;
 }
 
+Effort to_message(const PlanningRecord& record) {
+  Effort effort;
+  effort.time = record.last().took_s;
+  effort.time_median = record.quantile_s(0.5);
+  effort.time_95 = record.quantile_s(0.95);
+  effort.time_longest = record.quantile_s(1.0);
+  effort.plans = record.plans();
+  effort.classes = record.last().classes;
+  effort.evaluations = record.last().evaluations;
+  effort.parameterisation = static_cast<uint8_t>(record.last().parameterisation);
+  return effort;
+}
+
+const char* to_text(Parameterisation parameterisation) {
+  switch (parameterisation) {
+    case Parameterisation::kCamouflage:
+      return "camouflage";
+    case Parameterisation::kWaypoints:
+      return "waypoints";
+    case Parameterisation::kNone:
+      break;
+  }
+  return "nothing";
+}
+
 mocha_ugv::ReplannerStatus to_message(Row row, const Status& status) {
   mocha_ugv::ReplannerStatus message;
   message.header = status.header;
@@ -126,6 +154,8 @@ mocha_ugv::Candidate to_message(const PlanCandidate& candidate, const std::strin
       to_message(candidate.reason, candidate.violation,
                  candidate.violation ? describe(candidate.violation) : to_text(candidate.reason),
                  frame, stamp);
+  message.status.effort.evaluations = candidate.evaluations;
+  message.status.effort.parameterisation = static_cast<uint8_t>(candidate.parameterisation);
   if (!candidate.motion.empty()) {
     message.duration = candidate.motion.end_time() - candidate.motion.start_time();
     message.length = candidate.motion.length_m();

@@ -8,6 +8,7 @@
 
 #include "planning/executive/goal_executive.h"
 #include "planning/replanner/ladder.h"
+#include "stack/planning_effort.h"
 
 namespace mocha {
 
@@ -23,6 +24,11 @@ mocha_ugv::ReplannerStatus to_message(Row row, const mocha_ugv::PlannerStatus& s
 
 mocha_ugv::Candidate to_message(const PlanCandidate& candidate, const std::string& frame,
                                 ros::Time stamp);
+
+mocha_ugv::PlanningEffort to_message(const PlanningRecord& record);
+
+/// "camouflage", "waypoints", or "nothing".
+const char* to_text(Parameterisation parameterisation);
 
 /// The reason in a word, such as "goal occupied".
 const char* to_text(PlanReason reason);

@@ -47,6 +47,7 @@ void PlannerOutputs::adopt(const Motion& motion, ros::Time now) {
 }
 
 void PlannerOutputs::show_candidates(const PlanResult& result, const Goal& goal, ros::Time now) {
+  record_.add(PlanningEffort::of(result));
   mocha_ugv::Candidates message;
   message.header.stamp = now;
   message.header.frame_id = identity_.map_frame;
@@ -60,12 +61,27 @@ void PlannerOutputs::show_candidates(const PlanResult& result, const Goal& goal,
   drawings_.publish(drawing.markers());
 }
 
+void PlannerOutputs::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  status.add("plans made", record_.plans());
+  status.add("plans adopted", adopted_);
+  status.add("planning time, last (s)", record_.last().took_s);
+  status.add("planning time, median (s)", record_.quantile_s(0.5));
+  status.add("planning time, 95 % (s)", record_.quantile_s(0.95));
+  status.add("planning time, longest (s)", record_.quantile_s(1.0));
+  status.add("classes of paths in the last plan", record_.last().classes);
+  status.add("evaluations in the last plan", record_.last().evaluations);
+  status.add("parameterisation of the last plan", to_text(record_.last().parameterisation));
+}
+
 void PlannerOutputs::report(PlanReason reason, const Violation& violation, const std::string& text,
                             ros::Time now) {
   const bool news = reason != reason_ || text != text_;
   reason_ = reason;
   text_ = text;
-  statuses_.publish(to_message(reason, violation, text, identity_.map_frame, now));
+  mocha_ugv::PlannerStatus status =
+      to_message(reason, violation, text, identity_.map_frame, now);
+  status.effort = to_message(record_);
+  statuses_.publish(status);
   if (!news || reason == PlanReason::kSolved) return;
   const std::string words = identity_.name + ": " + to_text(reason) + ": " + text;
   if (reason == PlanReason::kNoGoal || reason == PlanReason::kPaused) {

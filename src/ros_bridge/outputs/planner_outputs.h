@@ -1,5 +1,6 @@
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
 #include <mocha_ugv/Trajectory.h>
 #include <ros/ros.h>
 
@@ -9,6 +10,7 @@
 #include "planning/candidates/plan_result.h"
 #include "planning/executive/goal_queue.h"
 #include "ros_bridge/runtime/robot_identity.h"
+#include "stack/planning_effort.h"
 #include "world/robot_model.h"
 
 namespace mocha {
@@ -21,8 +23,6 @@ class PlannerOutputs {
 
   /// The plan that is to be driven from now on; an empty one: there is nothing to drive to.
   void adopt(const Motion& motion, ros::Time now);
-  /// How often that was done; the sequence of the newest plan.
-  std::uint32_t adopted() const { return adopted_; }
   /// A plan as message, whether adopted or not.
   mocha_ugv::Trajectory planned(const Motion& motion, ros::Time now) const;
 
@@ -31,6 +31,8 @@ class PlannerOutputs {
   /// Publishes the status; news are logged as well, but for a success.
   void report(PlanReason reason, const Violation& violation, const std::string& text,
               ros::Time now);
+  /// How many plans there were, and what they took.
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   /// The last report.
   PlanReason reason() const { return reason_; }
   const std::string& text() const { return text_; }
@@ -44,7 +46,8 @@ class PlannerOutputs {
   ros::Publisher statuses_;
   ros::Publisher paths_;
   ros::Publisher drawings_;
-  std::uint32_t adopted_ = 0;
+  PlanningRecord record_;
+  std::uint32_t adopted_ = 0;  // plans; the sequence of the newest
   PlanReason reason_ = PlanReason::kNoGoal;
   std::string text_;
 };

@@ -31,10 +31,19 @@ void StepLoop::on_clock(const rosgraph_msgs::Clock& clock) {
     step_(now);
     while (next_ <= now) next_ = next_.isZero() ? now + period_ : next_ + period_;
   }
+  if (!held_) acknowledge();
+}
+
+void StepLoop::release() {
+  if (!std::exchange(held_, false)) return;
+  if (ros::Time::isSimTime()) acknowledge();
+}
+
+void StepLoop::acknowledge() {
   mocha_ugv::StepAck ack;
   ack.robot = robot_;
   ack.node = node_name_;
-  ack.stamp = now;
+  ack.stamp = last_;
   acks_.publish(ack);
 }
 

@@ -20,11 +20,17 @@ class StepLoop {
   StepLoop(ros::NodeHandle& node, const std::string& robot, double period_s,
            std::function<void(ros::Time)> step);
 
+  /// In simulation, steps are not acknowledged from now on until they are released: something that
+  /// they began is under way beside the callbacks.
+  void hold() { held_ = true; }
+  void release();
+
   /// The time: in simulation that of the newest step, which ros::Time::now() may not have heard of.
   ros::Time now() const { return ros::Time::isSimTime() ? last_ : ros::Time::now(); }
 
  private:
   void on_clock(const rosgraph_msgs::Clock& clock);
+  void acknowledge();
 
   std::string robot_;
   std::string node_name_;
@@ -32,6 +38,7 @@ class StepLoop {
   std::function<void(ros::Time)> step_;
   ros::Time next_;
   ros::Time last_;
+  bool held_ = false;
   ros::SteadyTimer timer_;
   ros::Subscriber clock_;
   ros::Publisher acks_;

@@ -82,8 +82,10 @@ Roadmap<2> rough_roadmap(const TravelCost& cost, const std::vector<ObstacleGroup
                            {prm_samples, kSeed, kReach_m});
 }
 
-ClassRoadmap on_skeleton(const MapSkeleton& skeleton, const TravelCost& cost, const Vector2& goal) {
-  std::vector<Vector2> representatives = skeleton.obstacles(cost);
+ClassRoadmap on_skeleton(const MapSkeleton& skeleton, const TravelCost& cost, const Vector2& goal,
+                         const std::function<bool()>& should_stop) {
+  if (!skeleton.complete(cost, should_stop)) return {{}, Cuts<2>({})};
+  std::vector<Vector2> representatives = skeleton.obstacles();
   for (const BlockedDisc& disc : cost.blocked()) representatives.push_back(disc.centre);
   return {skeleton.roadmap(cost, goal), Cuts<2>(representatives)};
 }
@@ -101,10 +103,10 @@ RoadmapKind roadmap_kind(const std::string& name) {
 }
 
 ClassRoadmap class_roadmap(const TravelCost& cost, const Vector2& goal, RoadmapKind kind,
-                           int prm_samples) {
+                           int prm_samples, const std::function<bool()>& should_stop) {
   if (kind == RoadmapKind::kBest) {
     if (const auto skeleton = cost.static_map().skeleton(cost.options()))
-      return on_skeleton(*skeleton, cost, goal);
+      return on_skeleton(*skeleton, cost, goal, should_stop);
   }
   const std::vector<ObstacleGroup> groups = groups_of(cost);
   std::vector<Vector2> representatives;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "topology/roadmaps/roadmap.h"
@@ -21,8 +22,9 @@ struct ClassRoadmap {
   Cuts<2> cuts;        ///< of what the classes pass on either side
 };
 
-/// From the start that `cost` knows. `prm_samples`: of a sampled roadmap.
+/// From the start that `cost` knows. `prm_samples`: of a sampled roadmap. Where it is stopped, the
+/// roadmap is empty.
 ClassRoadmap class_roadmap(const TravelCost& cost, const Vector2& goal, RoadmapKind kind,
-                           int prm_samples);
+                           int prm_samples, const std::function<bool()>& should_stop);
 
 }  // namespace mocha

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <queue>
+#include <utility>
 
 #include "topology/paths/lattice.h"
 
@@ -16,8 +17,14 @@ class LatticeSearch {
  public:
   using Suits = std::function<bool(const Vector2&)>;
 
-  LatticeSearch(const StaticMap& static_map, const TravelCost& cost, double step_m)
-      : static_map_(static_map), cost_(cost), lattice_(static_map, step_m) {}
+  LatticeSearch(const StaticMap& static_map, const TravelCost& cost, double step_m,
+                std::function<bool()> should_stop)
+      : static_map_(static_map),
+        cost_(cost),
+        lattice_(static_map, step_m),
+        should_stop_(std::move(should_stop)) {}
+
+  bool stopped() const { return stopped_; }
 
   /// Start, nodes between, goal; nothing if there is no path.
   std::vector<Vector2> run(const Vector2& start, const Vector2& goal) {
@@ -35,6 +42,7 @@ class LatticeSearch {
 
  private:
   static constexpr int kNowhere = -1;
+  static constexpr int kBetweenStops = 1000;  // nodes
 
   struct Entry {
     float bound;
@@ -50,7 +58,9 @@ class LatticeSearch {
     best_[from] = 0.0f;
     parent_[from] = from;
     queue_.push({heuristic(from, to), from});
-    while (!queue_.empty()) {
+    for (int i = 1; !queue_.empty(); ++i) {
+      stopped_ = i % kBetweenStops == 0 && should_stop_();
+      if (stopped_) return {};
       const Entry entry = queue_.top();
       queue_.pop();
       if (entry.bound > most_m) return {};
@@ -115,6 +125,8 @@ class LatticeSearch {
   const StaticMap& static_map_;
   const TravelCost& cost_;
   const Lattice lattice_;
+  const std::function<bool()> should_stop_;
+  bool stopped_ = false;
   std::vector<float> best_;
   std::vector<int> parent_;
   std::priority_queue<Entry> queue_;
@@ -129,20 +141,25 @@ GridPath find_nearest_place(const StaticMap& static_map, const Vector2& start,
   path.outcome = GridPath::Outcome::kStartBlocked;
   if (!static_map.bounds().contains(start) || cost.at(start) == TravelCost::kInfinity) return path;
   path.points = suits(start) ? std::vector<Vector2>{start}
-                             : LatticeSearch(static_map, cost, step_m).run(start, suits, most_m);
+                             : LatticeSearch(static_map, cost, step_m, [] { return false; })
+                                   .run(start, suits, most_m);
   path.outcome = path.points.empty() ? GridPath::Outcome::kNoPath : GridPath::Outcome::kFound;
   return path;
 }
 
 GridPath find_grid_path(const StaticMap& static_map, const Vector2& start, const Vector2& goal,
-                        const TravelCost& cost, double step_m) {
+                        const TravelCost& cost, double step_m,
+                        const std::function<bool()>& should_stop) {
   GridPath path;
   path.outcome = GridPath::Outcome::kStartBlocked;
   if (!static_map.bounds().contains(start) || cost.at(start) == TravelCost::kInfinity) return path;
   path.outcome = GridPath::Outcome::kGoalBlocked;
   if (!static_map.bounds().contains(goal) || cost.at(goal) == TravelCost::kInfinity) return path;
-  path.points = LatticeSearch(static_map, cost, step_m).run(start, goal);
-  path.outcome = path.points.empty() ? GridPath::Outcome::kNoPath : GridPath::Outcome::kFound;
+  LatticeSearch search(static_map, cost, step_m, should_stop);
+  path.points = search.run(start, goal);
+  path.outcome = search.stopped()      ? GridPath::Outcome::kStopped
+                 : path.points.empty() ? GridPath::Outcome::kNoPath
+                                       : GridPath::Outcome::kFound;
   return path;
 }
 

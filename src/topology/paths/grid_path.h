@@ -11,7 +11,7 @@ namespace mocha {
 inline constexpr double kLatticeStep_m = 0.05;
 
 struct GridPath {
-  enum class Outcome { kFound, kStartBlocked, kGoalBlocked, kNoPath };
+  enum class Outcome { kFound, kStartBlocked, kGoalBlocked, kNoPath, kStopped };
   Outcome outcome = Outcome::kNoPath;
   std::vector<Vector2> points;  ///< from start to goal, straight between; empty unless found
 };
@@ -19,9 +19,10 @@ struct GridPath {
 /// The cheapest path of the robot's centre from start to goal on a lattice over the static map's
 /// bounds (A*), `step_m` apart but never finer than the static map's detail: complete to within the
 /// lattice, whatever the obstacles. Start and goal must lie inside the bounds, else they count as
-/// blocked.
-GridPath find_grid_path(const StaticMap& static_map, const Vector2& start, const Vector2& goal,
-                        const TravelCost& cost, double step_m);
+/// blocked. `should_stop` ends the search early.
+GridPath find_grid_path(
+    const StaticMap& static_map, const Vector2& start, const Vector2& goal, const TravelCost& cost,
+    double step_m, const std::function<bool()>& should_stop = [] { return false; });
 
 /// The same to that one of the places on the lattice for which `suits` holds to which the way is
 /// cheapest, no dearer than `most_m`. They are asked in this order, `start` first.

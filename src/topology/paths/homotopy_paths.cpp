@@ -19,7 +19,8 @@ constexpr int kSpare = 2;  // paths that are shortened, for each one that is kep
 
 /// From the start that `cost` knows.
 std::vector<std::vector<Vector2>> paths_of_classes(const TravelCost& cost,
-                                                   const ClassRoadmap& classes, const Vector2& goal,
+                                                   const ClassRoadmap& classes,
+                                                   const HomotopyPathQuery& query,
                                                    const HomotopyPathOptions& options) {
   std::vector<std::vector<Vector2>> paths;
   for (auto& path : shortest_classes(classes.roadmap, classes.cuts,
@@ -27,7 +28,8 @@ std::vector<std::vector<Vector2>> paths_of_classes(const TravelCost& cost,
     paths.push_back(std::move(path.points));
   if (!paths.empty()) return paths;
   // Too narrow for the roadmap's circles, perhaps; the lattice is slower, but misses nothing.
-  GridPath path = find_grid_path(cost.static_map(), cost.start(), goal, cost, kLatticeStep_m);
+  GridPath path = find_grid_path(cost.static_map(), cost.start(), query.goal, cost, kLatticeStep_m,
+                                 query.should_stop);
   if (path.outcome == GridPath::Outcome::kFound) paths.push_back(std::move(path.points));
   return paths;
 }
@@ -43,10 +45,11 @@ std::vector<Vector2> still_drivable(std::vector<Vector2> path, const TravelCost&
 /// Makes each path as cheap as its class allows.
 std::vector<HomotopyPath> paths_along(const std::vector<std::vector<Vector2>>& paths,
                                       const TravelCost& cost, const Cuts<2>& cuts,
-                                      const std::vector<Vector2>& lead_in) {
-  const Signature before = signature_of<2>(cuts, lead_in);
+                                      const HomotopyPathQuery& query) {
+  const Signature before = signature_of<2>(cuts, query.lead_in);
   std::vector<HomotopyPath> found(paths.size());
   tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
+    if (query.should_stop()) return;
     HomotopyPath& found_path = found[i];
     found_path.points = with_shortcuts(paths[i], cost, cuts);
     found_path.cost_m = cost_of(found_path.points, cost);
@@ -90,11 +93,16 @@ HomotopyPaths find_homotopy_paths(const StaticMap& static_map, const HomotopyPat
   result.outcome = GridPath::Outcome::kGoalBlocked;
   if (!static_map.bounds().contains(query.goal) || cost.at(query.goal) == TravelCost::kInfinity)
     return result;
-  ClassRoadmap classes = class_roadmap(cost, query.goal, options.roadmap, options.prm_samples);
-  std::vector<std::vector<Vector2>> paths = paths_of_classes(cost, classes, query.goal, options);
+  result.outcome = GridPath::Outcome::kStopped;
+  ClassRoadmap classes =
+      class_roadmap(cost, query.goal, options.roadmap, options.prm_samples, query.should_stop);
+  if (query.should_stop()) return result;
+  std::vector<std::vector<Vector2>> paths = paths_of_classes(cost, classes, query, options);
   const std::vector<Vector2> driven = still_drivable(query.driven, cost);
   if (query.lead_in.size() == 1 && !driven.empty()) paths.push_back(driven);
-  result.paths = paths_along(paths, cost, classes.cuts, query.lead_in);
+  std::vector<HomotopyPath> found = paths_along(paths, cost, classes.cuts, query);
+  if (query.should_stop()) return result;
+  result.paths = std::move(found);
   if (!query.driven.empty()) result.driven = signature_of<2>(classes.cuts, query.driven);
   keep_best(result.paths, result.driven, options);
   result.cuts = std::move(classes.cuts);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -44,6 +45,8 @@ struct HomotopyPathQuery {
   std::vector<BlockedDisc> blocked;
   /// The path that is being driven to the same goal, from the front of `lead_in` on; or empty.
   std::vector<Vector2> driven;
+  /// Ends the search early; several threads may call it at once.
+  std::function<bool()> should_stop = [] { return false; };
 
   const Vector2& start() const { return lead_in.back(); }
 };

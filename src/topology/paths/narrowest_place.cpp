@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kWidest_m = 10.0;  // more is not told apart
 constexpr double kContact_m = 1e-3;
+constexpr int kBetweenStops = 1000;  // nodes
 
 /// Dijkstra's search for the way whose least clearance is the largest.
 class WidestWay {
@@ -25,14 +26,15 @@ class WidestWay {
         free_radius_m_(free_radius_m) {}
 
   /// Where its clearance is least.
-  std::optional<Vector2> bottleneck() {
+  std::optional<Vector2> bottleneck(const std::function<bool()>& should_stop) {
     const int from = lattice_.nearest(start_);
     const int to = lattice_.nearest(goal_);
     best_m_.assign(lattice_.size(), 0.0f);
     narrowest_.assign(lattice_.size(), from);
     best_m_[from] = static_cast<float>(kWidest_m);
     queue_.push({best_m_[from], from});
-    while (!queue_.empty()) {
+    for (int i = 1; !queue_.empty(); ++i) {
+      if (i % kBetweenStops == 0 && should_stop()) break;
       const Entry entry = queue_.top();
       queue_.pop();
       if (entry.clearance_m < best_m_[entry.node]) continue;
@@ -104,8 +106,10 @@ double width_m(const ObstacleField<2>& field, const Vector2& place) {
 
 std::optional<NarrowPlace> narrowest_place(const StaticMap& static_map, const Vector2& start,
                                            const Vector2& goal, double step_m,
-                                           double free_radius_m) {
-  const auto place = WidestWay(static_map, start, goal, step_m, free_radius_m).bottleneck();
+                                           double free_radius_m,
+                                           const std::function<bool()>& should_stop) {
+  const auto place =
+      WidestWay(static_map, start, goal, step_m, free_radius_m).bottleneck(should_stop);
   if (!place) return std::nullopt;
   return NarrowPlace{*place, width_m(static_map.field(), *place)};
 }

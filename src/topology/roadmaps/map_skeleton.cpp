@@ -142,19 +142,22 @@ CornerWindow MapSkeleton::around(const Vector2& place, double radius_m) const {
           corner(place.y() + reach_m, 1, field_->rows())};
 }
 
-void MapSkeleton::complete(const TravelCost& cost) const {
+bool MapSkeleton::complete(const TravelCost& cost,
+                           const std::function<bool()>& should_stop) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (is_complete_) return;
+  if (is_complete_) return true;
   const TravelCost priced = anywhere(cost);
   const double narrow_m = kNarrowest * options().required_clearance_m;
   tbb::parallel_for(0, tiles_.size(), [&](int tile) {
-    if (tiles_.has(tile)) return;
+    if (tiles_.has(tile) || should_stop()) return;
     const CornerWindow own = tiles_.window(tile);
     tiles_.set(tile,
                {skeleton_tile(*field_, own, priced, {}), obstacle_tile(*field_, own, narrow_m)});
   });
+  if (should_stop()) return false;
   obstacles_ = joined_obstacles();
   is_complete_ = true;
+  return true;
 }
 
 std::vector<Vector2> MapSkeleton::joined_obstacles() const {
@@ -196,13 +199,7 @@ std::vector<Vector2> MapSkeleton::joined_obstacles() const {
   return obstacles;
 }
 
-const std::vector<Vector2>& MapSkeleton::obstacles(const TravelCost& cost) const {
-  complete(cost);
-  return obstacles_;
-}
-
 Roadmap<2> MapSkeleton::roadmap(const TravelCost& cost, const Vector2& goal) const {
-  complete(cost);
   std::map<int, std::vector<int>> remade;  // tiles that are special now, and their anchors
   const auto remake = [&](const Vector2& place, double radius_m) {
     for (const int tile : tiles_.at(around(place, radius_m))) remade[tile];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -21,9 +22,13 @@ class MapSkeleton {
   /// As far as they are made.
   SkeletonTiles tiles() const;
 
+  /// Makes the tiles that are missing; false where `should_stop` ended that early. Only then all
+  /// that follows is there.
+  bool complete(const TravelCost& cost, const std::function<bool()>& should_stop) const;
+
   /// A place inside of each obstacle: of what stands, one for what hangs together and has no gap
   /// that is half as wide as the robot needs.
-  const std::vector<Vector2>& obstacles(const TravelCost& cost) const;
+  const std::vector<Vector2>& obstacles() const { return obstacles_; }
 
   /// From the start that `cost` knows, around the discs that it knows; priced.
   ///
@@ -32,8 +37,6 @@ class MapSkeleton {
   Roadmap<2> roadmap(const TravelCost& cost, const Vector2& goal) const;
 
  private:
-  /// Makes what is missing.
-  void complete(const TravelCost& cost) const;
   std::vector<Vector2> joined_obstacles() const;
   /// The corners around a place, as far as the map has them.
   CornerWindow around(const Vector2& place, double radius_m) const;

@@ -18,9 +18,11 @@ namespace mocha {
 constexpr double kPeriod_s = 0.05;
 constexpr double kBraking = 0.5;  // [m/s^2]
 constexpr double kLength_m = 6.0;
+constexpr double kHandover_s = 0.4;
 
 inline GoalExecutiveOptions options() {
-  return GoalExecutiveOptions::from(ParameterTable::from_schema("config/global_planner.yaml"));
+  return GoalExecutiveOptions::from(ParameterTable::from_schema("config/global_planner.yaml"),
+                                    kHandover_s);
 }
 
 /// A robot that stands, or is where its plan says, and a planner that finds what it is told to.
@@ -36,7 +38,6 @@ class ExecutiveFixture : public ::testing::Test {
   }
 
   PlanResult answer(const PlanQuery& query) {
-    asked_.push_back(query);
     PlanResult result;
     result.reason = reason_;
     result.goal = goal_.value_or(query.goal);
@@ -53,9 +54,14 @@ class ExecutiveFixture : public ::testing::Test {
   GoalExecutive::Output step() {
     now_s_ += kPeriod_s;
     state_.stamp_s = now_s_;
-    return executive_.step(now_s_, state_, committed_,
-                           {[this](const PlanQuery& query) { return answer(query); },
-                            [this](const std::vector<Vector2>&) { return scene_; }});
+    return executive_.step(
+        now_s_, state_, committed_,
+        {[this](const PlanQuery& query) {
+           asked_.push_back(query);
+           query_ = query;
+         },
+         [this] { return late_ ? std::nullopt : std::optional(answer(query_)); },
+         [this](const std::vector<Vector2>&) { return scene_; }});
   }
 
   /// The last step of so many that said anything; the number of plans asked for is in asked_.
@@ -80,6 +86,8 @@ class ExecutiveFixture : public ::testing::Test {
   PlanReason reason_ = PlanReason::kSolved;
   std::optional<Vector2> goal_;  // where the plan leads instead
   double speed_ = 0.8;
+  bool late_ = false;  // plans are under way, and stay so
+  PlanQuery query_;  // asked last
   std::vector<PlanQuery> asked_;
   std::vector<YieldRequest> said_;
 

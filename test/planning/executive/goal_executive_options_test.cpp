@@ -13,8 +13,9 @@ TEST(GoalExecutiveOptions, AreThoseOfTheSchema) {
                            "occupied_goal_timeout: 2.0, "
                            "unreachable_timeout: 4.0}"),
                 "test");
-  const auto options = GoalExecutiveOptions::from(values);
+  const auto options = GoalExecutiveOptions::from(values, 0.4);
   EXPECT_EQ(options.planning_time_s, 0.7);
+  EXPECT_EQ(options.handover_s, 0.4);
   EXPECT_EQ(options.planning_period_s(S::kDriving), 1.5);
   for (const S state :
        {S::kBlocked, S::kGoalOccupied, S::kUnreachable, S::kPullOverBlocked, S::kWaiting})
@@ -26,7 +27,7 @@ TEST(GoalExecutiveOptions, AreThoseOfTheSchema) {
 
 TEST(GoalExecutiveOptions, PlanSoonWhereThereIsNoPlanYetAndNotAtAllWhereNoneIsNeeded) {
   const auto options =
-      GoalExecutiveOptions::from(ParameterTable::from_schema("config/global_planner.yaml"));
+      GoalExecutiveOptions::from(ParameterTable::from_schema("config/global_planner.yaml"), 0.4);
   for (const S state : {S::kPlanning, S::kReplanning, S::kPlanningPullOver})
     EXPECT_LT(options.planning_period_s(state), options.retry_period_s) << to_text(state);
   for (const S state : {S::kIdle, S::kParked, S::kPaused, S::kBraking, S::kPullingOver})

@@ -90,9 +90,10 @@ TEST_F(FrontEndTest, BrakesFirstWhereThePathTurnsAway) {
 }
 
 TEST_F(FrontEndTest, ReachesWhatIsNotWalledIn) {
-  EXPECT_TRUE(front_end_.reaches({-2.0, 0.0}, kGoal, *static_map_of(grid_)));
+  const auto go_on = [] { return false; };
+  EXPECT_TRUE(front_end_.reaches({-2.0, 0.0}, kGoal, *static_map_of(grid_), go_on));
   fill_box(grid_, {-0.2, -4.0}, {0.2, 4.0});
-  EXPECT_FALSE(front_end_.reaches({-2.0, 0.0}, kGoal, *static_map_of(grid_)));
+  EXPECT_FALSE(front_end_.reaches({-2.0, 0.0}, kGoal, *static_map_of(grid_), go_on));
   EXPECT_TRUE(seeds().list.empty());
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "planning/candidates/peer_discs.h"
+#include "planning/global/global_rules.h"
 #include "planning/worlds.h"
 #include "safety/certificate.h"
 #include "trajectory/rover_braking.h"
@@ -16,7 +17,6 @@
 namespace mocha {
 namespace {
 
-const std::function<bool()> kGoOn = [] { return false; };
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kStart_s = 1.7e9 + 0.25;  // what ROS time looks like
 
@@ -31,7 +31,7 @@ class GlobalPlannerTest : public ::testing::Test {
   }
 
   PlanResult plan(const PlanQuery& query, const OccupancyGrid& grid) const {
-    return planner_.plan(query, {static_map_of(grid), {}}, kGoOn);
+    return planner_.plan(query, {static_map_of(grid), {}});
   }
 
   void expect_certified(const PlanResult& result, const PlanQuery& query,
@@ -155,7 +155,7 @@ TEST_F(GlobalPlannerTest, ARobotThatCannotReverseTurnsToAGoalBehind) {
   robot.limits.can_reverse = false;
   const GlobalPlanner planner(robot, default_options());
   const PlanQuery query = from_standing({8.0, 0.0}, 0.0, {0.0, 0.0});
-  const PlanResult result = planner.plan(query, {static_map_of(open_), {}}, kGoOn);
+  const PlanResult result = planner.plan(query, {static_map_of(open_), {}});
   expect_certified(result, query, open_);
   const Violation limits = check_limits(result.motion, robot.limits, kStart_s);
   EXPECT_FALSE(limits) << describe(limits);
@@ -215,7 +215,7 @@ TEST_F(GlobalPlannerTest, OccupiedGoalIsReplacedByTheNearestFreePlace) {
   options.goal_search_radius_m = 1.0;
   const GlobalPlanner planner(robot_, options);
   const PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-  const PlanResult result = planner.plan(query, {static_map_of(grid), {}}, kGoOn);
+  const PlanResult result = planner.plan(query, {static_map_of(grid), {}});
   expect_certified(result, query, grid);
   const double off_m = (result.motion.end_pose().position - query.goal).norm();
   EXPECT_LT(off_m, 0.15 + 0.3 + MarginBudget::of(robot_).static_margin_m() + 0.15);
@@ -268,13 +268,13 @@ TEST_F(GlobalPlannerTest, BacksOutOfADeadEnd) {
   RobotModel robot = long_robot();
   const PlanQuery query = from_standing({3.2, 0.0}, 0.0, {8.0, 0.0});
   const PlanningScene scene{static_map_of(dead_end()), {}};
-  const PlanResult backs_out = GlobalPlanner(robot, default_options()).plan(query, scene, kGoOn);
+  const PlanResult backs_out = GlobalPlanner(robot, default_options()).plan(query, scene);
   ASSERT_EQ(backs_out.reason, PlanReason::kSolved) << backs_out.message;
   EXPECT_EQ(std::get<DrivePhase>(backs_out.motion.phases().front()).direction, -1);
   EXPECT_FALSE(check_clearance(backs_out.motion, robot.footprint, scene.static_map->field(),
                                MarginBudget::of(robot).static_margin(), kStart_s));
   robot.limits.can_reverse = false;
-  const PlanResult stuck = GlobalPlanner(robot, default_options()).plan(query, scene, kGoOn);
+  const PlanResult stuck = GlobalPlanner(robot, default_options()).plan(query, scene);
   EXPECT_NE(stuck.reason, PlanReason::kSolved);
   EXPECT_TRUE(stuck.motion.empty());
 }
@@ -294,10 +294,10 @@ TEST_F(GlobalPlannerTest, BacksOutOfADeadEndClearOfATeamMateBeforeIt) {
   };
   const GlobalPlanner planner(robot, default_options());
   const auto map = static_map_of(dead_end());
-  const PlanResult alone = planner.plan(query, {map, {}}, kGoOn);
+  const PlanResult alone = planner.plan(query, {map, {}});
   ASSERT_EQ(alone.reason, PlanReason::kSolved) << alone.message;
   ASSERT_LT(nearest_m(alone.motion), disc.radius_m);
-  const PlanResult result = planner.plan(query, {map, {peer}}, kGoOn);
+  const PlanResult result = planner.plan(query, {map, {peer}});
   ASSERT_EQ(result.reason, PlanReason::kSolved) << result.message;
   EXPECT_GT(nearest_m(result.motion), disc.radius_m);
 }
@@ -308,7 +308,7 @@ TEST_F(GlobalPlannerTest, StaysInADeadEndThatATeamMateCloses) {
   const auto stand = std::make_shared<const Motion>(standing(kStart_s - 5.0, {0.5, 0.0}, 0.0));
   const auto peer = std::make_shared<PeerObstacle>("ugv2", stand, 0.3, test::kRoverBraking);
   const PlanResult result = GlobalPlanner(robot, default_options())
-                                .plan(query, {static_map_of(dead_end()), {peer}}, kGoOn);
+                                .plan(query, {static_map_of(dead_end()), {peer}});
   EXPECT_EQ(result.reason, PlanReason::kPeerConflict) << result.message;
   EXPECT_TRUE(result.motion.empty());
 }
@@ -317,7 +317,7 @@ TEST_F(GlobalPlannerTest, GoesRoundAStandingPeer) {
   const PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
   const auto stand = std::make_shared<const Motion>(standing(kStart_s - 5.0, {4.0, 0.0}, 0.0));
   const auto peer = std::make_shared<PeerObstacle>("ugv2", stand, 0.3, test::kRoverBraking);
-  const PlanResult result = planner_.plan(query, {static_map_of(open_), {peer}}, kGoOn);
+  const PlanResult result = planner_.plan(query, {static_map_of(open_), {peer}});
   expect_certified(result, query, open_);
   const double apart_m = robot_.peer_clearance_m + MarginBudget::of(robot_).peer_margin_m();
   const Violation violation = check_separation(result.motion, 0.3, *peer, apart_m, kStart_s);
@@ -331,7 +331,7 @@ TEST_F(GlobalPlannerTest, KeepsApartFromAPeerThatCrosses) {
   const auto peer = std::make_shared<PeerObstacle>("ugv2", crossing, 0.3, test::kRoverBraking);
   const double apart_m = robot_.peer_clearance_m + MarginBudget::of(robot_).peer_margin_m();
   ASSERT_TRUE(check_separation(plan(query, open_).motion, 0.3, *peer, apart_m, kStart_s));
-  const PlanResult result = planner_.plan(query, {static_map_of(open_), {peer}}, kGoOn);
+  const PlanResult result = planner_.plan(query, {static_map_of(open_), {peer}});
   expect_certified(result, query, open_);
   const Violation violation = check_separation(result.motion, 0.3, *peer, apart_m, kStart_s);
   EXPECT_FALSE(violation) << describe(violation);
@@ -356,24 +356,59 @@ TEST_F(GlobalPlannerTest, ATurnAtTheGoalThatCannotBeProvedIsNotHandedOut) {
   const GlobalPlanner planner(robot, default_options());
   PlanQuery query = from_standing({0.0, 0.0}, 0.0, {0.01, 0.0});
   query.goal_yaw_rad = M_PI / 2.0;  // its nose would be in the wall
-  const PlanResult result = planner.plan(query, {static_map_of(grid), {}}, kGoOn);
+  const PlanResult result = planner.plan(query, {static_map_of(grid), {}});
   EXPECT_EQ(result.reason, PlanReason::kNotCertified);
   EXPECT_TRUE(result.motion.empty());
   EXPECT_FALSE(result.message.empty());
 }
 
 TEST_F(GlobalPlannerTest, StopsWorkingWhenToldTo) {
-  const PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
+  PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
   std::atomic<int> calls{0};
   for (const int allowed : {0, 1, 30}) {
     calls = 0;
-    const PlanResult result =
-        planner_.plan(query, {static_map_of(open_), {}}, [&] { return ++calls > allowed; });
+    query.should_stop = [&] { return ++calls > allowed; };
+    const PlanResult result = plan(query, open_);
     if (result.reason == PlanReason::kSolved) continue;  // was fast enough
     EXPECT_EQ(result.reason, PlanReason::kBudgetExhausted);
     EXPECT_TRUE(result.motion.empty());
     EXPECT_EQ(result.message.find("no violation"), std::string::npos) << result.message;
   }
+}
+
+TEST_F(GlobalPlannerTest, StoppedAnywhereItHasAProvedMotionOrSaysThatTimeIsUp) {
+  OccupancyGrid grid = free_grid({-2.0, -4.0}, {10.0, 4.0});
+  fill_box(grid, {3.0, -1.0}, {4.0, 1.0});
+  PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
+  std::atomic<int> calls{0};
+  query.should_stop = [&] { return ++calls < 0; };
+  ASSERT_EQ(plan(query, grid).reason, PlanReason::kSolved);
+  const int all = calls;
+  int solved = 0;
+  for (int allowed = 0; allowed < all; allowed += std::max(1, all / 40)) {
+    calls = 0;
+    query.should_stop = [&] { return ++calls > allowed; };
+    const PlanResult result = plan(query, grid);
+    solved += result.reason == PlanReason::kSolved;
+    if (result.reason == PlanReason::kSolved) {
+      EXPECT_FALSE(certify_plan(result.motion, rover(), static_map_of(grid)->field(), kStart_s));
+    } else {
+      EXPECT_EQ(result.reason, PlanReason::kBudgetExhausted) << result.message;
+    }
+  }
+  EXPECT_GT(solved, 3);  // before all has been looked at
+}
+
+TEST_F(GlobalPlannerTest, TheWorkThatItMayTakeFollowsTheTimeLimit) {
+  PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
+  query.time_limit_s = 0.5;
+  const PlanResult enough = plan(query, open_);
+  ASSERT_EQ(enough.reason, PlanReason::kSolved);
+  query.time_limit_s = 1e-5;
+  const PlanResult little = plan(query, open_);
+  for (const PlanCandidate& candidate : little.candidates)
+    EXPECT_LE(candidate.evaluations, 1);  // of the whole drive, as it has to begin somewhere
+  EXPECT_LT(little.candidates.front().work, enough.candidates.front().work);
 }
 
 TEST_F(GlobalPlannerTest, InvalidInputIsNamedAndNothingMoves) {
@@ -398,7 +433,7 @@ TEST_F(GlobalPlannerTest, InvalidInputIsNamedAndNothingMoves) {
   PlanQuery query = good;
   query.committed = Motion();
   expect_reason(query, PlanReason::kNoPose);
-  EXPECT_EQ(planner_.plan(good, {}, kGoOn).reason, PlanReason::kNoMap);
+  EXPECT_EQ(planner_.plan(good, {}).reason, PlanReason::kNoMap);
 }
 
 TEST_F(GlobalPlannerTest, HugeNumbersAreNoWay) {

@@ -35,7 +35,7 @@ Task task_of(const std::string& file) {
 }
 
 PlanResult plan(const Task& task, const PlannerOptions& options) {
-  return GlobalPlanner(task.robot, options).plan(task.query, task.scene, kGoOn);
+  return GlobalPlanner(task.robot, options).plan(task.query, task.scene);
 }
 
 const PlanCandidate& selected(const PlanResult& result) {
@@ -117,7 +117,7 @@ class Hysteresis : public ::testing::Test {
     query.committed = standing(-1.0, {0.0, 0.0}, 0.0);
     query.goal = {9.0, 0.0};
     query.driven = driven;
-    return GlobalPlanner(rover(), options).plan(query, {static_map_of(grid), {}}, kGoOn);
+    return GlobalPlanner(rover(), options).plan(query, {static_map_of(grid), {}});
   }
 };
 

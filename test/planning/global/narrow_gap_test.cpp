@@ -30,7 +30,7 @@ class NarrowGap : public ::testing::Test {
     query.start_time_s = kStart_s;
     query.committed = standing(kStart_s - 1.0, {0.0, 0.5}, 0.0);
     query.goal = {6.0, 0.5};
-    return planner_.plan(query, {static_map_of(grid), {}}, [] { return false; });
+    return planner_.plan(query, {static_map_of(grid), {}});
   }
 
   double slowest_in_the_door(const Motion& motion) const {

@@ -52,7 +52,7 @@ class ParkingOut : public ::testing::TestWithParam<std::string> {
 
   void expect_leaves(const Pose& pose, const std::string& name) const {
     const PlanningScene scene{static_map_of(grid_), {}};
-    const PlanResult result = planner_.plan(from(pose), scene, [] { return false; });
+    const PlanResult result = planner_.plan(from(pose), scene);
     ASSERT_EQ(result.reason, PlanReason::kSolved) << name << ": " << result.message;
     const Motion& motion = result.motion;
     EXPECT_LT((motion.at(kStart_s).pose.position - pose.position).norm(), 1e-6) << name;
@@ -68,7 +68,7 @@ class ParkingOut : public ::testing::TestWithParam<std::string> {
 
   PlanResult plan_seeing(const Pose& pose, const OccupancyGrid& seen) const {
     const PlanningScene scene{static_map_of(grid_), {}, [&] { return unseen_field(seen); }};
-    return planner_.plan(from(pose), scene, [] { return false; });
+    return planner_.plan(from(pose), scene);
   }
 
   /// Between the true body and the true walls.
@@ -170,7 +170,7 @@ TEST_P(ParkingOut, BacksOutOfALongCorridor) {
   PlanQuery query = from({{kLength_m - 0.8, 0.0}, 0.0});
   query.goal = {-2.0, 2.0};
   const PlanningScene scene{static_map_of(grid), {}};
-  const PlanResult result = planner_.plan(query, scene, [] { return false; });
+  const PlanResult result = planner_.plan(query, scene);
   ASSERT_EQ(result.reason, PlanReason::kSolved) << result.message;
   EXPECT_LT((result.motion.end_pose().position - query.goal).norm(), 1e-6);
   EXPECT_LT(result.motion.length_m(), kLength_m + 5.0);

@@ -14,7 +14,6 @@ constexpr double kStart_s = 1.7e9;
 const Vector2 kStart(0.6, 0.6);
 const Vector2 kGoal(7.4, 5.4);
 constexpr double kCreeping_mps = 0.1;
-const std::function<bool()> kGoOn = [] { return false; };
 
 /// Plans through random worlds and checks whatever is called solved by the certificate itself.
 class RandomWorlds : public ::testing::Test {
@@ -36,7 +35,7 @@ class RandomWorlds : public ::testing::Test {
   /// Plans and counts; what is called solved must be proved, joined and at its goal.
   PlanResult plan(const PlanQuery& query, const std::shared_ptr<const DistanceField>& field,
                   const std::string& name) {
-    const PlanResult result = planner_->plan(query, {static_map_of(field), {}}, kGoOn);
+    const PlanResult result = planner_->plan(query, {static_map_of(field), {}});
     const MotionState start = query.committed.at(query.start_time_s);
     // Narrower ones may end where the body cannot bend with them.
     const bool is_wide =
@@ -130,7 +129,7 @@ TEST_F(RandomWorlds, UnderWayToOtherGoals) {
     const auto field = occupied_field(random_world(seed, 22, kStart, kGoal, 0.6));
     std::mt19937 random(seed);
     const PlanQuery query = from_standing(random);
-    const Motion first = planner_->plan(query, {static_map_of(field), {}}, kGoOn).motion;
+    const Motion first = planner_->plan(query, {static_map_of(field), {}}).motion;
     if (first.empty()) continue;
     std::uniform_real_distribution<double> share(0.05, 0.95);
     for (int k = 0; k < 3; ++k) {

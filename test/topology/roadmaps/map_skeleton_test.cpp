@@ -21,9 +21,10 @@ struct Found {
                  const Vector2& start = kStart, const Vector2& goal = kGoal)
       : static_map(static_map_of(grid)),
         cost(*static_map, start, blocked, shipped_travel_options()),
-        skeleton(static_map->skeleton(cost.options())),
-        roadmap(skeleton->roadmap(cost, goal)) {
-    std::vector<Vector2> obstacles = skeleton->obstacles(cost);
+        skeleton(static_map->skeleton(cost.options())) {
+    EXPECT_TRUE(skeleton->complete(cost, [] { return false; }));
+    roadmap = skeleton->roadmap(cost, goal);
+    std::vector<Vector2> obstacles = skeleton->obstacles();
     for (const BlockedDisc& disc : blocked) obstacles.push_back(disc.centre);
     cuts = Cuts<2>(obstacles);
     paths = shortest_classes(roadmap, cuts, {24, 3.0});
@@ -117,8 +118,8 @@ TEST(MapSkeleton, TellsObstaclesApartByGapsOfHalfTheRobot) {
   fill_box(grid, {5.0, 1.0}, {5.4, 2.7});
   fill_box(grid, {5.0, 3.2}, {5.4, 5.0});  // 0.5 m apart
   const Found found(grid);
-  EXPECT_EQ(found.skeleton->obstacles(found.cost).size(), 3u);
-  for (const Vector2& obstacle : found.skeleton->obstacles(found.cost))
+  EXPECT_EQ(found.skeleton->obstacles().size(), 3u);
+  for (const Vector2& obstacle : found.skeleton->obstacles())
     EXPECT_LE(found.static_map->field().sample(obstacle).distance_m, 0.0);
 }
 
@@ -143,7 +144,9 @@ TEST(MapSkeleton, RepairedIsAsIfMadeAnew) {
   const MapSkeleton not_repaired(field, tiles);
   tiles.forget(changed);
   const MapSkeleton repaired(field, tiles);
-  EXPECT_EQ(repaired.obstacles(fresh.cost), fresh.skeleton->obstacles(fresh.cost));
+  for (const MapSkeleton* each : {&not_repaired, &repaired})
+    ASSERT_TRUE(each->complete(fresh.cost, [] { return false; }));
+  EXPECT_EQ(repaired.obstacles(), fresh.skeleton->obstacles());
   const Roadmap<2> roadmap = repaired.roadmap(fresh.cost, kGoal);
   ASSERT_EQ(roadmap.edges.size(), fresh.roadmap.edges.size());
   for (std::size_t i = 0; i < roadmap.edges.size(); ++i) {

@@ -1,0 +1,27 @@
+#include "ros_bridge/inputs/plan_service.h"
+
+#include <utility>
+
+#include "ros_bridge/runtime/callback_queue.h"
+
+namespace mocha {
+
+PlanService::PlanService(ros::NodeHandle& node, Handlers handlers)
+    : handlers_(std::move(handlers)), spinner_(1, &queue_) {
+  ros::NodeHandle own(node);
+  own.setCallbackQueue(&queue_);
+  service_ = own.advertiseService("plan", &PlanService::on_request, this);
+  spinner_.start();
+}
+
+bool PlanService::on_request(Request& request, Response& response) {
+  const auto work = call_and_wait<Work>([&] { return handlers_.prepare(request); });
+  if (!work) return false;
+  const PlanResult result = (*work)([] { return !ros::ok(); });
+  const auto answer = call_and_wait<Response>([&] { return handlers_.respond(result); });
+  if (!answer) return false;
+  response = *answer;
+  return true;
+}
+
+}  // namespace mocha

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <mocha_ugv/PlanTrajectory.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <functional>
+
+#include "planning/candidates/plan_result.h"
+
+namespace mocha {
+
+/// The service `plan`: plans on a thread of its own, beside the node's callbacks.
+class PlanService {
+ public:
+  using Request = mocha_ugv::PlanTrajectory::Request;
+  using Response = mocha_ugv::PlanTrajectory::Response;
+  using Work = std::function<PlanResult(const std::function<bool()>& should_stop)>;
+
+  struct Handlers {
+    /// What is to be done for a request.
+    std::function<Work(const Request&)> prepare;
+    std::function<Response(const PlanResult&)> respond;
+  };
+
+  /// The handlers are called from the node's callback queue.
+  PlanService(ros::NodeHandle& node, Handlers handlers);
+
+ private:
+  bool on_request(Request& request, Response& response);
+
+  const Handlers handlers_;
+  ros::CallbackQueue queue_;
+  ros::ServiceServer service_;
+  ros::AsyncSpinner spinner_;
+};
+
+}  // namespace mocha
