@@ -129,6 +129,7 @@ DriveOptimizer::DriveOptimizer(const RobotModel& robot, const DriveOptions& opti
 
 Effort raised(const Effort& effort, const Violation& violation, double factor) {
   Effort more = effort;
+  more.first = false;
   switch (violation.term) {
     case ViolatedTerm::kClearance:
       more.obstacle_weight *= factor;
@@ -259,6 +260,7 @@ bool DriveOptimizer::is_narrow(const std::vector<Vector2>& path,
 InitialKnots<2> DriveOptimizer::initial_knots(const DriveQuery& query,
                                               const ObstacleField<2>& field,
                                               const Effort& effort) const {
+  if (query.found_before && effort.first) return *query.found_before;
   MotionLimits limits = limits_of(query);
   limits.max_speed *= effort.speed;
   if (query.times_s.empty()) {

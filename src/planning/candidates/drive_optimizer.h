@@ -31,11 +31,15 @@ struct DriveQuery {
   std::optional<PlanarMinco::State> rejoin;
   DurationCost duration_cost;
   std::optional<MotionLimits> limits;  ///< in place of the robot's own
+  /// Of a drive that was found before and nearly serves; the first attempt begins there instead of
+  /// on the path.
+  std::optional<InitialKnots<2>> found_before = std::nullopt;
 };
 
 /// How hard the optimiser tries to satisfy the constraints; raised step by step where a result is
 /// not certified.
 struct Effort {
+  bool first = true;
   bool camouflage = true;        ///< one variable a knot, else waypoints
   double spacing = 1.0;          ///< of the knots, relative to the options
   double obstacle_weight = 1.0;  ///< the same, as all that follows

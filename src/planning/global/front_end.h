@@ -31,6 +31,11 @@ class FrontEnd {
  public:
   FrontEnd(const RobotModel& robot, const PlannerOptions& options);
 
+  /// Of those of seeds(), for a robot that drives a plan, the path of the driven class and those
+  /// that may be worth a switch; none where there is no such plan, or it is not possible any more.
+  GlobalSeeds promising(const PlanQuery& query, const PlanningScene& scene,
+                        const Vector2& goal) const;
+
   /// Those that the robot can begin as it moves; where it has to brake first, those from where it
   /// then stands, of the classes that remain.
   GlobalSeeds seeds(const PlanQuery& query, const PlanningScene& scene, const Vector2& goal) const;
@@ -68,7 +73,10 @@ class FrontEnd {
   /// Where the robot's base must not be because of team-mates that stand at time t [s].
   std::vector<BlockedDisc> standing_peers(const PlanningScene& scene, double t) const;
   HomotopyPaths paths(std::vector<Vector2> lead_in, const PlanQuery& query,
-                      const PlanningScene& scene, const Vector2& goal) const;
+                      const PlanningScene& scene, const Vector2& goal,
+                      std::optional<double> below_driven = std::nullopt) const;
+  /// Of what can be begun as the robot moves.
+  GlobalSeeds under_way(const MotionState& start, HomotopyPaths found) const;
   /// Those from where what comes before ends at rest.
   GlobalSeeds after(const std::vector<Phase>& before, const PlanQuery& query,
                     const PlanningScene& scene, const Vector2& goal) const;
@@ -81,6 +89,7 @@ class FrontEnd {
   const HomotopyPathOptions options_;
   const StartManeuvers start_maneuvers_;
   const double weight_duration_;
+  const double below_driven_;  ///< see promising()
 };
 
 }  // namespace mocha

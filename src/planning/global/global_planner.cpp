@@ -132,11 +132,11 @@ void GlobalPlanner::run(const PlanQuery& query, const GlobalSeeds& seeds,
 
 void GlobalPlanner::search(const PlanQuery& query, const PlanningScene& scene, const Vector2& goal,
                            PlanResult& result) const {
-  run(query, front_end_.seeds(query, scene, goal), scene, result);
-  for (const auto& other_start : {&FrontEnd::after_braking, &FrontEnd::after_parking_out}) {
-    if (result.reason == PlanReason::kSolved || query.should_stop()) return;
-    const GlobalSeeds seeds = (front_end_.*other_start)(query, scene, goal);
+  for (const auto& found : {&FrontEnd::promising, &FrontEnd::seeds, &FrontEnd::after_braking,
+                            &FrontEnd::after_parking_out}) {
+    const GlobalSeeds seeds = (front_end_.*found)(query, scene, goal);
     if (!seeds.list.empty()) run(query, seeds, scene, result);
+    if (result.reason == PlanReason::kSolved || query.should_stop()) return;
   }
 }
 

@@ -29,7 +29,8 @@ class GlobalPlanner {
   std::string obstruction(const Vector2& goal, const PlanQuery& query,
                           const StaticMap& static_map) const;
   PlanResult turn_only(const PlanQuery& query, const PlanningScene& scene) const;
-  /// Runs from where the robot is, then after braking, then after parking out, until solved.
+  /// Runs with what is promising, then with all that begins where the robot is, then after braking,
+  /// then after parking out, until solved.
   void search(const PlanQuery& query, const PlanningScene& scene, const Vector2& goal,
               PlanResult& result) const;
   /// Sets the candidates, and selects one, if there is one to be driven.

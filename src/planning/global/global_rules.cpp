@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "planning/candidates/peer_discs.h"
+#include "planning/candidates/warm_start.h"
 #include "safety/certifier.h"
 
 namespace mocha {
@@ -70,12 +71,15 @@ EffortLadder GlobalRules::ladder() const {
   return {kAttempts, kFactor, kWorkPerSecond * query_.time_limit_s};
 }
 
-DriveQuery GlobalRules::drive(const Seed&, const StartManeuver& start_maneuver) const {
+DriveQuery GlobalRules::drive(const Seed& seed, const StartManeuver& start_maneuver) const {
   DriveQuery drive;
   drive.path = start_maneuver.path;
   drive.start = start_maneuver.state;
   drive.start_time_s = query_.start_time_s + start_maneuver.duration_s;
   drive.duration_cost = DurationCost::total(options_.weight_duration);
+  if (seed.driven)
+    drive.found_before = remaining_knots(query_.driven, drive.start_time_s, drive.start,
+                                         start_maneuver.path.back());
   for (const auto& peer : scene_.peers) {
     const bool standing = stands(*peer, query_.start_time_s);
     const BlockedDisc disc = peer_keep_out(*peer, query_.start_time_s, robot_, 0.0);

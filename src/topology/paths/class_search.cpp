@@ -98,22 +98,23 @@ SignatureKey key_along(const Arc& arc, const Roadmap<D>& roadmap, const SampledS
   return space.key(roadmap.nodes[arc.from].position, roadmap.nodes[arc.to].position);
 }
 
-/// Shortest distance to the goal of every node from which it is no longer than `longest_ratio`
-/// times that of the start; of others, none shorter.
-std::vector<double> distances_to_goal(const Arcs& arcs, double longest_ratio) {
+/// Shortest distance to the goal of every node from which it is no longer than the options allow;
+/// of others, none shorter.
+std::vector<double> distances_to_goal(const Arcs& arcs, const ClassSearchOptions& options) {
   const Arcs back = arcs.reversed();
   std::vector<double> distance_m(arcs.nodes(), kInfinity);
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
   distance_m[Roadmap<2>::kGoal] = 0.0;
   queue.push({0.0, Roadmap<2>::kGoal});
-  double longest_m = kInfinity;
+  double longest_m = options.longest_m;
   while (!queue.empty()) {
     const auto [reached_m, node] = queue.top();
     queue.pop();
     if (reached_m > longest_m) break;
     if (reached_m > distance_m[node]) continue;
-    if (node == Roadmap<2>::kStart) longest_m = (1.0 + kRounding) * longest_ratio * reached_m;
+    if (node == Roadmap<2>::kStart)
+      longest_m = std::min(longest_m, (1.0 + kRounding) * options.longest_ratio * reached_m);
     for (int i = back.first(node); i < back.first(node + 1); ++i) {
       const double next_m = reached_m + back[i].length_m;
       if (next_m >= distance_m[back[i].to]) continue;
@@ -141,9 +142,10 @@ class Search {
       : arcs_(arcs),
         key_of_(std::move(key_of)),
         keys_(arcs.size()),
-        to_goal_m_(distances_to_goal(arcs, options.longest_ratio)),
+        to_goal_m_(distances_to_goal(arcs, options)),
         options_(options),
-        longest_m_((1.0 + kRounding) * options.longest_ratio * to_goal_m_[Roadmap<2>::kStart]),
+        longest_m_(std::min(options.longest_m, (1.0 + kRounding) * options.longest_ratio *
+                                                   to_goal_m_[Roadmap<2>::kStart])),
         most_signatures_(static_cast<std::size_t>(kSignatures) * options.classes),
         seen_(arcs.nodes()),
         visited_by_(arcs.nodes(), kNone) {}
@@ -151,7 +153,9 @@ class Search {
   /// The last steps of the paths found.
   std::vector<int> run() {
     std::vector<int> found;
-    if (to_goal_m_[Roadmap<2>::kStart] == kInfinity) return found;
+    if (!(to_goal_m_[Roadmap<2>::kStart] <= longest_m_) ||
+        to_goal_m_[Roadmap<2>::kStart] == kInfinity)
+      return found;
     push({Roadmap<2>::kStart, kNone, kNone, 0, 0.0});
     while (!queue_.empty() && static_cast<int>(found.size()) < options_.classes) {
       const int current = queue_.top().second;

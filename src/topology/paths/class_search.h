@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "topology/roadmaps/roadmap.h"
@@ -11,6 +12,7 @@ namespace mocha {
 struct ClassSearchOptions {
   int classes;           ///< at most this many, at least 1
   double longest_ratio;  ///< longer than the shortest by more than this is not a path; >= 1
+  double longest_m = std::numeric_limits<double>::infinity();  ///< longer is none, either
 };
 
 /// A path through a roadmap from start to goal.

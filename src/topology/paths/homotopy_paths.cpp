@@ -17,16 +17,17 @@ namespace {
 
 constexpr int kSpare = 2;  // paths that are shortened, for each one that is kept
 
-/// From the start that `cost` knows.
+/// From the start that `cost` knows, no dearer than `most_m`.
 std::vector<std::vector<Vector2>> paths_of_classes(const TravelCost& cost,
                                                    const ClassRoadmap& classes,
                                                    const HomotopyPathQuery& query,
-                                                   const HomotopyPathOptions& options) {
+                                                   const HomotopyPathOptions& options,
+                                                   double most_m) {
   std::vector<std::vector<Vector2>> paths;
   for (auto& path : shortest_classes(classes.roadmap, classes.cuts,
-                                     {kSpare * options.classes, options.longest_ratio}))
+                                     {kSpare * options.classes, options.longest_ratio, most_m}))
     paths.push_back(std::move(path.points));
-  if (!paths.empty()) return paths;
+  if (!paths.empty() || query.below_driven) return paths;
   // Too narrow for the roadmap's circles, perhaps; the lattice is slower, but misses nothing.
   GridPath path = find_grid_path(cost.static_map(), cost.start(), query.goal, cost, kLatticeStep_m,
                                  query.should_stop);
@@ -93,12 +94,17 @@ HomotopyPaths find_homotopy_paths(const StaticMap& static_map, const HomotopyPat
   result.outcome = GridPath::Outcome::kGoalBlocked;
   if (!static_map.bounds().contains(query.goal) || cost.at(query.goal) == TravelCost::kInfinity)
     return result;
+  const std::vector<Vector2> driven = still_drivable(query.driven, cost);
+  result.outcome = GridPath::Outcome::kNoPath;
+  if (query.below_driven && driven.empty()) return result;
+  const double most_m =
+      query.below_driven ? *query.below_driven * cost_of(driven, cost) : TravelCost::kInfinity;
   result.outcome = GridPath::Outcome::kStopped;
   ClassRoadmap classes =
       class_roadmap(cost, query.goal, options.roadmap, options.prm_samples, query.should_stop);
   if (query.should_stop()) return result;
-  std::vector<std::vector<Vector2>> paths = paths_of_classes(cost, classes, query, options);
-  const std::vector<Vector2> driven = still_drivable(query.driven, cost);
+  std::vector<std::vector<Vector2>> paths =
+      paths_of_classes(cost, classes, query, options, most_m);
   if (query.lead_in.size() == 1 && !driven.empty()) paths.push_back(driven);
   std::vector<HomotopyPath> found = paths_along(paths, cost, classes.cuts, query);
   if (query.should_stop()) return result;

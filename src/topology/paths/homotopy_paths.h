@@ -45,6 +45,9 @@ struct HomotopyPathQuery {
   std::vector<BlockedDisc> blocked;
   /// The path that is being driven to the same goal, from the front of `lead_in` on; or empty.
   std::vector<Vector2> driven;
+  /// If set, only the driven path is looked for, and those that cost less than this ratio of it
+  /// before they are shortened; nothing, where it is not possible any more.
+  std::optional<double> below_driven;
   /// Ends the search early; several threads may call it at once.
   std::function<bool()> should_stop = [] { return false; };
 

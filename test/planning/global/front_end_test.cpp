@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "planning/worlds.h"
 
 namespace mocha {
@@ -73,6 +75,15 @@ TEST_F(FrontEndTest, KnowsTheClassThatIsBeingDriven) {
     driven += seed.driven;
   }
   EXPECT_EQ(driven, 1);
+  const GlobalSeeds promising = front_end_.promising(query_, {static_map_of(grid_), {}}, kGoal);
+  ASSERT_FALSE(promising.list.empty());
+  EXPECT_LT(promising.list.size(), found.list.size());
+  EXPECT_TRUE(std::any_of(promising.list.begin(), promising.list.end(),
+                          [](const Seed& seed) { return seed.driven; }));
+}
+
+TEST_F(FrontEndTest, NothingIsPromisingWhileNothingIsDriven) {
+  EXPECT_TRUE(front_end_.promising(query_, {static_map_of(grid_), {}}, kGoal).list.empty());
 }
 
 TEST_F(FrontEndTest, BrakesFirstWhereThePathTurnsAway) {

@@ -222,6 +222,28 @@ TEST(HomotopyPaths, KeepTheClassThatIsDrivenEvenWhereItIsDear) {
   }
 }
 
+TEST(HomotopyPaths, WithinALimitAreTheDrivenOneAndThoseThatMayBeMuchCheaper) {
+  Hall hall;
+  fill_box(hall.grid, {4.0, 0.0}, {4.2, 2.8});
+  fill_box(hall.grid, {4.0, 3.6}, {4.2, 5.0});
+  const std::vector<Vector2> detour = {{1.0, 3.0}, {1.0, 5.5}, {7.0, 5.5}, {7.0, 3.0}};
+  const std::vector<Vector2> straight = {{1.0, 3.0}, {7.0, 3.0}};
+  for (const RoadmapKind kind : kinds()) {
+    hall.query.driven = detour;
+    hall.query.below_driven = 1.0;
+    EXPECT_EQ(hall.paths(kind).paths.size(), 2u) << "straight on is much cheaper";
+    hall.query.driven = straight;
+    const HomotopyPaths found = hall.paths(kind);
+    ASSERT_EQ(found.paths.size(), 1u);
+    EXPECT_EQ(found.paths[0].signature, *found.driven);
+    fill_box(hall.grid, {4.0, 2.8}, {4.2, 3.6});
+    EXPECT_TRUE(hall.paths(kind).paths.empty()) << "the driven one is blocked";
+    hall.query.below_driven.reset();
+    EXPECT_FALSE(hall.paths(kind).paths.empty());
+    fill_box(hall.grid, {4.0, 2.8}, {4.2, 3.6}, OccupancyGrid::kFree);
+  }
+}
+
 TEST(HomotopyPaths, CountWhatIsDrivenBeforeThemForTheirClass) {
   Hall hall;
   fill_box(hall.grid, {3.9, 2.9}, {4.1, 3.1});
