@@ -185,10 +185,13 @@ GlobalSeeds FrontEnd::after(const std::vector<Phase>& before, const PlanQuery& q
 
 bool FrontEnd::may_reach(const Vector2& start, const Vector2& goal,
                          const StaticMap& static_map) const {
-  // No motion has less room, not even one that leaves a tight place: see parking_out.
-  const double least_m = std::min(
-      required_clearance_m(), robot_.footprint.inscribed_radius_m() -
-                                  Requirements(robot_)[RequirementName::kPlan].leaving.deepest_m);
+  // From where there is room, all paths keep it. From elsewhere, no motion has less room than this,
+  // not even one that leaves a tight place: see parking_out.
+  const double tight_m = robot_.footprint.inscribed_radius_m() -
+                         Requirements(robot_)[RequirementName::kPlan].leaving.deepest_m;
+  const bool has_room = static_map.field().distance_bound(start) >= required_clearance_m();
+  const double least_m =
+      has_room ? required_clearance_m() : std::min(required_clearance_m(), tight_m);
   // From closer, paths may be as close as the start.
   if (static_map.field().distance_bound(start) < least_m) return true;
   const double half_diagonal_m = M_SQRT2 * static_map.detail_m();

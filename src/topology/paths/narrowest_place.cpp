@@ -1,8 +1,10 @@
 #include "topology/paths/narrowest_place.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
-#include <queue>
+#include <numeric>
 #include <vector>
 
 #include "topology/paths/lattice.h"
@@ -12,9 +14,8 @@ namespace {
 
 constexpr double kWidest_m = 10.0;  // more is not told apart
 constexpr double kContact_m = 1e-3;
-constexpr int kBetweenStops = 1000;  // nodes
 
-/// Dijkstra's search for the way whose least clearance is the largest.
+/// Floods a lattice from the roomiest places down, until start and goal are in one pool.
 class WidestWay {
  public:
   WidestWay(const StaticMap& static_map, const Vector2& start, const Vector2& goal, double step_m,
@@ -23,43 +24,62 @@ class WidestWay {
         lattice_(static_map, step_m),
         start_(start),
         goal_(goal),
-        free_radius_m_(free_radius_m) {}
+        free_radius_m_(free_radius_m),
+        clearance_m_(lattice_.size()),
+        pool_(lattice_.size(), kDry) {}
 
   /// Where its clearance is least.
   std::optional<Vector2> bottleneck(const std::function<bool()>& should_stop) {
+    measure();
     const int from = lattice_.nearest(start_);
     const int to = lattice_.nearest(goal_);
-    best_m_.assign(lattice_.size(), 0.0f);
-    narrowest_.assign(lattice_.size(), from);
-    best_m_[from] = static_cast<float>(kWidest_m);
-    queue_.push({best_m_[from], from});
-    for (int i = 1; !queue_.empty(); ++i) {
-      if (i % kBetweenStops == 0 && should_stop()) break;
-      const Entry entry = queue_.top();
-      queue_.pop();
-      if (entry.clearance_m < best_m_[entry.node]) continue;
-      if (entry.node == to) return lattice_.position(narrowest_[to]);
-      lattice_.visit_neighbours(entry.node, [&](int next, double) { reach(next, entry.node); });
+    for (int level = kLevels - 1; level >= 0; --level) {
+      if (should_stop()) break;
+      for (int i = first_[level]; i < first_[level + 1]; ++i) {
+        flood(order_[i]);
+        if (pool_[from] != kDry && pool_[to] != kDry && pool_of(from) == pool_of(to))
+          return lattice_.position(order_[i]);
+      }
     }
     return std::nullopt;
   }
 
  private:
-  struct Entry {
-    float clearance_m;
-    int node;
-    bool operator<(const Entry& other) const { return clearance_m < other.clearance_m; }
-  };
+  static constexpr int kDry = -1;
+  static constexpr int kLevels = 20000;  // of clearance up to the widest, half a millimetre apart
 
-  void reach(int next, int from) {
-    const Vector2 place = lattice_.position(next);
-    const Vector2 middle = 0.5 * (place + lattice_.position(from));
-    const double least_m = std::min(clearance_m(place), clearance_m(middle));
-    const float reached_m = static_cast<float>(std::min<double>(best_m_[from], least_m));
-    if (!(reached_m > best_m_[next])) return;
-    best_m_[next] = reached_m;
-    narrowest_[next] = least_m < best_m_[from] ? next : narrowest_[from];
-    queue_.push({reached_m, next});
+  /// The places in the order of their clearance.
+  void measure() {
+    const int count = static_cast<int>(lattice_.size());
+    tbb::parallel_for(0, count, [&](int node) {
+      clearance_m_[node] = static_cast<float>(clearance_m(lattice_.position(node)));
+    });
+    first_.assign(kLevels + 1, 0);
+    for (const float each_m : clearance_m_) {
+      if (each_m > 0.0f) ++first_[level_of(each_m) + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    order_.resize(first_.back());
+    std::vector<int> next(first_.begin(), first_.end() - 1);
+    for (int node = 0; node < count; ++node) {
+      if (clearance_m_[node] > 0.0f) order_[next[level_of(clearance_m_[node])]++] = node;
+    }
+  }
+
+  static int level_of(float clearance_m) {
+    return std::min(kLevels - 1, static_cast<int>(clearance_m / kWidest_m * kLevels));
+  }
+
+  void flood(int node) {
+    pool_[node] = node;
+    lattice_.visit_neighbours(node, [&](int next, double) {
+      if (pool_[next] != kDry) pool_[pool_of(next)] = pool_of(node);
+    });
+  }
+
+  int pool_of(int node) {
+    while (pool_[node] != node) node = pool_[node] = pool_[pool_[node]];
+    return node;
   }
 
   double clearance_m(const Vector2& place) const {
@@ -74,9 +94,10 @@ class WidestWay {
   const Vector2 start_;
   const Vector2 goal_;
   const double free_radius_m_;
-  std::vector<float> best_m_;   // clearance of the widest way there
-  std::vector<int> narrowest_;  // node of that way
-  std::priority_queue<Entry> queue_;
+  std::vector<float> clearance_m_;  // of each place
+  std::vector<int> order_;          // places, by level
+  std::vector<int> first_;          // of each level, and one more
+  std::vector<int> pool_;           // of each place: another one of its pool, or itself
 };
 
 /// How far it is from a place to a surface in a direction, at most kWidest_m.

@@ -227,7 +227,7 @@ TEST(HomotopyPaths, WithinALimitAreTheDrivenOneAndThoseThatMayBeMuchCheaper) {
   fill_box(hall.grid, {4.0, 0.0}, {4.2, 2.8});
   fill_box(hall.grid, {4.0, 3.6}, {4.2, 5.0});
   const std::vector<Vector2> detour = {{1.0, 3.0}, {1.0, 5.5}, {7.0, 5.5}, {7.0, 3.0}};
-  const std::vector<Vector2> straight = {{1.0, 3.0}, {7.0, 3.0}};
+  const std::vector<Vector2> straight = {{1.0, 3.0}, {3.5, 3.2}, {5.0, 3.2}, {7.0, 3.0}};
   for (const RoadmapKind kind : kinds()) {
     hall.query.driven = detour;
     hall.query.below_driven = 1.0;
