@@ -89,7 +89,7 @@ TEST_F(PublishedSliceTest, AMapThatIsReplacedIsLaidOutAnew) {
   PublishedSlice slice;
   slice.update(map, kBorder_m);
   map.clear();
-  map.insert_scan(beams_to({{1.0, 1.0}}));
+  map.insert_scan(beams_to({{-5.0, -5.0}, {5.0, 5.0}}));  // as far as before
   EXPECT_TRUE(slice.update(map, kBorder_m).whole);
   EXPECT_EQ(slice.grid().cells, map.slice(kBorder_m).cells);
 }
