@@ -8,7 +8,7 @@ from mocha_scripts import node_topics
 ORDER = ["scan_localizer", "perception", "global_planner", "local_replanner", "trajectory_broadcaster", "trajectory_tracker", "base_driver",
          "base_emulator", "fleet_simulator"]
 SIMULATION = {"base_emulator", "fleet_simulator"}
-MAIN_WAY = ["scan", "map", "predicted_obstacles", "global_trajectory", "proposed_trajectory", "committed_trajectory", "cmd_vel"]
+MAIN_WAY = ["scan", "map", "map_updates", "predicted_obstacles", "global_trajectory", "proposed_trajectory", "committed_trajectory", "cmd_vel"]
 OUTSIDE = "outside"
 
 NAME_X, TYPE_X, FIRST_X, COLUMN = 16, 232, 452, 116

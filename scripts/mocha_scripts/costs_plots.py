@@ -12,6 +12,7 @@ from matplotlib.patches import Circle
 
 from benchmarks.classes_plots import COLORS, draw_world
 from mocha_scripts import drive_plots, worlds
+from mocha_scripts.map_topics import NewestMap
 from mocha_ugv.msg import MotionPhase, PlannerStatus
 
 EVERY_S = 2.0  # the robots of the time-lapse are drawn
@@ -37,8 +38,8 @@ class Recording:
         self.plans = {name: [] for name in names}
         self._heard = {name: [] for name in names}  # (time, trajectories)
         truth = {name: [] for name in names}  # time, x, y
-        grids = {}
-        topics = [f"/{name}/{topic}" for name in names for topic in ("candidates", "fleet/trajectories", "map")]
+        maps = {name: NewestMap() for name in names}
+        topics = [f"/{name}/{topic}" for name in names for topic in ("candidates", "fleet/trajectories", "map", "map_updates")]
         with rosbag.Bag(bag) as messages:
             for topic, message, _ in messages.read_messages(topics + ["/fleet_simulator/ground_truth"]):
                 stamp, name = message.header.stamp.to_sec(), topic.split("/")[1]
@@ -46,9 +47,9 @@ class Recording:
                     self._heard[name].append((stamp, [one for one in message.trajectories if drives(one)]))
                 elif topic.endswith("/candidates"):
                     if any(way.selected for way in message.candidates):
-                        self.plans[name].append(Plan(stamp, message.candidates, grids.get(name), {}))
-                elif topic.endswith("/map"):
-                    grids[name] = message
+                        self.plans[name].append(Plan(stamp, message.candidates, maps[name].grid, {}))
+                elif topic.endswith(("/map", "/map_updates")):
+                    maps[name].take(topic, message)
                 else:
                     for one in message.robots:
                         truth[one.name].append((stamp, one.pose.x, one.pose.y))

@@ -9,7 +9,7 @@ from mocha_scripts.session import Session
 
 RECORDED = ["/clock", "/tf", "/tf_static", "/fleet_simulator/ground_truth", "/fleet_simulator/contacts",
             "/fleet_simulator/world", "/fleet/promises", "/diagnostics"]
-RECORDED_PER_ROBOT = ["scan", "odom", "cmd_vel", "map", "global_trajectory", "proposed_trajectory",
+RECORDED_PER_ROBOT = ["scan", "odom", "cmd_vel", "map", "map_updates", "global_trajectory", "proposed_trajectory",
                       "committed_trajectory", "settlement", "candidates", "planner_status", "replanner_status",
                       "tracking_error", "fleet/trajectories", "predicted_obstacles", "local_trajectory", "local_markers",
                       "move_base/goal", "localization", "localized_pose"]

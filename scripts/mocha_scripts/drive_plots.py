@@ -10,6 +10,7 @@ import rosbag
 from matplotlib.collections import LineCollection
 
 from mocha_scripts import worlds
+from mocha_scripts.map_topics import NewestMap
 
 COLOURS = ["#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e", "#17becf", "#8c564b", "#e377c2"]
 
@@ -39,8 +40,9 @@ def read_bag(path):
                 separation.append((stamp, message.min_separation))
                 for truth in message.robots:
                     tracks.setdefault(truth.name, Track()).add(stamp, truth)
-            elif topic.endswith("/map"):
-                maps[topic.strip("/").split("/")[0]] = message
+            elif topic.endswith(("/map", "/map_updates")):
+                maps.setdefault(topic.strip("/").split("/")[0], NewestMap()).take(topic, message)
+    maps = {name: newest.grid for name, newest in maps.items() if newest.grid is not None}
     return {name: track.columns() for name, track in tracks.items()}, np.array(separation), maps
 
 

@@ -3,7 +3,6 @@
 #include <mocha_ugv/LoadMap.h>
 #include <mocha_ugv/PredictedObstacles.h>
 #include <mocha_ugv/SaveMap.h>
-#include <nav_msgs/OccupancyGrid.h>
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -28,13 +27,13 @@
 #include "ros_bridge/messages/map_conversions.h"
 #include "ros_bridge/messages/prediction_conversions.h"
 #include "ros_bridge/messages/sensor_conversions.h"
+#include "ros_bridge/outputs/map_outputs.h"
 #include "ros_bridge/runtime/live_parameters.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/robot_identity.h"
 #include "ros_bridge/runtime/run_node.h"
 #include "ros_bridge/runtime/step_loop.h"
 #include "ros_bridge/runtime/transport.h"
-#include "stack/timing.h"
 #include "world/margin_budget.h"
 #include "world/robot_model.h"
 #include "world/world_file.h"
@@ -58,7 +57,7 @@ class PerceptionNode {
         timeout_s_(values.number("scan_timeout")),
         queue_(robot_.map_frame, values.number("integration_rate"), timeout_s_),
         listener_(transforms_, node, false, at_once()),
-        maps_(node.advertise<nav_msgs::OccupancyGrid>("map", 1, true)),
+        maps_(node, robot_.map_frame, keep_out(values)),
         cells_(node.advertise<sensor_msgs::PointCloud2>("occupied_cells", 1)),
         moving_(node.advertise<mocha_ugv::PredictedObstacles>("predicted_obstacles", 5)),
         scans_(node.subscribe("scan", 20, &PerceptionNode::on_scan, this, at_once())),
@@ -71,8 +70,6 @@ class PerceptionNode {
         parameters_(values_),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
     if (!values.text("map_file").empty()) map_.load(values.text("map_file"));
-    if (!values.text("keep_out_file").empty())
-      keep_out_ = load_world(values.text("keep_out_file"), config_path("")).keep_out;
     if (!model_.lidar.sees_all_round())
       ROS_INFO("%s: what its lidar cannot see where it starts is free up to %.2f m away",
                robot_.name.c_str(), start_ground_.reach_m());
@@ -83,6 +80,11 @@ class PerceptionNode {
   }
 
  private:
+  static std::vector<Polygon> keep_out(const ParameterTable& values) {
+    const std::string& file = values.text("keep_out_file");
+    return file.empty() ? std::vector<Polygon>() : load_world(file, config_path("")).keep_out;
+  }
+
   void on_scan(const sensor_msgs::LaserScan& scan) {
     queue_.add(scan, ros::Time::now(), refusals_);
   }
@@ -108,7 +110,7 @@ class PerceptionNode {
     for (const Measurement& measurement : queue_.take_ready(transforms_, now, refusals_)) {
       integrate(measurement);
     }
-    publish_map();
+    maps_.publish(map_, now, stamp_, values_.number("map_rate"), values_.number("map_border"));
     publish_cells();
     refusals_.warn();
     diagnostics_.update();
@@ -119,7 +121,8 @@ class PerceptionNode {
     transforms_.clear();
     queue_.clear();
     filter_.clear();
-    started_ = integrated_ = stamp_ = published_ = cells_published_ = ros::Time();
+    maps_.forget_time();
+    started_ = integrated_ = stamp_ = cells_published_ = ros::Time();
   }
 
   void integrate(const Measurement& measurement) {
@@ -160,30 +163,6 @@ class PerceptionNode {
     if (!robot_seen_) return std::nullopt;
     return planar_pose(
         transforms_.lookupTransform(robot_.map_frame, robot_.base_frame, time).transform);
-  }
-
-  void publish_map() {
-    const double since_s = (now_ - published_).toSec();
-    const bool changed = map_.version() != published_version_;
-    const bool fresh = stamp_ > map_stamp_ && since_s >= kMapPeriod_s;
-    if (!(changed || fresh) || since_s < 1.0 / values_.number("map_rate")) return;
-    nav_msgs::OccupancyGrid message;
-    map_stamp_ = stamp_.isZero() ? now_ : stamp_;
-    message.header.stamp = message.info.map_load_time = map_stamp_;
-    message.header.frame_id = robot_.map_frame;
-    to_message(with_keep_out(map_.slice(values_.number("map_border"))), message);
-    maps_.publish(message);
-    published_ = now_;
-    published_version_ = map_.version();
-  }
-
-  /// Zones that are not to be entered look occupied, seen or not.
-  OccupancyGrid with_keep_out(OccupancyGrid slice) const {
-    for (const Polygon& zone : keep_out_) {
-      slice = grown_to_hold(slice, zone.corners, 0.0);
-      fill_polygon(slice, zone, OccupancyGrid::kOccupied);
-    }
-    return slice;
   }
 
   /// Though nothing moves: their age tells that they can be relied on.
@@ -281,7 +260,6 @@ class PerceptionNode {
   const RobotModel model_;
   const StartGround start_ground_;
   OccupancyMap map_;
-  std::vector<Polygon> keep_out_;
   PeerTracks peers_;
   MovingObjectFilter filter_;
   const double timeout_s_;
@@ -292,16 +270,13 @@ class PerceptionNode {
   ros::Time now_;
   ros::Time started_;
   ros::Time integrated_;
-  ros::Time stamp_;      // of the newest measurement in the map
-  ros::Time map_stamp_;  // of the newest map published
-  ros::Time published_;
+  ros::Time stamp_;  // of the newest measurement in the map
   ros::Time cells_published_;
-  std::uint64_t published_version_ = 0;
 
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_;
   diagnostic_updater::Updater diagnostics_;
-  ros::Publisher maps_;
+  MapOutputs maps_;
   ros::Publisher cells_;
   ros::Publisher moving_;
   ros::Subscriber scans_;

@@ -1,7 +1,6 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <mocha_ugv/Localization.h>
-#include <nav_msgs/OccupancyGrid.h>
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
 #include <std_srvs/Empty.h>
@@ -10,6 +9,7 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <variant>
@@ -17,6 +17,7 @@
 
 #include "perception/localization/scan_localizer.h"
 #include "perception/mapping/saved_map.h"
+#include "ros_bridge/inputs/map_source.h"
 #include "ros_bridge/inputs/scan_queue.h"
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/localization_messages.h"
@@ -88,7 +89,7 @@ class ScanLocalizerNode {
                                     : "parameter `map_file` is not set: no map to localise in");
     }
     if (mapping_) {
-      maps_ = node_.subscribe("map", 1, &ScanLocalizerNode::on_map, this, at_once());
+      map_.emplace(node_, robot_.map_frame);
       localizer_.begin({{0.0, 0.0}, 0.0});
       return;
     }
@@ -117,14 +118,6 @@ class ScanLocalizerNode {
     queue_.add(scan, ros::Time::now(), refusals_);
   }
 
-  void on_map(const nav_msgs::OccupancyGrid& message) {
-    try {
-      localizer_.set_map(from_message(message));
-    } catch (const std::invalid_argument& error) {
-      refusals_.add(error.what());
-    }
-  }
-
   void on_initial_pose(const geometry_msgs::PoseWithCovarianceStamped& message) {
     std::string fault;
     const auto said = from_message(message, robot_.map_frame, fault);
@@ -147,10 +140,18 @@ class ScanLocalizerNode {
     if (now < now_) forget_time();
     now_ = now;
     if (started_.isZero()) started_ = now;
+    take_map();
     for (const Measurement& measurement : queue_.take_ready(transforms_, now, refusals_))
       localize(measurement);
     refusals_.warn();
     diagnostics_.update();
+  }
+
+  /// The newest that perception has made, if it is new.
+  void take_map() {
+    if (!map_ || map_->taken() == maps_taken_) return;
+    maps_taken_ = map_->taken();
+    localizer_.set_map(map_->newest());
   }
 
   /// The clock was set back: a recording began again.
@@ -217,6 +218,7 @@ class ScanLocalizerNode {
     status.add("standard deviation of the heading [rad]", state_.sigma_yaw);
     status.add("places that explain the scans", state_.places);
     for (const auto& [reason, times] : refusals_.counts()) status.add("refused: " + reason, times);
+    if (map_) status.add("maps refused", map_->refused());
   }
 
   ros::NodeHandle node_;
@@ -245,7 +247,8 @@ class ScanLocalizerNode {
   ros::Publisher states_;
   ros::Subscriber scans_;
   ros::Subscriber said_;
-  ros::Subscriber maps_;
+  std::optional<MapSource> map_;  // that perception is making
+  int maps_taken_ = 0;
   ros::ServiceServer search_;
   StepLoop loop_;
 };

@@ -1,9 +1,12 @@
 #include "stack/known_map.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
+
+#include "world/window_joining.h"
 
 namespace mocha {
 namespace {
@@ -11,14 +14,10 @@ namespace {
 constexpr double kMostCells = 2.5e7;
 constexpr int kPatch = 32;             // cells along a side: changes are repaired together
 constexpr double kMostRepaired = 0.1;  // share of the map; beyond, all is made anew
+constexpr int kReach = 100;            // cells that distances are made anew around a change, or so
 constexpr double kSameCell = 1e-6;     // cells
 
-bool is_same(const OccupancyGrid& a, const OccupancyGrid& b) {
-  return a.resolution_m == b.resolution_m && a.origin == b.origin && a.width == b.width &&
-         a.height == b.height && a.cells == b.cells;
-}
-
-/// Around the cells of each patch of the held map in which the new one differs.
+/// Around the cells of each patch of the held map in which a new part of it differs.
 std::vector<CornerWindow> changes(const OccupancyGrid& held, const OccupancyGrid& grid,
                                   const Eigen::Vector2i& place) {
   std::vector<CornerWindow> patches;
@@ -47,65 +46,115 @@ std::vector<CornerWindow> changes(const OccupancyGrid& held, const OccupancyGrid
 
 /// A copy, if others look at it.
 void make_own(std::shared_ptr<DistanceField>& field) {
-  if (field && field.use_count() > 1) field = std::make_shared<DistanceField>(*field);
+  if (!field) return;
+  if (field.use_count() > 1) field = std::make_shared<DistanceField>(*field);
+  // What another thread has read before it let go is read before it changes here.
+  std::atomic_thread_fence(std::memory_order_acquire);
 }
 
 }  // namespace
 
-bool KnownMap::take(OccupancyGrid grid) {
+void KnownMap::take(OccupancyGrid grid) {
   const auto cells = static_cast<std::size_t>(std::max(0, grid.width)) * std::max(0, grid.height);
   if (cells == 0 || grid.cells.size() != cells || !(grid.resolution_m > 0.0) ||
       !grid.origin.allFinite())
     throw std::invalid_argument("the grid is empty, or its sizes or its place are none");
-  if (is_same(grid, newest_)) return false;
-  if (const auto place = place_of(grid)) {
-    repair(grid, *place);
-  } else {
-    forget();
+  const std::lock_guard<std::mutex> lock(pending_mutex_);
+  width_ = grid.width;
+  height_ = grid.height;
+  pending_ = {std::move(grid), {}};
+}
+
+void KnownMap::take(GridUpdate update) {
+  const std::lock_guard<std::mutex> lock(pending_mutex_);
+  if (!update.fits(width_, height_))
+    throw std::invalid_argument("the update is not within the grid, or its sizes do not match");
+  if (!update.cells.empty()) pending_.updates.push_back(std::move(update));
+}
+
+bool KnownMap::available() const {
+  const std::lock_guard<std::mutex> lock(pending_mutex_);
+  return width_ > 0;
+}
+
+void KnownMap::digest() {
+  Pending pending;
+  {
+    const std::lock_guard<std::mutex> lock(pending_mutex_);
+    std::swap(pending, pending_);
   }
-  newest_ = std::move(grid);
-  return true;
+  if (pending.grid) {
+    for (const GridUpdate& update : pending.updates) apply(update, *pending.grid);
+    change_to(std::move(*pending.grid));
+  } else if (!pending.updates.empty()) {
+    update_by(pending.updates);
+  }
+}
+
+void KnownMap::change_to(OccupancyGrid grid) {
+  if (const auto place = place_of(grid)) {
+    known_ = {place->x(), place->y(), place->x() + grid.width - 1, place->y() + grid.height - 1};
+    return repair(grid, *place);
+  }
+  forget();
+  known_ = {0, 0, grid.width - 1, grid.height - 1};
+  held_ = std::move(grid);
+  is_grown_ = false;
+}
+
+void KnownMap::update_by(const std::vector<GridUpdate>& updates) {
+  CornerWindow around{0, 0, -1, -1};
+  for (const GridUpdate& u : updates)
+    around = around.united({u.x, u.y, u.x + u.width - 1, u.y + u.height - 1});
+  const Eigen::Vector2i place(known_.x0 + around.x0, known_.y0 + around.y0);
+  OccupancyGrid part =
+      part_of(held_, {place.x(), place.y(), known_.x0 + around.x1, known_.y0 + around.y1});
+  for (GridUpdate update : updates) {
+    update.x -= around.x0;
+    update.y -= around.y0;
+    apply(update, part);
+  }
+  repair(part, place);
 }
 
 void KnownMap::forget() {
-  held_ = OccupancyGrid();
   occupied_.reset();
   unseen_.reset();
   static_map_.reset();
 }
 
 std::optional<Eigen::Vector2i> KnownMap::place_of(const OccupancyGrid& grid) const {
-  if (held_.width == 0 || grid.resolution_m != held_.resolution_m) return std::nullopt;
+  if (known_.empty() || grid.resolution_m != held_.resolution_m) return std::nullopt;
   const Vector2 at = (grid.origin - held_.origin) / grid.resolution_m;
   const Vector2 nearest(std::round(at.x()), std::round(at.y()));
   const Vector2 end = nearest + Vector2(grid.width, grid.height);
-  const Vector2 before = (newest_.origin - held_.origin) / grid.resolution_m;
-  const Vector2 before_end = before + Vector2(newest_.width, newest_.height);
-  const bool covers =
-      (before - nearest).minCoeff() >= -kSameCell && (end - before_end).minCoeff() >= -kSameCell;
+  const bool covers = nearest.x() <= known_.x0 && nearest.y() <= known_.y0 && end.x() > known_.x1 &&
+                      end.y() > known_.y1;
   if (!covers || (at - nearest).cwiseAbs().maxCoeff() > kSameCell || nearest.minCoeff() < 0.0 ||
       end.x() > held_.width || end.y() > held_.height)
     return std::nullopt;
   return nearest.cast<int>();
 }
 
-void KnownMap::repair(const OccupancyGrid& grid, const Eigen::Vector2i& place) {
-  const std::vector<CornerWindow> patches = changes(held_, grid, place);
+void KnownMap::repair(const OccupancyGrid& part, const Eigen::Vector2i& place) {
+  const std::vector<CornerWindow> patches = changes(held_, part, place);
+  if (patches.empty()) return;
   const double repaired = static_cast<double>(patches.size()) * kPatch * kPatch;
-  if (repaired > kMostRepaired * static_cast<double>(held_.cells.size())) return forget();
+  if (repaired > kMostRepaired * static_cast<double>(held_.cells.size())) forget();
   std::optional<SkeletonTiles> tiles = static_map_ ? static_map_->tiles() : std::nullopt;
   static_map_.reset();
   make_own(occupied_);
   make_own(unseen_);
-  for (const CornerWindow& patch : patches) {
+  for (const CornerWindow& patch : joined(patches, kReach)) {
     for (int y = patch.y0; y <= patch.y1; ++y) {
       for (int x = patch.x0; x <= patch.x1; ++x)
-        held_.at(x, y) = grid.at(x - place.x(), y - place.y());
+        held_.at(x, y) = part.at(x - place.x(), y - place.y());
     }
     if (unseen_) unseen_->repair(held_, patch);
     if (!occupied_) continue;
-    const CornerWindow differ = occupied_->repair(held_, patch);
-    if (tiles) tiles->forget(differ);
+    for (const CornerWindow& differ : occupied_->repair(held_, patch)) {
+      if (tiles) tiles->forget(differ);
+    }
   }
   if (tiles) static_map_ = std::make_shared<GridStaticMap>(occupied_, std::move(*tiles));
 }
@@ -117,15 +166,16 @@ bool KnownMap::holds(const Vector2& point) const {
 
 bool KnownMap::within_reach(const Vector2& point, double border_m) const {
   const Vector2 border = Vector2::Constant(border_m);
-  const Vector2 size = newest_.resolution_m * Vector2(newest_.width, newest_.height);
-  const Vector2 low = newest_.origin.cwiseMin(point - border);
-  const Vector2 high = (newest_.origin + size).cwiseMax(point + border);
-  return point.allFinite() &&
-         (high - low).prod() <= kMostCells * newest_.resolution_m * newest_.resolution_m;
+  const double cell_m = held_.resolution_m;
+  const Vector2 origin = held_.origin + cell_m * Vector2(known_.x0, known_.y0);
+  const Vector2 low = origin.cwiseMin(point - border);
+  const Vector2 high =
+      (origin + cell_m * Vector2(known_.columns(), known_.rows())).cwiseMax(point + border);
+  return point.allFinite() && (high - low).prod() <= kMostCells * cell_m * cell_m;
 }
 
 void KnownMap::hold(const std::vector<Vector2>& points, double border_m) {
-  bool serves = held_.width > 0;
+  bool serves = is_grown_;
   std::vector<Vector2> reachable;
   for (const Vector2& point : points) {
     if (!within_reach(point, border_m)) continue;
@@ -134,7 +184,12 @@ void KnownMap::hold(const std::vector<Vector2>& points, double border_m) {
   }
   if (serves) return;
   forget();
-  held_ = grown_to_hold(newest_, reachable, border_m);
+  is_grown_ = true;
+  const OccupancyGrid known = part_of(held_, known_);
+  held_ = grown_to_hold(known, reachable, border_m);
+  const Vector2 first = ((known.origin - held_.origin) / held_.resolution_m).array().round();
+  const Eigen::Vector2i at = first.cast<int>();
+  known_ = {at.x(), at.y(), at.x() + known.width - 1, at.y() + known.height - 1};
 }
 
 std::shared_ptr<DistanceField>& KnownMap::field_of(Solid solid) {
@@ -143,15 +198,25 @@ std::shared_ptr<DistanceField>& KnownMap::field_of(Solid solid) {
   return field;
 }
 
+OccupancyGrid KnownMap::newest() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  digest();
+  return part_of(held_, known_);
+}
+
 std::shared_ptr<const DistanceField> KnownMap::field(Solid solid,
                                                      const std::vector<Vector2>& points,
                                                      double border_m) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  digest();
   hold(points, border_m);
   return field_of(solid);
 }
 
 std::shared_ptr<const StaticMap> KnownMap::static_map(const std::vector<Vector2>& points,
                                                       double border_m) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  digest();
   hold(points, border_m);
   if (!static_map_) static_map_ = std::make_shared<GridStaticMap>(field_of(Solid::kOccupied));
   return static_map_;

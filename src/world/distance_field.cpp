@@ -12,6 +12,7 @@ namespace mocha {
 namespace {
 
 constexpr double kSlackCells = 1.5;  // between a corner and a place between corners
+constexpr int kDiffer = 64;          // corners along the sides of what is told to differ
 
 /// Marks the corners of all cells that are (or are not) solid as sites, in a window.
 std::vector<float> corner_sites(const OccupancyGrid& grid, DistanceField::Solid solid, bool wanted,
@@ -51,19 +52,24 @@ void add_rim(const OccupancyGrid& grid, const CornerWindow& window, std::vector<
   }
 }
 
-/// Distances of the corners of a window [m], by the sites in it.
+/// Distances of the corners of a window [m], by the sites in it; right only in the rows from y0 to
+/// y1.
 std::vector<float> distances_m(const OccupancyGrid& grid, DistanceField::Solid solid,
-                               const CornerWindow& window) {
+                               const CornerWindow& window, int y0, int y1) {
   const auto scale = static_cast<float>(grid.resolution_m);
+  const int first = y0 - window.y0;
+  const int end = y1 + 1 - window.y0;
+  const auto begin_i = static_cast<std::size_t>(first) * window.columns();
+  const auto end_i = static_cast<std::size_t>(end) * window.columns();
   std::vector<float> distances = corner_sites(grid, solid, true, window);
   const bool outside_solid = solid == DistanceField::Solid::kOccupiedOrUnknown;
   if (outside_solid) add_rim(grid, window, distances);
-  distance_transform(distances, window.columns(), window.rows());
-  for (float& distance : distances) distance = scale * std::sqrt(distance);
+  distance_transform(distances, window.columns(), window.rows(), first, end);
+  for (std::size_t i = begin_i; i < end_i; ++i) distances[i] = scale * std::sqrt(distances[i]);
   if (outside_solid) return distances;
   std::vector<float> inside = corner_sites(grid, solid, false, window);
-  distance_transform(inside, window.columns(), window.rows());
-  for (std::size_t i = 0; i < inside.size(); ++i) {
+  distance_transform(inside, window.columns(), window.rows(), first, end);
+  for (std::size_t i = begin_i; i < end_i; ++i) {
     if (inside[i] > 0.0f) distances[i] = -scale * std::sqrt(inside[i]);
   }
   return distances;
@@ -83,16 +89,17 @@ DistanceField::DistanceField(const OccupancyGrid& grid, Solid solid)
   if (cells == 0 || grid.cells.size() != cells || !(grid.resolution_m > 0.0)) {
     throw std::invalid_argument("DistanceField: the grid is empty or its sizes do not match");
   }
-  distance_m_ = distances_m(grid, solid, corners());
+  distance_m_ = distances_m(grid, solid, corners(), 0, rows_ - 1);
 }
 
-CornerWindow DistanceField::repair(const OccupancyGrid& grid, const CornerWindow& cells) {
+std::vector<CornerWindow> DistanceField::repair(const OccupancyGrid& grid,
+                                                const CornerWindow& cells) {
   if (grid.width + 1 != columns_ || grid.height + 1 != rows_ || grid.origin != origin_ ||
       grid.resolution_m != resolution_m_)
     throw std::invalid_argument("DistanceField: the changed map is another one");
   const CornerWindow changed =
       CornerWindow{cells.x0, cells.y0, cells.x1 + 1, cells.y1 + 1}.within(corners());
-  if (changed.empty()) return changed;
+  if (changed.empty()) return {};
   const CornerWindow reach = reach_of(changed);
   // What is nearest to a place in reach lies as far beyond its rim as it is away from there at
   // most.
@@ -103,7 +110,16 @@ CornerWindow DistanceField::repair(const OccupancyGrid& grid, const CornerWindow
   const double margin = std::min(most_m * cells_per_m_ + kSlackCells, columns_ + rows_ + 0.0);
   const CornerWindow sources = reach.grown(static_cast<int>(margin) + 1).within(corners());
   const Solid solid = outside_solid_ ? Solid::kOccupiedOrUnknown : Solid::kOccupied;
-  return take_over(distances_m(grid, solid, sources), sources, reach);
+  const std::vector<float> made = distances_m(grid, solid, sources, reach.y0, reach.y1);
+  std::vector<CornerWindow> differ;
+  for (int y = reach.y0; y <= reach.y1; y += kDiffer) {
+    for (int x = reach.x0; x <= reach.x1; x += kDiffer) {
+      const CornerWindow part{x, y, x + kDiffer - 1, y + kDiffer - 1};
+      const CornerWindow window = take_over(made, sources, part.within(reach));
+      if (!window.empty()) differ.push_back(window);
+    }
+  }
+  return differ;
 }
 
 /// The corners whose nearest obstacle may be in `changed`, before or after the change. Around it
@@ -135,12 +151,12 @@ void DistanceField::visit_rim(const CornerWindow& window, const Visit& visit) co
   }
 }
 
-/// Those in reach; returns where they differ from what they were.
+/// Those of a part; returns where they differ from what they were.
 CornerWindow DistanceField::take_over(const std::vector<float>& made, const CornerWindow& sources,
-                                      const CornerWindow& reach) {
+                                      const CornerWindow& part) {
   CornerWindow differ{columns_, rows_, -1, -1};
-  for (int y = reach.y0; y <= reach.y1; ++y) {
-    for (int x = reach.x0; x <= reach.x1; ++x) {
+  for (int y = part.y0; y <= part.y1; ++y) {
+    for (int x = part.x0; x <= part.x1; ++x) {
       const std::size_t from =
           static_cast<std::size_t>(y - sources.y0) * sources.columns() + (x - sources.x0);
       float& distance_m = distance_m_[static_cast<std::size_t>(y) * columns_ + x];

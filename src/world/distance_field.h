@@ -29,10 +29,10 @@ class DistanceField : public ObstacleField<2> {
   DistanceField(const OccupancyGrid& grid, Solid solid);
 
   /// Brings it up to date with a map in which only some cells have changed since: as if made anew,
-  /// at the cost of what is around those. Both ends of `cells` included. Returns the corners whose
-  /// distances differ now; an empty window if there are none. Not while others read it. Throws
+  /// at the cost of what is around those. Both ends of `cells` included. Returns windows around the
+  /// corners whose distances differ now, none of them wide. Not while others read it. Throws
   /// std::invalid_argument for a map of another size or place.
-  CornerWindow repair(const OccupancyGrid& grid, const CornerWindow& cells);
+  std::vector<CornerWindow> repair(const OccupancyGrid& grid, const CornerWindow& cells);
 
   Sample sample(const Vector2& p) const override;
   double distance_bound(const Vector2& p) const override;
@@ -61,7 +61,7 @@ class DistanceField : public ObstacleField<2> {
   template <typename Visit>
   void visit_rim(const CornerWindow& window, const Visit& visit) const;
   CornerWindow take_over(const std::vector<float>& made, const CornerWindow& sources,
-                         const CornerWindow& reach);
+                         const CornerWindow& part);
 
   double resolution_m_;
   double cells_per_m_;

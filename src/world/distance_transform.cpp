@@ -97,9 +97,15 @@ class RowTransform {
 }  // namespace
 
 void distance_transform(std::vector<float>& squared, int columns, int rows) {
+  distance_transform(squared, columns, rows, 0, rows);
+}
+
+void distance_transform(std::vector<float>& squared, int columns, int rows, int first_row,
+                        int end_row) {
   transform_columns(squared, columns, rows);
   RowTransform row(columns);
-  for (int y = 0; y < rows; ++y) row.run(&squared[static_cast<std::size_t>(y) * columns], columns);
+  for (int y = first_row; y < end_row; ++y)
+    row.run(&squared[static_cast<std::size_t>(y) * columns], columns);
 }
 
 }  // namespace mocha

@@ -11,5 +11,8 @@ constexpr float kNoSite = 1e12f;
 /// site, in place: `squared` holds 0 at the sites and kNoSite elsewhere. Exact (Felzenszwalb and
 /// Huttenlocher 2012).
 void distance_transform(std::vector<float>& squared, int columns, int rows);
+/// The same, right only in the rows from the first to before the end.
+void distance_transform(std::vector<float>& squared, int columns, int rows, int first_row,
+                        int end_row);
 
 }  // namespace mocha

@@ -3,8 +3,34 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mocha {
+
+GridUpdate cut_out(const OccupancyGrid& grid, const CornerWindow& window) {
+  GridUpdate update{window.x0, window.y0, window.columns(), window.rows(), {}};
+  update.cells.reserve(static_cast<std::size_t>(update.width) * update.height);
+  for (int y = window.y0; y <= window.y1; ++y) {
+    const int8_t* row = &grid.cells[static_cast<std::size_t>(y) * grid.width];
+    update.cells.insert(update.cells.end(), row + window.x0, row + window.x1 + 1);
+  }
+  return update;
+}
+
+OccupancyGrid part_of(const OccupancyGrid& grid, const CornerWindow& window) {
+  GridUpdate part = cut_out(grid, window);
+  return {grid.resolution_m, grid.origin + grid.resolution_m * Vector2(part.x, part.y), part.width,
+          part.height, std::move(part.cells)};
+}
+
+void apply(const GridUpdate& update, OccupancyGrid& grid) {
+  for (int row = 0; row < update.height; ++row) {
+    const int8_t* from = update.cells.data() + static_cast<std::size_t>(row) * update.width;
+    std::copy(
+        from, from + update.width,
+        grid.cells.begin() + static_cast<std::ptrdiff_t>(update.y + row) * grid.width + update.x);
+  }
+}
 
 OccupancyGrid grown_to_hold(const OccupancyGrid& grid, const std::vector<Vector2>& points,
                             double border_m) {

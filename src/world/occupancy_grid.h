@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "world/corner_window.h"
 #include "world/obstacle.h"
 
 namespace mocha {
@@ -26,6 +27,26 @@ struct OccupancyGrid {
     return origin + resolution_m * Vector2(x + 0.5, y + 0.5);
   }
 };
+
+/// New values of some of a map's cells, row by row from the cell (x, y).
+struct GridUpdate {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+  std::vector<int8_t> cells;  ///< width * height
+
+  bool fits(int grid_width, int grid_height) const {
+    return x >= 0 && y >= 0 && width >= 0 && height >= 0 && width <= grid_width - x &&
+           height <= grid_height - y && cells.size() == static_cast<std::size_t>(width) * height;
+  }
+};
+
+// Windows of cells that the map holds, both ends included: as a map, and as an update.
+OccupancyGrid part_of(const OccupancyGrid& grid, const CornerWindow& window);
+GridUpdate cut_out(const OccupancyGrid& grid, const CornerWindow& window);
+/// Of an update that fits.
+void apply(const GridUpdate& update, OccupancyGrid& grid);
 
 /// The same map on a grid that holds `points` with `border_m` around them as well; new cells are
 /// unknown.

@@ -16,9 +16,9 @@ import rospy
 import rostest
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from mocha_ugv.msg import Candidates, PlannerStatus, Trajectory
-from nav_msgs.msg import OccupancyGrid
 
 from lockstep_player import LockstepPlayer
+from map_listener import MapListener
 from world_shapes import distance_to_surfaces, load_shapes, occupied_places
 
 ROOT = rospkg.RosPack().get_path("mocha_ugv")
@@ -37,12 +37,11 @@ class Replay:
 
     def __init__(self, name, map_file):
         self.poses, self.candidates, self.statuses, self.proposals = [], [], [], []
-        self.map = None
+        maps = MapListener()
         subscribers = [rospy.Subscriber("/ugv1/localized_pose", PoseWithCovarianceStamped, self.poses.append, queue_size=1000),
                        rospy.Subscriber("/ugv1/candidates", Candidates, self.candidates.append, queue_size=1000),
                        rospy.Subscriber("/ugv1/planner_status", PlannerStatus, self.statuses.append, queue_size=1000),
-                       rospy.Subscriber("/ugv1/proposed_trajectory", Trajectory, self.proposals.append, queue_size=1000),
-                       rospy.Subscriber("/ugv1/map", OccupancyGrid, self.on_map, queue_size=10)]
+                       rospy.Subscriber("/ugv1/proposed_trajectory", Trajectory, self.proposals.append, queue_size=1000), maps]
         stack = subprocess.Popen(["roslaunch", "--wait", os.path.join(BAGS, "stack.launch"), "map_file:=" + map_file],
                                  stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT)
         try:
@@ -52,9 +51,7 @@ class Replay:
             stack.wait(30.0)
             for subscriber in subscribers:
                 subscriber.unregister()
-
-    def on_map(self, message):
-        self.map = message
+        self.map = maps.map
 
     def chosen_ways(self):
         """The paths that the planner selected, one after the other."""

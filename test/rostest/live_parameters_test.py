@@ -18,8 +18,8 @@ from dynamic_reconfigure.msg import BoolParameter, Config, DoubleParameter, IntP
 from dynamic_reconfigure.srv import Reconfigure
 from geometry_msgs.msg import PoseStamped, Vector3Stamped
 from mocha_ugv.srv import PlanTrajectory
-from nav_msgs.msg import OccupancyGrid
 
+from map_listener import MapListener
 from simulated_robot import SimulatedRobot, pose
 
 NODES = ("global_planner", "perception", "trajectory_tracker")
@@ -39,10 +39,9 @@ class LiveParametersTest(unittest.TestCase):
     def setUpClass(cls):
         cls.robot = SimulatedRobot()
         cls.diagnosed = {}  # node -> newest values in diagnostics
-        cls.maps = []
+        cls.maps = MapListener()
         cls.errors = []
         rospy.Subscriber("/diagnostics", DiagnosticArray, cls.on_diagnostics)
-        rospy.Subscriber("/ugv1/map", OccupancyGrid, cls.maps.append)
         rospy.Subscriber("/ugv1/tracking_error", Vector3Stamped, cls.errors.append)
         cls.plan = rospy.ServiceProxy("/ugv1/plan", PlanTrajectory)
         cls.robot.start()
@@ -144,7 +143,7 @@ class LiveParametersTest(unittest.TestCase):
             self.robot.run(1.0)
             since = self.robot.now
             self.robot.run(seconds)
-            return sum(since < grid.header.stamp.to_sec() <= since + seconds for grid in list(self.maps))
+            return sum(since < stamp_s <= since + seconds for stamp_s in self.maps.stamps_s())
 
         self.assertGreater(maps_of(4.0), 5)
         self.client("perception").update_configuration({"map_rate": 0.5})

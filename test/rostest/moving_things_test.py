@@ -8,8 +8,8 @@ import unittest
 import rospy
 import rostest
 from mocha_ugv.msg import PredictedObstacles
-from nav_msgs.msg import OccupancyGrid
 
+from map_listener import MapListener
 from simulated_robot import SimulatedRobot
 
 # As in test/worlds/walker.yaml.
@@ -31,17 +31,13 @@ class MovingThingsTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.predictions = []
-        cls.maps = []
         rospy.Subscriber("/ugv1/predicted_obstacles", PredictedObstacles, cls.predictions.append)
-        rospy.Subscriber("/ugv1/map", OccupancyGrid, cls.maps.append)
+        cls.maps = MapListener()
         cls.robot = SimulatedRobot()
         cls.robot.start()
 
     def occupied_at(self, x, y):
-        grid = self.maps[-1]
-        column = int((x - grid.info.origin.position.x) / grid.info.resolution)
-        row = int((y - grid.info.origin.position.y) / grid.info.resolution)
-        return grid.data[row * grid.info.width + column] == 100
+        return self.maps.cell(x, y) == 100
 
     def test_somebody_walks(self):
         begun = len(self.predictions)

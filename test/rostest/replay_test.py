@@ -7,7 +7,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import unittest
 
@@ -19,9 +18,9 @@ import rostest
 from geometry_msgs.msg import PoseStamped
 from mocha_ugv.msg import PlannerStatus
 from mocha_ugv.srv import PlanTrajectory
-from nav_msgs.msg import OccupancyGrid
 from rosgraph_msgs.msg import Clock
 
+from map_listener import MapListener
 from world_shapes import distance_to_circles, distance_to_surfaces, load_shapes, occupied_places
 
 ROOT = rospkg.RosPack().get_path("mocha_ugv")
@@ -46,17 +45,16 @@ class ReplayTest(unittest.TestCase):
     def setUpClass(cls):
         cls.out = tempfile.mkdtemp()
         cls.demo = record(cls.out)
-        cls.changed = threading.Condition()
-        cls.map = None
+        cls.maps = MapListener()
+        cls.changed = cls.maps.changed
         cls.clocks = []
-        rospy.Subscriber("/ugv1/map", OccupancyGrid, cls.on_map)
         rospy.Subscriber("/clock", Clock, cls.on_clock)
         log = open(os.path.join(cls.out, "replay.log"), "w")
         cls.replay = subprocess.Popen(["roslaunch", "--wait", "mocha_ugv", "replay.launch",
                                        "bag:=" + os.path.join(cls.out, "drive.bag")],
                                       stdout=log, stderr=subprocess.STDOUT)
         with cls.changed:
-            cls.changed.wait_for(lambda: cls.map is not None and cls.clocks and cls.clocks[-1] > 1.0 + PLANNING_FROM_S, 60.0)
+            cls.changed.wait_for(lambda: cls.maps.map is not None and cls.clocks and cls.clocks[-1] > 1.0 + PLANNING_FROM_S, 60.0)
         goal = PoseStamped()
         goal.header.frame_id = "map"
         goal.pose.position.x, goal.pose.position.y = GOAL
@@ -69,12 +67,6 @@ class ReplayTest(unittest.TestCase):
         cls.replay.terminate()
         cls.replay.wait(20.0)
         shutil.rmtree(cls.out)
-
-    @classmethod
-    def on_map(cls, message):
-        with cls.changed:
-            cls.map = message
-            cls.changed.notify_all()
 
     @classmethod
     def on_clock(cls, message):
@@ -102,13 +94,13 @@ class ReplayTest(unittest.TestCase):
 
     def test_the_map_is_as_the_world_is(self):
         circles, polygons = load_shapes(WORLD)
-        places = occupied_places(self.map)
+        places = occupied_places(self.maps.map)
         error = distance_to_surfaces(places, circles, polygons)
         self.assertGreater(len(places), 500)
         self.assertGreater(np.mean(error < NEAR_M), 0.99, "%d cells are occupied by nothing" % np.sum(error >= NEAR_M))
         for circle in circles[circles[:, 0] < SEEN_X_M]:
             seen = np.sum(distance_to_circles(places, circle[None, :]) < NEAR_M)
-            self.assertGreater(seen * self.map.info.resolution, circle[2], "too little of %s" % circle)
+            self.assertGreater(seen * self.maps.map.info.resolution, circle[2], "too little of %s" % circle)
         for y in (-2.5, 2.5):
             wall = np.array([(x, y) for x in np.arange(-2.0, SEEN_X_M, 0.2)])
             nearest = np.linalg.norm(wall[:, None, :] - places[None, :, :], axis=2).min(axis=1)

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <thread>
 
 #include "topology/grid_world.h"
 #include "topology/roadmaps/map_skeleton.h"
@@ -71,7 +73,20 @@ TEST_F(KnownMapTest, RefusesGridsThatAreNone) {
   broken = grid;
   broken.origin.x() = std::nan("");
   EXPECT_THROW(map.take(broken), std::invalid_argument);
-  EXPECT_FALSE(map.take(grid));  // it is still the newest
+  EXPECT_EQ(map.newest().cells, grid.cells);
+}
+
+TEST_F(KnownMapTest, RefusesUpdatesThatDoNotFit) {
+  EXPECT_THROW(map.take(GridUpdate{0, 0, 1, 1, {0}}), std::invalid_argument) << "of no map";
+  map.take(grid);
+  const int big = std::numeric_limits<int>::max();
+  for (const GridUpdate& odd :
+       {GridUpdate{-1, 0, 1, 1, {100}}, GridUpdate{0, grid.height, 1, 1, {100}},
+        GridUpdate{grid.width - 1, 0, 2, 1, {100, 100}}, GridUpdate{0, 0, 2, 2, {100}},
+        GridUpdate{big, big, 1, 1, {100}}, GridUpdate{1, 1, big, 1, {100}},
+        GridUpdate{0, 0, -1, -1, {100}}})
+    EXPECT_THROW(map.take(odd), std::invalid_argument);
+  EXPECT_EQ(map.newest().cells, grid.cells);
 }
 
 void expect_same(const DistanceField& a, const DistanceField& b) {
@@ -122,6 +137,60 @@ TEST_F(KnownMapTest, RepairsWhatChangesAsIfItWereNew) {
     last = map.field(Solid::kOccupied, points, 2.0);
     last_expected = fresh.field(Solid::kOccupied, points, 2.0);
   }
+}
+
+/// What a random walk of discs changes, as updates of several windows: some are asked for at once,
+/// some pile up, some come with a new grid.
+TEST_F(KnownMapTest, UpdatesMakeTheSameAsGrids) {
+  std::mt19937 random(2);
+  OccupancyGrid hall = free_grid({-10.0, -10.0}, {20.0, 15.0});
+  const std::vector<Vector2> points = {{-9.0, -9.0}, {22.0, 9.0}};
+  map.take(hall);
+  for (int step = 0; step < 40; ++step) {
+    const Vector2 place(random() % 2800 * 0.01 - 9.0, random() % 2400 * 0.01 - 9.5);
+    fill_disc(hall, place, 0.05 * (1 + random() % 8),
+              random() % 3 == 0 ? OccupancyGrid::kFree : OccupancyGrid::kOccupied);
+    const Vector2 cell = (place - hall.origin) / hall.resolution_m;
+    const int x = static_cast<int>(cell.x());
+    const int y = static_cast<int>(cell.y());
+    if (step % 13 == 12) {
+      hall = grown_to_hold(hall, {{21.0 + 0.1 * step, 0.0}}, 0.0);
+      map.take(hall);
+    } else {
+      map.take(cut_out(hall, CornerWindow{x - 10, y - 10, x + 10, y + 10}.within(
+                                 {0, 0, hall.width - 1, hall.height - 1})));
+    }
+    if (step % 4 == 1 || step % 4 == 2) continue;
+    KnownMap fresh;
+    fresh.take(hall);
+    EXPECT_EQ(map.newest().cells, hall.cells);
+    for (const Solid solid : {Solid::kOccupied, Solid::kOccupiedOrUnknown})
+      expect_same(*map.field(solid, points, 2.0), *fresh.field(solid, points, 2.0));
+  }
+}
+
+/// To be run with the thread sanitizer, too.
+TEST_F(KnownMapTest, OneThreadTakesWhatAnotherAsksFor) {
+  map.take(grid);
+  std::atomic<bool> ends{false};
+  std::thread asking([&] {
+    while (!ends) {
+      const auto field = map.field(Solid::kOccupied, {{3.0, 2.0}}, 1.0);
+      const auto static_map = map.static_map({{3.0, 2.0}}, 1.0);
+      EXPECT_LE(field->distance_bound({2.0, 2.0}), 0.0);
+      EXPECT_LE(static_map->field().distance_bound({2.0, 2.0}), 0.0);
+    }
+  });
+  for (int i = 0; i < 500; ++i) {
+    fill_disc(grid, {4.0, 3.0}, 0.2, i % 2 == 0 ? OccupancyGrid::kOccupied : OccupancyGrid::kFree);
+    if (i % 50 == 0)
+      map.take(grid);
+    else
+      map.take(cut_out(grid, {70, 50, 90, 70}));
+  }
+  ends = true;
+  asking.join();
+  EXPECT_EQ(map.newest().cells, grid.cells);
 }
 
 TEST_F(KnownMapTest, RepairsInPlaceWhatNobodyLooksAt) {

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
+#include <utility>
 
 #include "perception/mapping/cell_disc.h"
-#include "perception/mapping/column_grid.h"
 #include "perception/mapping/grid_beam.h"
 #include "perception/mapping/map_image.h"
 #include "perception/mapping/octree_file.h"
-#include "perception/mapping/scan_tree.h"
+#include "perception/mapping/voxel_band.h"
 
 namespace mocha {
 namespace {
@@ -18,17 +17,6 @@ namespace {
 /// A place of the map in the frame of a body.
 Vector2 in_body(const Vector2& place, const Pose& base) {
   return turned(place - base.position, {std::cos(base.yaw_rad), -std::sin(base.yaw_rad)});
-}
-
-int layer_of(double height_m, double resolution_m) {
-  return static_cast<int>(std::floor(height_m / resolution_m));
-}
-
-ColumnGrid columns_of(const OccupancyMapOptions& o) {
-  const int scan = layer_of(o.scan_height_m, o.resolution_m);
-  const int first = static_cast<int>(std::ceil(o.min_height_m / o.resolution_m - 0.5));
-  const int last = static_cast<int>(std::floor(o.max_height_m / o.resolution_m - 0.5));
-  return ColumnGrid(o.resolution_m, std::min(first, scan), std::max(last, scan));
 }
 
 /// What `read` throws then is a MapError that names the file.
@@ -43,105 +31,8 @@ void name_file(const std::string& path, Read read) {
 
 }  // namespace
 
-/// The octree, the dense copy of its height band, and what changes both together.
-struct OccupancyMap::Voxels {
-  explicit Voxels(const OccupancyMapOptions& o)
-      : tree(o.resolution_m),
-        columns(columns_of(o)),
-        scan_layer(layer_of(o.scan_height_m, o.resolution_m)) {
-    tree.setProbHit(o.hit_probability);
-    tree.setProbMiss(o.miss_probability);
-    tree.setClampingThresMin(o.lowest_probability);
-    tree.setClampingThresMax(o.highest_probability);
-  }
-
-  VoxelState state_of(const octomap::OcTreeNode& node) const {
-    const float log_odds = node.getLogOdds();
-    if (tree.isNodeOccupied(node)) {
-      return log_odds >= tree.getClampingThresMaxLog() ? VoxelState::kOccupiedSure
-                                                       : VoxelState::kOccupied;
-    }
-    return log_odds <= tree.getClampingThresMinLog() ? VoxelState::kFreeSure : VoxelState::kFree;
-  }
-
-  void update(const VoxelIndex& voxel, bool hit) {
-    if (columns.at(voxel) == (hit ? VoxelState::kOccupiedSure : VoxelState::kFreeSure)) return;
-    octomap::OcTreeNode* node = tree.leaf(key_of(voxel));
-    tree.updateNodeLogOdds(node, hit ? tree.getProbHitLog() : tree.getProbMissLog());
-    columns.set(voxel, state_of(*node));
-  }
-
-  void set(const VoxelIndex& voxel, float log_odds) {
-    octomap::OcTreeNode* node = tree.leaf(key_of(voxel));
-    node->setLogOdds(log_odds);
-    columns.set(voxel, state_of(*node));
-  }
-
-  /// Nothing occupied is left in a column.
-  void clear_column(int x, int y) {
-    for (int k = columns.first_layer(); k <= columns.last_layer(); ++k) {
-      if (is_occupied(columns.at({x, y, k}))) set({x, y, k}, tree.getProbMissLog());
-    }
-  }
-
-  void insert(const std::vector<GridBeam>& beams) {
-    if (beams.empty()) return;
-    const VoxelBox box = box_of(beams);
-    columns.reserve(box.low, box.high);
-    raster.reset(box);
-    for (const GridBeam& beam : beams) raster.add(beam);
-    raster.for_each([this](const VoxelIndex& voxel, bool hit) { update(voxel, hit); });
-  }
-
-  void read_tree(const OctreeFile& file);
-  void read_grid(const OccupancyGrid& grid);
-
-  ScanTree tree;
-  ColumnGrid columns;
-  int scan_layer;
-  BeamRaster raster;
-};
-
-void OccupancyMap::Voxels::read_tree(const OctreeFile& file) {
-  if (file.nodes.empty()) return;
-  std::istringstream nodes(file.nodes);
-  file.binary ? tree.readBinaryData(nodes) : tree.readData(nodes);
-  const octomap::OcTreeKey low(0, 0, key_of({0, 0, columns.first_layer()})[2]);
-  const octomap::OcTreeKey high(65535, 65535, key_of({0, 0, columns.last_layer()})[2]);
-  for (auto leaf = tree.begin_leafs_bbx(low, high); leaf != tree.end_leafs_bbx(); ++leaf) {
-    const octomap::OcTreeKey key = leaf.getIndexKey();
-    const int size = 1 << (ScanTree::kDepth - leaf.getDepth());
-    const int x = key[0] - kKeyOrigin;
-    const int y = key[1] - kKeyOrigin;
-    const int z = key[2] - kKeyOrigin;
-    columns.reserve({x, y, 0}, {x + size - 1, y + size - 1, 0});
-    const int top = std::min(z + size - 1, columns.last_layer());
-    for (int k = std::max(z, columns.first_layer()); k <= top; ++k) {
-      for (int j = y; j < y + size; ++j) {
-        for (int i = x; i < x + size; ++i) columns.set({i, j, k}, state_of(*leaf));
-      }
-    }
-  }
-}
-
-void OccupancyMap::Voxels::read_grid(const OccupancyGrid& grid) {
-  const Vector2 corner = (grid.origin / grid.resolution_m).array().round();
-  if (!(corner.array().abs() < kKeyOrigin).all()) throw MapError("its origin is too far away");
-  const int x0 = static_cast<int>(corner.x());
-  const int y0 = static_cast<int>(corner.y());
-  columns.reserve({x0, y0, 0}, {x0 + grid.width - 1, y0 + grid.height - 1, 0});
-  for (int y = 0; y < grid.height; ++y) {
-    for (int x = 0; x < grid.width; ++x) {
-      if (grid.at(x, y) == OccupancyGrid::kUnknown) continue;
-      set({x0 + x, y0 + y, scan_layer}, grid.at(x, y) == OccupancyGrid::kOccupied
-                                            ? tree.getClampingThresMaxLog()
-                                            : tree.getClampingThresMinLog());
-    }
-  }
-}
-
 OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
-    : options_(options.checked()), voxels_(std::make_unique<Voxels>(options_)) {}
+    : options_(options.checked()), voxels_(std::make_unique<VoxelBand>(options_)) {}
 
 OccupancyMap::~OccupancyMap() = default;
 
@@ -217,17 +108,27 @@ OccupancyGrid OccupancyMap::slice(double border_m) const {
   return voxels_->columns.slice(static_cast<int>(std::ceil(border_m / options_.resolution_m)));
 }
 
+const CornerWindow& OccupancyMap::known_cells() const { return voxels_->columns.known(); }
+
+void OccupancyMap::copy_slice(const CornerWindow& cells, const Eigen::Vector2i& origin,
+                              OccupancyGrid& grid) const {
+  voxels_->columns.copy(cells, origin, grid);
+}
+
+std::vector<CornerWindow> OccupancyMap::take_changes() { return voxels_->columns.take_changes(); }
+
 bool OccupancyMap::is_surely_free(const Vector2& point) const {
   const VoxelIndex voxel{layer_of(point.x(), options_.resolution_m),
                          layer_of(point.y(), options_.resolution_m), voxels_->scan_layer};
-  return voxels_->columns.at(voxel) == VoxelState::kFreeSure;
+  return voxels_->is_surely_free(voxels_->columns.log_odds(voxel));
 }
 
 bool OccupancyMap::is_occupied_within(const Vector2& centre, double radius_m, bool surely) const {
   bool found = false;
   CellDisc(centre, radius_m, options_.resolution_m).for_each([&](int x, int y) {
-    const VoxelState state = voxels_->columns.at({x, y, voxels_->scan_layer});
-    found = found || (surely ? state == VoxelState::kOccupiedSure : is_occupied(state));
+    const float log_odds = voxels_->columns.log_odds({x, y, voxels_->scan_layer});
+    found = found ||
+            (surely ? voxels_->is_surely_occupied(log_odds) : ColumnGrid::is_occupied(log_odds));
   });
   return found;
 }
@@ -235,8 +136,7 @@ bool OccupancyMap::is_occupied_within(const Vector2& centre, double radius_m, bo
 bool OccupancyMap::is_unknown_within(const Vector2& centre, double radius_m) const {
   bool unknown = true;
   CellDisc(centre, radius_m, options_.resolution_m).for_each([&](int x, int y) {
-    const VoxelState state = voxels_->columns.at({x, y, voxels_->scan_layer});
-    unknown = unknown && state == VoxelState::kUnknown;
+    unknown = unknown && std::isnan(voxels_->columns.log_odds({x, y, voxels_->scan_layer}));
   });
   return unknown;
 }
@@ -259,13 +159,7 @@ void OccupancyMap::save(const std::string& path) {
   if (ending != ".bt" && ending != ".ot") {
     throw MapError(path + ": a map's name must end in .bt, .ot or .yaml");
   }
-  const bool binary = ending == ".bt";
-  ScanTree& tree = voxels_->tree;
-  tree.updateInnerOccupancy();
-  std::ostringstream bytes;
-  bytes << octree_header(binary, tree.size(), options_.resolution_m);
-  if (tree.size() > 0) binary ? tree.writeBinaryData(bytes) : tree.writeData(bytes);
-  write_file(path, bytes.str());
+  write_file(path, voxels_->written(ending == ".bt"));
 }
 
 void OccupancyMap::load(const std::string& path) {
@@ -274,27 +168,28 @@ void OccupancyMap::load(const std::string& path) {
     name_file(path, [&] {
       OccupancyMapOptions options = options_;
       options.resolution_m = resolution_m;
-      auto voxels = std::make_unique<Voxels>(options.checked());
+      auto voxels = std::make_unique<VoxelBand>(options.checked());
       read(*voxels);
       options_ = options;
       replace(std::move(voxels));
     });
   };
   if (ending == ".bt" || ending == ".ot") {
-    const OctreeFile file = parse_octree_file(read_file(path), path);
-    replace_by(file.resolution_m, [&](Voxels& voxels) { voxels.read_tree(file); });
+    OctreeFile file = parse_octree_file(read_file(path), path);
+    replace_by(file.resolution_m, [&](VoxelBand& voxels) { voxels.read_tree(std::move(file)); });
   } else if (ending == ".yaml") {
     const OccupancyGrid grid = load_map_image(path);
-    replace_by(grid.resolution_m, [&](Voxels& voxels) { voxels.read_grid(grid); });
+    replace_by(grid.resolution_m, [&](VoxelBand& voxels) { voxels.read_grid(grid); });
   } else {
     throw MapError(path + ": a map's name must end in .bt, .ot or .yaml");
   }
 }
 
-void OccupancyMap::clear() { replace(std::make_unique<Voxels>(options_)); }
+void OccupancyMap::clear() { replace(std::make_unique<VoxelBand>(options_)); }
 
-void OccupancyMap::replace(std::unique_ptr<Voxels> voxels) {
+void OccupancyMap::replace(std::unique_ptr<VoxelBand> voxels) {
   version_before_ = version() + 1;
+  ++replaced_;
   voxels_ = std::move(voxels);
 }
 

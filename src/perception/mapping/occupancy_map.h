@@ -9,12 +9,16 @@
 #include "perception/mapping/occupancy_map_options.h"
 #include "perception/sensor/beam.h"
 #include "perception/sensor/blind_wall.h"
+#include "world/corner_window.h"
 #include "world/occupancy_grid.h"
 #include "world/start_ground.h"
 
 namespace mocha {
 
-/// What the sensors have seen: an OctoMap octree, and the planar slice of the robot's height band.
+struct VoxelBand;
+
+/// What the sensors have seen of the robot's height band, as OctoMap counts it, and the planar
+/// slice of that.
 class OccupancyMap {
  public:
   /// Throws std::invalid_argument, naming the value and its range.
@@ -68,6 +72,19 @@ class OccupancyMap {
   /// Changes whenever a cell of the slice does.
   std::uint64_t version() const;
 
+  // For a copy of the slice that is kept up to date. Cells have the indices of their lower corners
+  // in cells from the map's origin; windows of them include both ends.
+
+  /// Around all that is known; empty where nothing is.
+  const CornerWindow& known_cells() const;
+  /// What holds all cells of the slice that have changed since this was asked last.
+  std::vector<CornerWindow> take_changes();
+  /// How often the map was loaded or cleared: then everything has changed.
+  int replaced() const { return replaced_; }
+  /// Cells of the slice into a grid whose lower left cell has the index `origin`.
+  void copy_slice(const CornerWindow& cells, const Eigen::Vector2i& origin,
+                  OccupancyGrid& grid) const;
+
   /// Centres of the occupied voxels of the height band, map frame [m].
   std::vector<Eigen::Vector3f> occupied_voxels() const;
 
@@ -85,13 +102,12 @@ class OccupancyMap {
   void clear();
 
  private:
-  struct Voxels;
-
-  void replace(std::unique_ptr<Voxels> voxels);
+  void replace(std::unique_ptr<VoxelBand> voxels);
 
   OccupancyMapOptions options_;
-  std::unique_ptr<Voxels> voxels_;
+  std::unique_ptr<VoxelBand> voxels_;
   std::uint64_t version_before_ = 0;  // of the maps that voxels_ replaced
+  int replaced_ = 0;
 };
 
 }  // namespace mocha

@@ -104,35 +104,6 @@ geometry_msgs::TransformStamped transform_message(ros::Time stamp, const std::st
   return message;
 }
 
-OccupancyGrid from_message(const nav_msgs::OccupancyGrid& map) {
-  constexpr int kOccupiedFrom = 65;
-  constexpr int kFreeUpTo = 25;
-  constexpr std::size_t kMostCells = 100'000'000;
-  const Pose origin = from_message(map.info.origin);
-  const std::size_t cells = static_cast<std::size_t>(map.info.width) * map.info.height;
-  if (cells == 0 || cells > kMostCells || map.data.size() != cells) {
-    throw std::invalid_argument("has sizes that do not match");
-  }
-  if (!(map.info.resolution > 1e-4f) || !std::isfinite(map.info.resolution) ||
-      !origin.position.allFinite()) {
-    throw std::invalid_argument("has no finite resolution or origin");
-  }
-  if (!(std::abs(origin.yaw_rad) < 1e-6)) throw std::invalid_argument("has a rotated origin");
-  OccupancyGrid grid;
-  grid.resolution_m = map.info.resolution;
-  grid.origin = origin.position;
-  grid.width = static_cast<int>(map.info.width);
-  grid.height = static_cast<int>(map.info.height);
-  grid.cells.reserve(cells);
-  for (const int8_t value : map.data) {
-    const bool free = value >= 0 && value <= kFreeUpTo;
-    grid.cells.push_back(value >= kOccupiedFrom ? OccupancyGrid::kOccupied
-                         : free                 ? OccupancyGrid::kFree
-                                                : OccupancyGrid::kUnknown);
-  }
-  return grid;
-}
-
 geometry_msgs::Quaternion quaternion_of(double yaw_rad) {
   geometry_msgs::Quaternion quaternion;
   quaternion.z = std::sin(0.5 * yaw_rad);

@@ -4,13 +4,11 @@
 #include <geometry_msgs/Quaternion.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <mocha_ugv/Trajectory.h>
-#include <nav_msgs/OccupancyGrid.h>
 
 #include <string>
 
 #include "trajectory/braking.h"
 #include "trajectory/motion.h"
-#include "world/occupancy_grid.h"
 
 namespace mocha {
 
@@ -35,10 +33,5 @@ Pose from_message(const geometry_msgs::Pose& pose);
 geometry_msgs::TransformStamped transform_message(ros::Time stamp, const std::string& parent,
                                                   const std::string& child, const Pose& pose,
                                                   double height_m = 0.0);
-
-/// Cells from 65 on count as occupied, from 0 to 25 as free, all else as unknown. Throws
-/// std::invalid_argument for sizes that do not match, a rotated origin, or values that are not
-/// finite.
-OccupancyGrid from_message(const nav_msgs::OccupancyGrid& map);
 
 }  // namespace mocha

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "perception/mapping/map_error.h"
@@ -20,9 +21,26 @@ TEST(ColumnGridTest, RefusesEveryIndexThatIsTooFarAway) {
       EXPECT_THROW(grid.reserve({0, 0, 0}, voxel), MapError) << odd;
     }
   }
-  EXPECT_EQ(grid.at({3, 3, 0}), VoxelState::kUnknown);
-  grid.set({3, 3, 0}, VoxelState::kOccupied);
-  EXPECT_EQ(grid.at({3, 3, 0}), VoxelState::kOccupied);
+  EXPECT_TRUE(std::isnan(grid.log_odds({3, 3, 0})));
+  grid.set({3, 3, 0}, 0.5f);
+  EXPECT_EQ(grid.log_odds({3, 3, 0}), 0.5f);
+}
+
+TEST(ColumnGridTest, ACellIsOccupiedWhereAnyVoxelOfItsColumnIs) {
+  ColumnGrid grid(0.05, 0, 3);
+  const auto cell = [&] { return grid.slice(0).at(0, 0); };
+  grid.set({-130, 7, 2}, -1.0f);
+  EXPECT_EQ(cell(), OccupancyGrid::kFree);
+  grid.set({-130, 7, 0}, 1.0f);
+  grid.set({-130, 7, 3}, 1.0f);
+  EXPECT_EQ(cell(), OccupancyGrid::kOccupied);
+  grid.set({-130, 7, 0}, -1.0f);
+  EXPECT_EQ(cell(), OccupancyGrid::kOccupied);
+  const std::uint64_t version = grid.version();
+  grid.set({-130, 7, 3}, -0.5f);
+  EXPECT_EQ(cell(), OccupancyGrid::kFree);
+  EXPECT_NE(grid.version(), version);
+  EXPECT_EQ(grid.known(), (CornerWindow{-130, 7, -130, 7}));
 }
 
 }  // namespace

@@ -146,6 +146,27 @@ TEST_F(MapFiles, PrunedOctreesLoadAndCanBeChanged) {
   expect_same(again.slice(0.0), grid);
 }
 
+TEST_F(MapFiles, WhatAnOctreeKnowsBeyondTheHeightBandIsSavedAgain) {
+  octomap::OcTree tree(map_.options().resolution_m);
+  tree.updateNode(octomap::point3d(1.01F, 1.01F, 3.01F), true);
+  tree.updateNode(octomap::point3d(1.01F, 1.01F, 0.21F), true);
+  tree.writeBinary(path("hall.bt"));
+  OccupancyMap loaded(shipped_map_options());
+  loaded.load(path("hall.bt"));
+  EXPECT_EQ(loaded.occupied_voxels().size(), 1u);
+  loaded.clear_disc({1.01, 1.01}, 0.1);
+  loaded.insert_scan({{{0.01, 0.01, 0.2}, {2.01, 0.01, 0.2}, BeamEnd::kHit, 0.0}});
+  loaded.save(path("again.bt"));
+  octomap::OcTree again(path("again.bt"));
+  const auto is_occupied = [&](float x, float y, float z) {
+    const octomap::OcTreeNode* node = again.search(x, y, z);
+    return node != nullptr && again.isNodeOccupied(node);
+  };
+  EXPECT_TRUE(is_occupied(1.01F, 1.01F, 3.01F));
+  EXPECT_FALSE(is_occupied(1.01F, 1.01F, 0.21F));
+  EXPECT_TRUE(is_occupied(2.01F, 0.01F, static_cast<float>(map_.options().scan_height_m)));
+}
+
 TEST_F(MapFiles, ALoadedMapKeepsItsOwnCells) {
   OccupancyMapOptions others = shipped_map_options();
   others.resolution_m = 2.0 * map_.options().resolution_m;
