@@ -211,12 +211,12 @@ class GlobalPlannerNode {
       refusal.message = map_.available() ? "the robot's state is not known yet" : "no map yet";
       return [refusal](const auto&) { return refusal; };
     }
-    PlanQuery query = executive_.query_to(*goal, committed_.motion(), now_.toSec());
-    if (start) {
-      query.start_time_s = now_.toSec();
-      query.committed =
-          Motion(now_.toSec(), {StandPhase{{start->position, start->yaw_rad.value_or(0.0)}, 0.1}});
-    }
+    const double now_s = now_.toSec();
+    const Motion from =
+        start ? Motion(now_s, {StandPhase{{start->position, start->yaw_rad.value_or(0.0)}, 0.1}})
+              : committed_.motion();
+    PlanQuery query = executive_.query_to(*goal, from, now_s);
+    if (start) query.start_time_s = now_s;
     query.time_limit_s = std::numeric_limits<double>::infinity();  // nobody waits to drive
     return planning_.work_on(query, scenes());
   }
