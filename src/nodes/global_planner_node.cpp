@@ -133,22 +133,24 @@ class GlobalPlannerNode {
     now_ = now;
     diagnostics_.update();
     heed_stop();
-    go_on();
-    if (worker_.busy()) {
+    const bool looked_for_answer = go_on();
+    if (worker_.busy() || (looked_for_answer && executive_.awaits_plan())) {
       loop_.hold();
     } else {
       loop_.release();
     }
   }
 
-  void go_on() {
+  /// False where it cannot do anything.
+  bool go_on() {
     const PoseReading reading = pose_.read(now_);
     if (!reading.state) {
       if (!executive_.idle()) report(PlanReason::kNoPose, {}, reading.missing);
-      return;
+      return false;
     }
     if (!executive_.idle()) inputs_.feedback(*reading.state, now_);
     show(planning_.step(now_.toSec(), *reading.state, committed_.motion(), scenes()));
+    return true;
   }
 
   void heed_stop() {
@@ -165,8 +167,8 @@ class GlobalPlannerNode {
     }
   }
 
-  /// The newest map whenever it is asked for, on any thread, with the team-mates of now. Empty while
-  /// there is no map.
+  /// The newest map whenever it is asked for, on any thread, with the team-mates of now. Empty
+  /// while there is no map.
   SceneSource scenes() {
     if (!map_.available()) return {};
     return [this, peers = peers_.obstacles()](const std::vector<Vector2>& places) {

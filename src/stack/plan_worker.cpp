@@ -1,6 +1,8 @@
 #include "stack/plan_worker.h"
 
+#include <exception>
 #include <limits>
+#include <string>
 #include <utility>
 
 namespace mocha {
@@ -22,8 +24,8 @@ void PlanWorker::begin(Work work, double time_limit_s) {
   const auto task = std::make_shared<Task>();
   task->work = std::move(work);
   task->begun_s = hooks_.now_s();
-  task->until_s = hooks_.limits_time ? task->begun_s + time_limit_s
-                                     : std::numeric_limits<double>::infinity();
+  task->until_s =
+      hooks_.limits_time ? task->begun_s + time_limit_s : std::numeric_limits<double>::infinity();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     waiting_ = task_ = task;
@@ -56,8 +58,19 @@ void PlanWorker::run() {
     if (ends_) return;
     const std::shared_ptr<Task> task = std::exchange(waiting_, nullptr);
     lock.unlock();
-    finish(task, task->work([&] { return task->given_up || hooks_.now_s() >= task->until_s; }));
+    finish(task, result_of(*task));
     lock.lock();
+  }
+}
+
+PlanResult PlanWorker::result_of(const Task& task) const {
+  try {
+    return task.work([&] { return task.given_up || hooks_.now_s() >= task.until_s; });
+  } catch (const std::exception& error) {
+    PlanResult failed;
+    failed.reason = PlanReason::kNotCertified;
+    failed.message = std::string("planning failed: ") + error.what();
+    return failed;
   }
 }
 

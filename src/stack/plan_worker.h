@@ -46,6 +46,7 @@ class PlanWorker : public PlanRunner {
 
   void give_up();
   void run();
+  PlanResult result_of(const Task& task) const;
   void finish(const std::shared_ptr<Task>& task, PlanResult result);
 
   const Hooks hooks_;

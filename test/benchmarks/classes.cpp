@@ -58,9 +58,7 @@ PlanQuery query_of(const Task& task) {
 }
 
 std::vector<PlanCandidate> plan_all(const Task& task, const PlannerOptions& options) {
-  return GlobalPlanner(task.robot, options)
-      .plan(query_of(task), {task.static_map, {}})
-      .candidates;
+  return GlobalPlanner(task.robot, options).plan(query_of(task), {task.static_map, {}}).candidates;
 }
 
 /// What is found from the straight line, as planners do that know one class only.

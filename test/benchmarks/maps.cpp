@@ -126,8 +126,7 @@ class Bench {
     });
     const PlanningScene scene{static_map, {}, [&] { return unseen; }};
     PlanResult plan;
-    const double plan_s =
-        seconds([&] { plan = planner_.plan(asked.query, scene); });
+    const double plan_s = seconds([&] { plan = planner_.plan(asked.query, scene); });
     GridPath shortest;
     const double needs_m = robot_.footprint.circumscribed_radius_m() +
                            MarginBudget::of(robot_).static_margin().still_m;

@@ -200,8 +200,7 @@ class ClosedLoop {
     query.committed = committed();
     query.start_time_s = committed().switch_time(now_s + kPlanningTime_s);
     query.goal = goal;
-    const PlanResult result =
-        planner_.plan(query, {scene.static_map, scene.peers});
+    const PlanResult result = planner_.plan(query, {scene.static_map, scene.peers});
     planned_s_ = now_s + planning_takes_s;
     requested_ = false;
     ++plans;

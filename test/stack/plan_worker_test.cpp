@@ -6,6 +6,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <future>
+#include <stdexcept>
 
 namespace mocha {
 namespace {
@@ -123,6 +124,16 @@ TEST_F(PlanWorkerTest, AnAnswerThatNobodyTookIsForgottenWithTheNextQuestion) {
   wait_for_answers(1);
   worker.begin(endless, 1.0);
   EXPECT_FALSE(worker.answer());
+}
+
+TEST_F(PlanWorkerTest, SaysWhyPlanningFailed) {
+  PlanWorker worker(hooks(true));
+  worker.begin([](const ShouldStop&) -> PlanResult { throw std::length_error("too long"); }, 1.0);
+  wait_for_answers(1);
+  const auto answer = worker.answer();
+  ASSERT_TRUE(answer);
+  EXPECT_NE(answer->reason, PlanReason::kSolved);
+  EXPECT_EQ(answer->message, "planning failed: too long");
 }
 
 TEST_F(PlanWorkerTest, EndsWhateverIsUnderWay) {

@@ -26,8 +26,10 @@ PublishedSlice::Change PublishedSlice::update(OccupancyMap& map, double border_m
   const int border = static_cast<int>(std::ceil(border_m / cell_m));
   const CornerWindow needed = map.known_cells().grown(border).united(zones_around_);
   const int headroom = static_cast<int>(std::ceil(kHeadroom_m / cell_m));
-  const CornerWindow cells = is_same_map ? grown_for(cells_, needed, headroom) : needed;
+  const bool grows = is_same_map && !knew_nothing_;
+  const CornerWindow cells = grows ? grown_for(cells_, needed, headroom) : needed;
   replaced_ = map.replaced();
+  knew_nothing_ = map.known_cells().empty();
   if (!is_same_map || !(cells == cells_)) {
     lay_out(map, cells);
     return {true, {}};

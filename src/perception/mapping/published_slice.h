@@ -43,6 +43,7 @@ class PublishedSlice {
   OccupancyGrid grid_;
   CornerWindow cells_{0, 0, -1, -1};  // those of the map that the grid holds
   int replaced_ = -1;                 // of the map that it was made of
+  bool knew_nothing_ = true;          // that map: its place was no place
 };
 
 }  // namespace mocha

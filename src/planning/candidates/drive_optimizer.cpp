@@ -129,7 +129,7 @@ DriveOptimizer::DriveOptimizer(const RobotModel& robot, const DriveOptions& opti
 
 Effort raised(const Effort& effort, const Violation& violation, double factor) {
   Effort more = effort;
-  more.first = false;
+  more.from_found = false;
   switch (violation.term) {
     case ViolatedTerm::kClearance:
       more.obstacle_weight *= factor;
@@ -260,7 +260,7 @@ bool DriveOptimizer::is_narrow(const std::vector<Vector2>& path,
 InitialKnots<2> DriveOptimizer::initial_knots(const DriveQuery& query,
                                               const ObstacleField<2>& field,
                                               const Effort& effort) const {
-  if (query.found_before && effort.first) return *query.found_before;
+  if (query.found_before && effort.from_found) return *query.found_before;
   MotionLimits limits = limits_of(query);
   limits.max_speed *= effort.speed;
   if (query.times_s.empty()) {
@@ -285,9 +285,11 @@ PlanarMinco::State DriveOptimizer::end_state(const DriveQuery& query) const {
   return end;
 }
 
-OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
-    const DriveQuery& query, const ObstacleField<2>& field, const Effort& effort,
-    const std::function<bool()>& should_stop, double most_work) const {
+OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(const DriveQuery& query,
+                                                         const ObstacleField<2>& field,
+                                                         const Effort& effort,
+                                                         const std::function<bool()>& should_stop,
+                                                         double most_work) const {
   if (!is_sound(query)) return {};
   const InitialKnots<2> knots = initial_knots(query, field, effort);
   const double a_max = limits_of(query).max_acceleration;
@@ -303,8 +305,7 @@ OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(
   TrajectoryObjective<2, 3> objective(std::move(options));
   const bool many = objective.pieces() >= kManyPieces;
   const double affordable = std::max(1.0, most_work / objective.pieces());
-  const int evaluations =
-      static_cast<int>(std::min<double>(options_.max_evaluations, affordable));
+  const int evaluations = static_cast<int>(std::min<double>(options_.max_evaluations, affordable));
   auto found = optimize<2, 3>(
       objective, objective.initial(knots.durations_s),
       {evaluations, many ? kRelativeModelledCost : kRelativeCost, should_stop, many});

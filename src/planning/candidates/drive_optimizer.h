@@ -39,7 +39,7 @@ struct DriveQuery {
 /// How hard the optimiser tries to satisfy the constraints; raised step by step where a result is
 /// not certified.
 struct Effort {
-  bool first = true;
+  bool from_found = true;        ///< begins at what was found before, if anything was
   bool camouflage = true;        ///< one variable a knot, else waypoints
   double spacing = 1.0;          ///< of the knots, relative to the options
   double obstacle_weight = 1.0;  ///< the same, as all that follows

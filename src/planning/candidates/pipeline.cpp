@@ -87,7 +87,10 @@ void CandidatePipeline::climb(const Seed& seed, const StartManeuver& start_maneu
     best.evaluations += found.evaluations;
     best.work += static_cast<double>(found.evaluations) * found.curve.pieces();
     PlanCandidate tried = best;
-    if (found.curve.pieces() == 0 || !prove(start_maneuver, found, tried)) return;
+    if (found.curve.pieces() == 0 || !prove(start_maneuver, found, tried)) {
+      if (!query.found_before || !std::exchange(effort.from_found, false)) return;
+      continue;
+    }
     const double slower = is_free_in_time(query) ? slow_down(tried.violation) : 1.0;
     if (slower > 1.0 && slower <= (attempt == ladder.attempts ? kSlowest : kRepairable))
       prove(start_maneuver, slowed(found, slower, query.duration_cost), tried);

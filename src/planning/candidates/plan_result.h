@@ -40,7 +40,7 @@ struct PlanCandidate {
   CostTerms terms;    ///< sum up to the cost
   Parameterisation parameterisation = Parameterisation::kNone;  ///< of the motion
   int evaluations = 0;
-  double work = 0.0;  ///< evaluations of single pieces
+  double work = 0.0;          ///< evaluations of single pieces
   std::vector<Vector2> path;  ///< of the front end, from which the optimisation started
   Motion motion;
   double drive_ends_s = 0.0;  ///< absolute: there, a local plan is back on the plan that it left

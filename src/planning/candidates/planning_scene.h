@@ -30,8 +30,8 @@ struct PlanQuery {
   std::optional<double> goal_yaw_rad;
   /// The plan to the same goal that is being driven, for its class; empty if there is none.
   Motion driven;
-  /// How long planning may take [s], where its work is measured by a PlanQuery's standard: see
-  /// GlobalPlanner.
+  /// How long planning may take [s]: as work (see GlobalPlanner), and as time where somebody stops
+  /// it then.
   double time_limit_s = std::numeric_limits<double>::infinity();
   /// Ends planning early; several threads may call it at once.
   std::function<bool()> should_stop = [] { return false; };

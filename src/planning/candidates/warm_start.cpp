@@ -36,8 +36,8 @@ std::optional<InitialKnots<2>> remaining_knots(const Motion& motion, double from
       (left->derivative(0.0, 1) - start.col(1)).norm() > kSameSpeed_mps ||
       (left->position(left->duration()) - end).norm() > kSamePlace_m)
     return std::nullopt;
-  const bool joins = left->pieces() > 1 &&
-                     left->piece_duration(0) < kShortest * left->piece_duration(1);
+  const bool joins =
+      left->pieces() > 1 && left->piece_duration(0) < kShortest * left->piece_duration(1);
   const int first = joins ? 1 : 0;
   const int pieces = left->pieces() - first;
   InitialKnots<2> knots;

@@ -15,6 +15,7 @@ constexpr double kSameGoal_m = 0.05;
 constexpr double kRounding_s = 1e-6;  // of differences of times
 constexpr double kLonger = 2.0;       // the time for planning, each time that it did not suffice
 constexpr double kLongest = 16.0;     // times as usual
+constexpr double kLongestUnderWay = 4.0;  // a promise may have been extended later than that
 
 GoalExecutive::Report report(PlanReason reason, const std::string& message,
                              const Violation& violation = {}) {
@@ -36,10 +37,12 @@ E failure_event(PlanReason reason) {
 PlanQuery GoalExecutive::query_to(const Goal& goal, const Motion& committed, double now_s) const {
   PlanQuery query;
   query.committed = committed;
-  const double planning_time_s = errand_.longer * options_.planning_time_s;
+  const double usual_s = options_.planning_time_s;
+  const bool rests = committed.at(committed.switch_time(now_s + usual_s)).at_rest;
+  const double planning_time_s =
+      usual_s * std::min(errand_.longer, rests ? kLongest : kLongestUnderWay);
   query.start_time_s = committed.switch_time(now_s + planning_time_s);
   // From rest, a plan may take over later.
-  const bool rests = committed.at(query.start_time_s).at_rest;
   query.time_limit_s = planning_time_s - (rests ? 0.0 : options_.handover_s);
   query.goal = goal.position;
   query.goal_yaw_rad = goal.yaw_rad;
@@ -58,7 +61,8 @@ void GoalExecutive::plan(const Input& input, Output& output) {
   if (!answer) return;
   errand_.question.reset();
   const bool exhausted = answer->reason == PlanReason::kBudgetExhausted;
-  errand_.longer = exhausted ? std::min(kLonger * errand_.longer, kLongest) : 1.0;
+  errand_.longer = exhausted ? std::min(kLonger * errand_.longer, kLongest)
+                             : std::max(errand_.longer / kLonger, 1.0);
   consider({target(), std::move(*answer)}, input, output);
 }
 

@@ -34,7 +34,11 @@ void GoalExecutive::set_options(const GoalExecutiveOptions& options,
 
 // --- goals and states ---
 
-void GoalExecutive::handle(ExecutiveEvent event) { state_ = next_state(state_, event); }
+void GoalExecutive::handle(ExecutiveEvent event) {
+  const bool made_room = makes_room(state_);
+  state_ = next_state(state_, event);
+  if (makes_room(state_) != made_room) errand_.question.reset();  // another target
+}
 
 void GoalExecutive::begin_errand(ExecutiveEvent event, std::optional<PullOverPoint> pull_over) {
   handle(event);

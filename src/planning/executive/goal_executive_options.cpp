@@ -8,14 +8,10 @@ constexpr double kSoonest_s = 0.2;  // between two plans, whatever is requested
 }  // namespace
 
 GoalExecutiveOptions GoalExecutiveOptions::from(const ParameterTable& values, double handover_s) {
-  return {values.number("planning_time"),
-          handover_s,
-          values.number("replan_period"),
-          values.number("retry_period"),
-          values.number("min_improvement"),
-          values.number("occupied_goal_timeout"),
-          values.number("unreachable_timeout"),
-          GoalOptions::from(values)};
+  return {values.number("planning_time"),       handover_s,
+          values.number("replan_period"),       values.number("retry_period"),
+          values.number("min_improvement"),     values.number("occupied_goal_timeout"),
+          values.number("unreachable_timeout"), GoalOptions::from(values)};
 }
 
 std::optional<double> GoalExecutiveOptions::planning_period_s(ExecutiveState state) const {

@@ -131,9 +131,17 @@ GlobalSeeds FrontEnd::under_way(const MotionState& start, HomotopyPaths found) c
 
 GlobalSeeds FrontEnd::promising(const PlanQuery& query, const PlanningScene& scene,
                                 const Vector2& goal) const {
-  if (!is_under_way(query, goal)) return {};
+  // What moves makes a drive dearer than its path tells.
+  const bool all_stand = std::all_of(scene.peers.begin(), scene.peers.end(), [&](const auto& peer) {
+    return stands(*peer, query.start_time_s);
+  });
+  if (!is_under_way(query, goal) || !all_stand) return {};
   const MotionState start = query.committed.at(query.start_time_s);
-  return under_way(start, paths({start.pose.position}, query, scene, goal, below_driven_));
+  GlobalSeeds found =
+      under_way(start, paths({start.pose.position}, query, scene, goal, below_driven_));
+  const bool has_driven = std::any_of(found.list.begin(), found.list.end(),
+                                      [](const Seed& seed) { return seed.driven; });
+  return has_driven ? found : GlobalSeeds();
 }
 
 GlobalSeeds FrontEnd::seeds(const PlanQuery& query, const PlanningScene& scene,

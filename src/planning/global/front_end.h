@@ -25,14 +25,15 @@ HomotopyPathOptions homotopy_path_options(const RobotModel& robot, const Planner
 /// Places on a motion from a time on to its end, at most 0.2 m apart at speeds up to `max_speed`.
 std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_speed);
 
-/// Finds the paths to the goal, cheapest first (paper IV-E). Where it is stopped, what it says is of
-/// no account.
+/// Finds the paths to the goal, cheapest first (paper IV-E). Where it is stopped, what it says is
+/// of no account.
 class FrontEnd {
  public:
   FrontEnd(const RobotModel& robot, const PlannerOptions& options);
 
   /// Of those of seeds(), for a robot that drives a plan, the path of the driven class and those
-  /// that may be worth a switch; none where there is no such plan, or it is not possible any more.
+  /// that may be worth a switch. None where there is no such plan, it is not possible any more, or
+  /// team-mates move, whatever their promises cost.
   GlobalSeeds promising(const PlanQuery& query, const PlanningScene& scene,
                         const Vector2& goal) const;
 

@@ -30,6 +30,14 @@ std::string place(const Vector2& p) {
   return text.str();
 }
 
+/// What was not solved, though not all that could be was tried, is not said to have failed.
+PlanResult unless_stopped(const PlanQuery& query, PlanResult result) {
+  if (!query.should_stop()) return result;
+  result.reason = PlanReason::kBudgetExhausted;
+  result.message = "planning was stopped before it found a motion to " + place(result.goal);
+  return result;
+}
+
 /// Only the heading is left.
 bool is_at_goal(const MotionState& start, const PlanQuery& query) {
   return start.at_rest && (start.pose.position - query.goal).norm() < kAtGoal_m;
@@ -160,7 +168,8 @@ PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scen
   const StaticMap& static_map = *scene.static_map;
   const bool may_reach = front_end_.may_reach(start.pose.position, *goal, static_map);
   if (may_reach) search(query, scene, *goal, result);
-  if (result.reason == PlanReason::kSolved || !result.candidates.empty()) return result;
+  if (result.reason == PlanReason::kSolved) return result;
+  if (!result.candidates.empty() || query.should_stop()) return unless_stopped(query, result);
   if (may_reach && !scene.peers.empty() &&
       front_end_.reaches(start.pose.position, *goal, static_map, query.should_stop)) {
     result.reason = PlanReason::kPeerConflict;
@@ -168,11 +177,7 @@ PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scen
   } else {
     result.message += obstruction(*goal, query, static_map);
   }
-  if (!query.should_stop()) return result;
-  PlanResult stopped = failure(PlanReason::kBudgetExhausted,
-                               "planning was stopped before a path to " + place(*goal) + " was found");
-  stopped.goal = *goal;
-  return stopped;
+  return unless_stopped(query, result);
 }
 
 }  // namespace mocha

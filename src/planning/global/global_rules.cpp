@@ -78,8 +78,8 @@ DriveQuery GlobalRules::drive(const Seed& seed, const StartManeuver& start_maneu
   drive.start_time_s = query_.start_time_s + start_maneuver.duration_s;
   drive.duration_cost = DurationCost::total(options_.weight_duration);
   if (seed.driven)
-    drive.found_before = remaining_knots(query_.driven, drive.start_time_s, drive.start,
-                                         start_maneuver.path.back());
+    drive.found_before =
+        remaining_knots(query_.driven, drive.start_time_s, drive.start, start_maneuver.path.back());
   for (const auto& peer : scene_.peers) {
     const bool standing = stands(*peer, query_.start_time_s);
     const BlockedDisc disc = peer_keep_out(*peer, query_.start_time_s, robot_, 0.0);

@@ -15,10 +15,14 @@ PlanService::PlanService(ros::NodeHandle& node, Handlers handlers)
 }
 
 bool PlanService::on_request(Request& request, Response& response) {
-  const auto work = call_and_wait<Work>([&] { return handlers_.prepare(request); });
+  const auto ends = [this] { return ends_ || !ros::ok(); };
+  // By value: they may be called when nobody waits any more.
+  const auto work =
+      call_and_wait<Work>([this, request] { return handlers_.prepare(request); }, ends);
   if (!work) return false;
-  const PlanResult result = (*work)([] { return !ros::ok(); });
-  const auto answer = call_and_wait<Response>([&] { return handlers_.respond(result); });
+  const PlanResult result = (*work)(ends);
+  const auto answer =
+      call_and_wait<Response>([this, result] { return handlers_.respond(result); }, ends);
   if (!answer) return false;
   response = *answer;
   return true;

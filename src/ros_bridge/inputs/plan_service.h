@@ -4,6 +4,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include <atomic>
 #include <functional>
 
 #include "planning/candidates/plan_result.h"
@@ -25,11 +26,14 @@ class PlanService {
 
   /// The handlers are called from the node's callback queue.
   PlanService(ros::NodeHandle& node, Handlers handlers);
+  /// Ends what is under way, without an answer.
+  ~PlanService() { ends_ = true; }
 
  private:
   bool on_request(Request& request, Response& response);
 
   const Handlers handlers_;
+  std::atomic<bool> ends_{false};
   ros::CallbackQueue queue_;
   ros::ServiceServer service_;
   ros::AsyncSpinner spinner_;

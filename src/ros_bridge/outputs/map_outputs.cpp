@@ -31,6 +31,7 @@ void MapOutputs::publish(OccupancyMap& map, ros::Time now, ros::Time measured, d
   published_ = now;
   version_ = map.version();
   const PublishedSlice::Change change = slice_.update(map, border_m);
+  if (slice_.grid().cells.empty()) return;
   // Twice, as those who come or go are not counted on both topics at once.
   const bool was_heard_alone = is_heard_alone_;
   is_heard_alone_ = maps_.getNumSubscribers() > updates_.getNumSubscribers();

@@ -39,9 +39,9 @@ class MapOutputs {
   PublishedSlice slice_;
   bool is_whole_due_ = true;
   bool is_heard_alone_ = false;  // `map`
-  ros::Time measured_;   // of the newest map published
-  ros::Time published_;  // when that was
-  ros::Time stamp_;      // of the newest publication
+  ros::Time measured_;           // of the newest map published
+  ros::Time published_;          // when that was
+  ros::Time stamp_;              // of the newest publication
   std::uint64_t version_ = 0;
   ros::Publisher maps_;
   ros::Publisher updates_;

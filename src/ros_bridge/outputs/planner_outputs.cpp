@@ -78,8 +78,7 @@ void PlannerOutputs::report(PlanReason reason, const Violation& violation, const
   const bool news = reason != reason_ || text != text_;
   reason_ = reason;
   text_ = text;
-  mocha_ugv::PlannerStatus status =
-      to_message(reason, violation, text, identity_.map_frame, now);
+  mocha_ugv::PlannerStatus status = to_message(reason, violation, text, identity_.map_frame, now);
   status.effort = to_message(record_);
   statuses_.publish(status);
   if (!news || reason == PlanReason::kSolved) return;

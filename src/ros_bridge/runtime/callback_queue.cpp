@@ -26,11 +26,4 @@ void call_soon(std::function<void()> call) {
   ros::getGlobalCallbackQueue()->addCallback(boost::make_shared<Call>(std::move(call)));
 }
 
-bool wait_while_running(const std::function<bool()>& is_there) {
-  while (ros::ok()) {
-    if (is_there()) return true;
-  }
-  return false;
-}
-
 }  // namespace mocha

@@ -140,9 +140,10 @@ GridPath find_nearest_place(const StaticMap& static_map, const Vector2& start,
   GridPath path;
   path.outcome = GridPath::Outcome::kStartBlocked;
   if (!static_map.bounds().contains(start) || cost.at(start) == TravelCost::kInfinity) return path;
-  path.points = suits(start) ? std::vector<Vector2>{start}
-                             : LatticeSearch(static_map, cost, step_m, [] { return false; })
-                                   .run(start, suits, most_m);
+  path.points =
+      suits(start)
+          ? std::vector<Vector2>{start}
+          : LatticeSearch(static_map, cost, step_m, [] { return false; }).run(start, suits, most_m);
   path.outcome = path.points.empty() ? GridPath::Outcome::kNoPath : GridPath::Outcome::kFound;
   return path;
 }

@@ -103,8 +103,7 @@ HomotopyPaths find_homotopy_paths(const StaticMap& static_map, const HomotopyPat
   ClassRoadmap classes =
       class_roadmap(cost, query.goal, options.roadmap, options.prm_samples, query.should_stop);
   if (query.should_stop()) return result;
-  std::vector<std::vector<Vector2>> paths =
-      paths_of_classes(cost, classes, query, options, most_m);
+  std::vector<std::vector<Vector2>> paths = paths_of_classes(cost, classes, query, options, most_m);
   if (query.lead_in.size() == 1 && !driven.empty()) paths.push_back(driven);
   std::vector<HomotopyPath> found = paths_along(paths, cost, classes.cuts, query);
   if (query.should_stop()) return result;

@@ -126,8 +126,7 @@ double width_m(const ObstacleField<2>& field, const Vector2& place) {
 }  // namespace
 
 std::optional<NarrowPlace> narrowest_place(const StaticMap& static_map, const Vector2& start,
-                                           const Vector2& goal, double step_m,
-                                           double free_radius_m,
+                                           const Vector2& goal, double step_m, double free_radius_m,
                                            const std::function<bool()>& should_stop) {
   const auto place =
       WidestWay(static_map, start, goal, step_m, free_radius_m).bottleneck(should_stop);

@@ -120,7 +120,7 @@ class Parts {
 }  // namespace
 
 MapSkeleton::MapSkeleton(std::shared_ptr<const DistanceField> field, SkeletonTiles tiles)
-    : field_(std::move(field)), tiles_(std::move(tiles)) {
+    : field_(std::move(field)), options_(tiles.options()), tiles_(std::move(tiles)) {
   if (tiles_.columns() != field_->columns() || tiles_.rows() != field_->rows())
     throw std::invalid_argument("MapSkeleton: the tiles are those of a map of another size");
 }
@@ -142,35 +142,40 @@ CornerWindow MapSkeleton::around(const Vector2& place, double radius_m) const {
           corner(place.y() + reach_m, 1, field_->rows())};
 }
 
-bool MapSkeleton::complete(const TravelCost& cost,
-                           const std::function<bool()>& should_stop) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
+bool MapSkeleton::complete(const TravelCost& cost, const std::function<bool()>& should_stop) const {
+  SkeletonTiles made = tiles();
   if (is_complete_) return true;
   const TravelCost priced = anywhere(cost);
   const double narrow_m = kNarrowest * options().required_clearance_m;
-  tbb::parallel_for(0, tiles_.size(), [&](int tile) {
-    if (tiles_.has(tile) || should_stop()) return;
-    const CornerWindow own = tiles_.window(tile);
-    tiles_.set(tile,
-               {skeleton_tile(*field_, own, priced, {}), obstacle_tile(*field_, own, narrow_m)});
+  // Not locked: others who ask for what is made do not wait.
+  tbb::parallel_for(0, made.size(), [&](int tile) {
+    if (made.has(tile) || should_stop()) return;
+    const CornerWindow own = made.window(tile);
+    made.set(tile,
+             {skeleton_tile(*field_, own, priced, {}), obstacle_tile(*field_, own, narrow_m)});
   });
-  if (should_stop()) return false;
-  obstacles_ = joined_obstacles();
-  is_complete_ = true;
-  return true;
+  const bool all = !should_stop();
+  std::vector<Vector2> obstacles;
+  if (all) obstacles = joined_obstacles(made);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_complete_) return true;
+  tiles_ = std::move(made);
+  obstacles_ = std::move(obstacles);
+  is_complete_ = all;
+  return all;
 }
 
-std::vector<Vector2> MapSkeleton::joined_obstacles() const {
+std::vector<Vector2> MapSkeleton::joined_obstacles(const SkeletonTiles& tiles) {
   std::vector<const ObstacleTile::Part*> parts;
   std::vector<int> first;  // of each tile
-  for (int tile = 0; tile < tiles_.size(); ++tile) {
+  for (int tile = 0; tile < tiles.size(); ++tile) {
     first.push_back(static_cast<int>(parts.size()));
-    for (const ObstacleTile::Part& part : tiles_[tile].obstacles.parts) parts.push_back(&part);
+    for (const ObstacleTile::Part& part : tiles[tile].obstacles.parts) parts.push_back(&part);
   }
   Parts joined(parts.size());
   std::unordered_map<int, int> at_corner;  // a part of those that go on there
-  for (int tile = 0; tile < tiles_.size(); ++tile) {
-    for (const auto& [corner, part] : tiles_[tile].obstacles.border) {
+  for (int tile = 0; tile < tiles.size(); ++tile) {
+    for (const auto& [corner, part] : tiles[tile].obstacles.border) {
       const auto [known, is_new] = at_corner.emplace(corner, first[tile] + part);
       if (!is_new) joined.join(known->second, first[tile] + part);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -18,7 +19,7 @@ class MapSkeleton {
   /// map of another size.
   MapSkeleton(std::shared_ptr<const DistanceField> field, SkeletonTiles tiles);
 
-  const TravelOptions& options() const { return tiles_.options(); }
+  const TravelOptions& options() const { return options_; }
   /// As far as they are made.
   SkeletonTiles tiles() const;
 
@@ -37,14 +38,15 @@ class MapSkeleton {
   Roadmap<2> roadmap(const TravelCost& cost, const Vector2& goal) const;
 
  private:
-  std::vector<Vector2> joined_obstacles() const;
+  static std::vector<Vector2> joined_obstacles(const SkeletonTiles& tiles);
   /// The corners around a place, as far as the map has them.
   CornerWindow around(const Vector2& place, double radius_m) const;
 
   const std::shared_ptr<const DistanceField> field_;
-  mutable std::mutex mutex_;
+  const TravelOptions options_;
+  mutable std::mutex mutex_;  // of what follows, until it is complete
   mutable SkeletonTiles tiles_;
-  mutable bool is_complete_ = false;  // all made, obstacles joined
+  mutable std::atomic<bool> is_complete_{false};  // all made, obstacles joined
   mutable std::vector<Vector2> obstacles_;
 };
 

@@ -85,6 +85,17 @@ TEST_F(PublishedSliceTest, GrowsWithRoomToSpareOnlyWhereItMust) {
   EXPECT_EQ(at(slice, {6.51, 0.01}), OccupancyGrid::kOccupied);
 }
 
+TEST_F(PublishedSliceTest, AMapOfWhichNothingWasKnownDoesNotHoldItsPlace) {
+  PublishedSlice slice;
+  map.clear();
+  EXPECT_TRUE(slice.update(map, 0.0).whole);
+  EXPECT_TRUE(slice.grid().cells.empty());
+  EXPECT_FALSE(slice.update(map, 0.0).whole);
+  map.clear_disc({500.0, 500.0}, 0.2);
+  EXPECT_TRUE(slice.update(map, kBorder_m).whole);
+  EXPECT_LT(slice.grid().width, 50);
+}
+
 TEST_F(PublishedSliceTest, AMapThatIsReplacedIsLaidOutAnew) {
   PublishedSlice slice;
   slice.update(map, kBorder_m);

@@ -54,14 +54,13 @@ class ExecutiveFixture : public ::testing::Test {
   GoalExecutive::Output step() {
     now_s_ += kPeriod_s;
     state_.stamp_s = now_s_;
-    return executive_.step(
-        now_s_, state_, committed_,
-        {[this](const PlanQuery& query) {
-           asked_.push_back(query);
-           query_ = query;
-         },
-         [this] { return late_ ? std::nullopt : std::optional(answer(query_)); },
-         [this](const std::vector<Vector2>&) { return scene_; }});
+    return executive_.step(now_s_, state_, committed_,
+                           {[this](const PlanQuery& query) {
+                              asked_.push_back(query);
+                              query_ = query;
+                            },
+                            [this] { return late_ ? std::nullopt : std::optional(answer(query_)); },
+                            [this](const std::vector<Vector2>&) { return scene_; }});
   }
 
   /// The last step of so many that said anything; the number of plans asked for is in asked_.
@@ -87,7 +86,7 @@ class ExecutiveFixture : public ::testing::Test {
   std::optional<Vector2> goal_;  // where the plan leads instead
   double speed_ = 0.8;
   bool late_ = false;  // plans are under way, and stay so
-  PlanQuery query_;  // asked last
+  PlanQuery query_;    // asked last
   std::vector<PlanQuery> asked_;
   std::vector<YieldRequest> said_;
 

@@ -76,8 +76,44 @@ TEST_F(LatePlansTest, HaveTwiceTheTimeWhereItDidNotSuffice) {
   reason_ = PlanReason::kSolved;
   run(options().retry_period_s);
   ASSERT_EQ(executive_.state(), S::kDriving);
-  run(options().replan_period_s);
-  EXPECT_DOUBLE_EQ(query_.time_limit_s, usual_s);
+  for (const double times : {8.0, 4.0, 2.0, 1.0, 1.0}) {
+    run(options().replan_period_s);
+    EXPECT_DOUBLE_EQ(query_.time_limit_s, times * usual_s);
+  }
+}
+
+TEST_F(LatePlansTest, UnderWayTheyDoNotBeginWhereThePromiseMayHaveBeenExtended) {
+  step();
+  reason_ = PlanReason::kBudgetExhausted;
+  for (int i = 0; i < 6; ++i) {
+    committed_ = straight_drive(now_s_ - 1.0, {0.0, 0.0}, 0.0, kLength_m, 0.4, kBraking);
+    run(options().replan_period_s);
+  }
+  EXPECT_NEAR(query_.start_time_s, now_s_ + 4.0 * options().planning_time_s,
+              options().replan_period_s);
+}
+
+TEST_F(LatePlansTest, AnAnswerForAGoalIsNotDrivenWhereTheRobotHasToMakeRoomAgain) {
+  committed_ = standing(now_s_ - 5.0, {0.0, 0.0}, 0.0);
+  const YieldRequest request = way_of("ugv1", {{-3.0, 0.0}, {3.0, 0.0}});
+  executive_.hear(request, now_s_);
+  run_while_asked(request, 3.0);
+  ASSERT_TRUE(makes_room(executive_.state()) || executive_.state() == S::kWaiting);
+  state_.pose.position =
+      executive_.plan().empty() ? Vector2(0.0, 2.0) : executive_.plan().end_pose().position;
+  committed_ = standing(now_s_ - 5.0, state_.pose.position, 0.0);
+  late_ = true;
+  for (int i = 0; i < 40 && !(executive_.state() == S::kWaiting && executive_.awaits_plan()); ++i) {
+    executive_.hear(request, now_s_);
+    step();
+  }
+  ASSERT_EQ(executive_.state(), S::kWaiting);
+  const PlanQuery to_goal = query_;
+  state_.pose.position.y() += 0.5;  // somebody pushes it
+  executive_.hear(request, now_s_);
+  step();
+  ASSERT_EQ(executive_.state(), S::kPlanningPullOver);
+  EXPECT_TRUE(to_goal.should_stop());
 }
 
 }  // namespace

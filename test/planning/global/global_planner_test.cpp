@@ -307,8 +307,8 @@ TEST_F(GlobalPlannerTest, StaysInADeadEndThatATeamMateCloses) {
   const PlanQuery query = from_standing({3.2, 0.0}, 0.0, {8.0, 0.0});
   const auto stand = std::make_shared<const Motion>(standing(kStart_s - 5.0, {0.5, 0.0}, 0.0));
   const auto peer = std::make_shared<PeerObstacle>("ugv2", stand, 0.3, test::kRoverBraking);
-  const PlanResult result = GlobalPlanner(robot, default_options())
-                                .plan(query, {static_map_of(dead_end()), {peer}});
+  const PlanResult result =
+      GlobalPlanner(robot, default_options()).plan(query, {static_map_of(dead_end()), {peer}});
   EXPECT_EQ(result.reason, PlanReason::kPeerConflict) << result.message;
   EXPECT_TRUE(result.motion.empty());
 }
@@ -397,6 +397,31 @@ TEST_F(GlobalPlannerTest, StoppedAnywhereItHasAProvedMotionOrSaysThatTimeIsUp) {
     }
   }
   EXPECT_GT(solved, 3);  // before all has been looked at
+}
+
+TEST_F(GlobalPlannerTest, StoppedAfterTheDrivenPathHasFailedItDoesNotSayThatAllHas) {
+  PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
+  query.driven = plan(query, open_).motion;
+  // Nothing around has been seen, so that no motion is certified.
+  OccupancyGrid unseen = open_;
+  fill_box(unseen, {-2.0, -4.0}, {10.0, 4.0}, OccupancyGrid::kUnknown);
+  PlannerOptions options = default_options();
+  options.max_evaluations = 10;
+  options.threads = 1;
+  const GlobalPlanner planner(rover(), options);
+  const PlanningScene scene{static_map_of(open_), {}, [&] {
+                              return std::make_shared<DistanceField>(
+                                  unseen, DistanceField::Solid::kOccupiedOrUnknown);
+                            }};
+  std::atomic<int> calls{0};
+  query.should_stop = [&] { return ++calls < 0; };
+  ASSERT_EQ(planner.plan(query, scene).reason, PlanReason::kNotCertified);
+  const int all = calls;
+  for (int allowed = 0; allowed < all * 9 / 10; allowed += std::max(1, all / 50)) {
+    calls = 0;
+    query.should_stop = [&] { return ++calls > allowed; };
+    EXPECT_EQ(planner.plan(query, scene).reason, PlanReason::kBudgetExhausted) << allowed;
+  }
 }
 
 TEST_F(GlobalPlannerTest, TheWorkThatItMayTakeFollowsTheTimeLimit) {
