@@ -12,7 +12,7 @@
 
 namespace mocha {
 
-/// Makes plans on a thread of its own, so that whoever asks for them goes on in the meantime.
+/// Makes plans on a thread of its own; the caller is never kept waiting.
 class PlanWorker : public PlanRunner {
  public:
   struct Hooks {

@@ -24,7 +24,7 @@ void MapInput::on_map(const nav_msgs::OccupancyGrid& map) {
     OccupancyGrid grid = from_message(map);
     if (map.header.stamp < awaited_) return;
     take(std::move(grid));
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::exception& error) {
     return refuse("a map", error.what());
   }
   ++taken_;
@@ -42,7 +42,7 @@ void MapInput::on_update(const map_msgs::OccupancyGridUpdate& update) {
   if (is_ours(update.header, "an update of a map")) apply(update);
 }
 
-/// Updates are numbered.
+/// Asks for a grid where the updates, which are numbered, show a gap.
 void MapInput::heed_order(const std_msgs::Header& header) {
   const bool is_first = !has_heard_;
   const bool follows = header.seq == heard_.seq + 1 && header.stamp >= heard_.stamp;
@@ -82,7 +82,7 @@ void MapInput::apply(const map_msgs::OccupancyGridUpdate& update) {
     take(from_message(update));
     ++taken_;
     stamp_ns_ = stamp.toNSec();
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::exception& error) {
     refuse("an update of a map", error.what());
     wait_for_grid();
   }
@@ -111,7 +111,7 @@ MapSource::MapSource(ros::NodeHandle& node, std::string frame)
   fetch_whole();
 }
 
-/// Anew: perception sends the whole map to everybody who comes.
+/// Subscribes anew: perception sends the whole map to each new subscriber.
 void MapSource::fetch_whole() {
   maps_.shutdown();
   maps_ = node_.subscribe("map", 1, &MapInput::on_map, static_cast<MapInput*>(this), at_once());

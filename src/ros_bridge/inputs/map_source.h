@@ -19,9 +19,9 @@ namespace mocha {
 /// are their stamps, which rise from one publication to the next: a grid contains what is not newer
 /// than it, and updates that follow a grid which is only announced (by one without cells) wait for
 /// it. Where an update is missing or refused, or the stamps fall, a whole grid is asked for anew.
-/// Until that comes the map does not change, but its age grows. With the first update, too, as
-/// others may have gone before it; but whoever plays a recording may have no other grid to give,
-/// so the map goes on in the meantime. Messages come in on one thread.
+/// Until that comes the map does not change, but its age grows. The first update asks for a grid,
+/// too, as earlier ones may have been missed; the map is used in the meantime, as a recording has
+/// no other grid to give. Messages come in on one thread.
 class MapInput : public KnownMap {
  public:
   /// Maps must be in `frame`. Unusable ones are refused and counted. `ask_anew` asks for a whole

@@ -7,7 +7,7 @@
 #include <atomic>
 #include <functional>
 
-#include "planning/candidates/plan_result.h"
+#include "stack/plan_runner.h"
 
 namespace mocha {
 
@@ -16,7 +16,7 @@ class PlanService {
  public:
   using Request = mocha_ugv::PlanTrajectory::Request;
   using Response = mocha_ugv::PlanTrajectory::Response;
-  using Work = std::function<PlanResult(const std::function<bool()>& should_stop)>;
+  using Work = PlanRunner::Work;
 
   struct Handlers {
     /// What is to be done for a request.

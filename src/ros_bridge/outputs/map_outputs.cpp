@@ -9,7 +9,7 @@
 namespace mocha {
 namespace {
 
-constexpr int kQueue = 1000;  // updates that wait for one who listens
+constexpr int kQueue = 1000;  // updates that wait for a slow subscriber
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void MapOutputs::publish(OccupancyMap& map, ros::Time now, ros::Time measured, d
   version_ = map.version();
   const PublishedSlice::Change change = slice_.update(map, border_m);
   if (slice_.grid().cells.empty()) return;
-  // Twice, as those who come or go are not counted on both topics at once.
+  // Both counts must differ twice: a subscriber does not join or leave both topics at once.
   const bool was_heard_alone = is_heard_alone_;
   is_heard_alone_ = maps_.getNumSubscribers() > updates_.getNumSubscribers();
   if (change.whole || is_whole_due_ || (was_heard_alone && is_heard_alone_)) return publish_whole();
@@ -45,7 +45,7 @@ void MapOutputs::forget_time() {
   is_whole_due_ = true;
 }
 
-/// What was published last is what those have who heard all of it.
+/// Sends what was published last, so that the updates that follow fit it.
 void MapOutputs::serve(const ros::SingleSubscriberPublisher& newcomer) {
   if (!stamp_.isZero()) newcomer.publish(whole());
 }

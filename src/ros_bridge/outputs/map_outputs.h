@@ -12,11 +12,11 @@
 
 namespace mocha {
 
-/// A robot's map for the others: whole on `map`, to everybody when its place or size changes and to
-/// each who comes anew; what changes then on `map_updates`. While somebody listens to `map` alone,
-/// it is whole with each change. Each publication has a later stamp than
-/// the one before, so that those who listen can put both topics in order; an update without cells
-/// announces a whole map with its stamp.
+/// Publishes a robot's map. The whole map goes to all subscribers of `map` when its place or size
+/// changes, and to each new one; other changes go to `map_updates`. While `map` has more
+/// subscribers than `map_updates`, each change is published as a whole map. Each publication has a
+/// later stamp than the one before, by which subscribers put both topics in order; an update
+/// without cells announces a whole map with its stamp.
 class MapOutputs {
  public:
   /// Maps are in `frame`; zones to keep out of look occupied in them.
