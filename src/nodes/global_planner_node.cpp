@@ -28,6 +28,7 @@
 #include "ros_bridge/runtime/run_node.h"
 #include "ros_bridge/runtime/step_loop.h"
 #include "ros_bridge/runtime/transport.h"
+#include "stack/freed_memory.h"
 #include "stack/goal_planning.h"
 #include "stack/local_replanning.h"
 #include "stack/plan_worker.h"
@@ -306,5 +307,6 @@ class GlobalPlannerNode {
 }  // namespace mocha
 
 int main(int argc, char** argv) {
+  mocha::keep_freed_memory();
   return mocha::run_node<mocha::GlobalPlannerNode>(argc, argv, "global_planner");
 }

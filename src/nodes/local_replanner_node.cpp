@@ -23,6 +23,7 @@
 #include "ros_bridge/runtime/run_node.h"
 #include "ros_bridge/runtime/step_loop.h"
 #include "ros_bridge/runtime/transport.h"
+#include "stack/freed_memory.h"
 #include "stack/local_replanning.h"
 #include "world/margin_budget.h"
 
@@ -242,5 +243,6 @@ class LocalReplannerNode {
 }  // namespace mocha
 
 int main(int argc, char** argv) {
+  mocha::keep_freed_memory();
   return mocha::run_node<mocha::LocalReplannerNode>(argc, argv, "local_replanner");
 }

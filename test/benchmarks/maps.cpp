@@ -15,6 +15,7 @@
 #include "benchmarks/maps_building.h"
 #include "benchmarks/maps_log.h"
 #include "planning/global/global_planner.h"
+#include "stack/freed_memory.h"
 #include "stack/known_map.h"
 #include "topology/paths/grid_path.h"
 #include "world/margin_budget.h"
@@ -187,6 +188,7 @@ int main(int argc, char** argv) {
     building = mocha::building(argv[1], std::atof(argv[2]), std::atoi(argv[3]));
   }
   if (!building) return 2;
+  mocha::keep_freed_memory();  // as the nodes do
   mocha::set_up_ompl();
   std::printf("{\"rows\": [");
   mocha::Bench(argv[1], std::move(*building)).run();

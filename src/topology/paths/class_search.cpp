@@ -99,10 +99,9 @@ SignatureKey key_along(const Arc& arc, const Roadmap<D>& roadmap, const SampledS
 }
 
 /// Shortest distance to the goal of every node from which it is no longer than the options allow;
-/// of others, none shorter.
-std::vector<double> distances_to_goal(const Arcs& arcs, const ClassSearchOptions& options) {
-  const Arcs back = arcs.reversed();
-  std::vector<double> distance_m(arcs.nodes(), kInfinity);
+/// of others, none shorter. `back`: the arcs that lead to each node, turned round.
+std::vector<double> distances_to_goal(const Arcs& back, const ClassSearchOptions& options) {
+  std::vector<double> distance_m(back.nodes(), kInfinity);
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
   distance_m[Roadmap<2>::kGoal] = 0.0;
@@ -125,6 +124,19 @@ std::vector<double> distances_to_goal(const Arcs& arcs, const ClassSearchOptions
   return distance_m;
 }
 
+/// Where each edge has an arc in both directions, the arcs are their own inverses.
+template <int D>
+std::vector<double> distances_to_goal(const Arcs& arcs, const Cuts<D>&,
+                                      const ClassSearchOptions& options) {
+  return distances_to_goal(arcs, options);
+}
+
+template <int D>
+std::vector<double> distances_to_goal(const Arcs& arcs, const SampledSpace<D>&,
+                                      const ClassSearchOptions& options) {
+  return distances_to_goal(arcs.reversed(), options);
+}
+
 /// The augmented search. Steps form a tree; a path is named by its last step.
 class Search {
  public:
@@ -138,11 +150,12 @@ class Search {
 
   using KeyOf = std::function<SignatureKey(const Arc&)>;
 
-  Search(const Arcs& arcs, KeyOf key_of, const ClassSearchOptions& options)
+  Search(const Arcs& arcs, KeyOf key_of, std::vector<double> to_goal_m,
+         const ClassSearchOptions& options)
       : arcs_(arcs),
         key_of_(std::move(key_of)),
         keys_(arcs.size()),
-        to_goal_m_(distances_to_goal(arcs, options)),
+        to_goal_m_(std::move(to_goal_m)),
         options_(options),
         longest_m_(std::min(options.longest_m, (1.0 + kRounding) * options.longest_ratio *
                                                    to_goal_m_[Roadmap<2>::kStart])),
@@ -167,12 +180,12 @@ class Search {
         found.push_back(current);
         continue;
       }
-      mark_visited(current);
       for (int i = arcs_.first(step.node); i < arcs_.first(step.node + 1); ++i) {
         const Arc& arc = arcs_[i];
         const double length_m = step.length_m + arc.length_m;
-        if (length_m + to_goal_m_[arc.to] > longest_m_ || visited_by_[arc.to] == current) continue;
-        push({arc.to, current, arc.edge, step.key + key(i), length_m});
+        if (length_m + to_goal_m_[arc.to] > longest_m_) continue;
+        const Step next{arc.to, current, arc.edge, step.key + key(i), length_m};
+        if (!is_seen(next) && !is_on_path(next.node, current)) push(next);
       }
     }
     return found;
@@ -182,7 +195,6 @@ class Search {
 
  private:
   void push(const Step& step) {
-    if (is_seen(step)) return;
     const double bound_m = step.length_m + to_goal_m_[step.node];
     queue_.push({bound_m, static_cast<int>(steps_.size())});
     steps_.push_back(step);
@@ -199,9 +211,13 @@ class Search {
     return *keys_[arc];
   }
 
-  /// The nodes of a path.
-  void mark_visited(int last) {
-    for (int i = last; i != kNone; i = steps_[i].before) visited_by_[steps_[i].node] = last;
+  /// Whether a node is one of those of the path to the step `last`, all of which have been seen.
+  bool is_on_path(int node, int last) {
+    if (seen_[node].empty()) return false;
+    if (visited_by_[steps_[last].node] != last) {
+      for (int i = last; i != kNone; i = steps_[i].before) visited_by_[steps_[i].node] = last;
+    }
+    return visited_by_[node] == last;
   }
 
   const Arcs& arcs_;
@@ -253,7 +269,8 @@ std::vector<ClassPath<D>> search(const Roadmap<D>& roadmap, const Classes& class
   check(options);
   const Arcs arcs = arcs_of(roadmap, classes);
   Search search(
-      arcs, [&](const Arc& arc) { return key_along<D>(arc, roadmap, classes); }, options);
+      arcs, [&](const Arc& arc) { return key_along<D>(arc, roadmap, classes); },
+      distances_to_goal(arcs, classes, options), options);
   std::vector<ClassPath<D>> paths;
   for (const int last : search.run()) paths.push_back(trace(search, last, roadmap));
   return paths;

@@ -1,5 +1,6 @@
 #include "topology/roadmaps/map_skeleton.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -31,6 +32,12 @@ class Assembly {
   Assembly(const DistanceField& field, const Vector2& start, const Vector2& goal) : field_(field) {
     for (const Vector2& end : {start, goal})
       roadmap_.nodes.push_back({end, field.sample(end).distance_m});
+  }
+
+  void reserve(std::size_t nodes, std::size_t edges) {
+    roadmap_.nodes.reserve(nodes);
+    roadmap_.edges.reserve(edges);
+    node_of_.reserve(nodes);
   }
 
   void add(const SkeletonTile& tile) {
@@ -148,11 +155,13 @@ bool MapSkeleton::complete(const TravelCost& cost, const std::function<bool()>& 
   const TravelCost priced = anywhere(cost);
   const double narrow_m = kNarrowest * options().required_clearance_m;
   // Not locked: others who ask for what is made do not wait.
-  tbb::parallel_for(0, made.size(), [&](int tile) {
-    if (made.has(tile) || should_stop()) return;
-    const CornerWindow own = made.window(tile);
-    made.set(tile,
-             {skeleton_tile(*field_, own, priced, {}), obstacle_tile(*field_, own, narrow_m)});
+  tbb::parallel_for(tbb::blocked_range<int>(0, made.size()), [&](const auto& range) {
+    SkeletonTiler tiler(*field_, priced);
+    for (int tile = range.begin(); tile < range.end() && !should_stop(); ++tile) {
+      if (made.has(tile)) continue;
+      const CornerWindow own = made.window(tile);
+      made.set(tile, {tiler.tile(own, {}), obstacle_tile(*field_, own, narrow_m)});
+    }
   });
   const bool all = !should_stop();
   std::vector<Vector2> obstacles;
@@ -222,12 +231,20 @@ Roadmap<2> MapSkeleton::roadmap(const TravelCost& cost, const Vector2& goal) con
       if (entry >= 0 && tiles_.window(tile).holds(x, y)) anchors.push_back(entry);
     }
   }
+  std::size_t nodes = 0;
+  std::size_t edges = 0;
+  for (int tile = 0; tile < tiles_.size(); ++tile) {
+    nodes += tiles_[tile].skeleton.nodes.size();
+    edges += tiles_[tile].skeleton.edges.size();
+  }
+  assembly.reserve(nodes, edges);
+  SkeletonTiler tiler(*field_, cost);
   for (int tile = 0; tile < tiles_.size(); ++tile) {
     const auto special = remade.find(tile);
     if (special == remade.end()) {
       assembly.add(tiles_[tile].skeleton);
     } else {
-      assembly.add(skeleton_tile(*field_, tiles_.window(tile), cost, special->second));
+      assembly.add(tiler.tile(tiles_.window(tile), special->second));
     }
   }
   for (int end = 0; end < 2; ++end) {

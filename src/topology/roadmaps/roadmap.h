@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "topology/roadmaps/shared_corners.h"
+
 namespace mocha {
 
 /// The graph that searches for paths run on. Its start and its goal are nodes like all others.
@@ -16,11 +18,11 @@ struct Roadmap {
   };
 
   struct Edge {
-    int from;                    ///< index of a node
-    int to;                      ///< index of a node
-    std::vector<Point> between;  ///< corners of the polyline from one to the other, ends left out
-    double length_m;             ///< of the polyline
-    double clearance_m;          ///< smallest one along it
+    int from;                      ///< index of a node
+    int to;                        ///< index of a node
+    SharedCorners<Point> between;  ///< of the polyline from one to the other, ends left out
+    double length_m;               ///< of the polyline
+    double clearance_m;            ///< smallest one along it
   };
 
   static constexpr int kStart = 0;

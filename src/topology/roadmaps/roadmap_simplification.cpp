@@ -72,21 +72,25 @@ class Contraction {
   /// From a node that stays along an edge to the next one that stays.
   void follow(int from, int edge, const std::vector<int>& number) {
     Roadmap<2>::Edge merged{number[from], -1, {}, 0.0, roadmap_.edges[edge].clearance_m};
+    std::vector<Vector2> between;
     for (int node = from;;) {
       used_[edge] = true;
       const auto& part = roadmap_.edges[edge];
-      std::vector<Vector2> corners = part.between;
-      if (part.from != node) std::reverse(corners.begin(), corners.end());
-      merged.between.insert(merged.between.end(), corners.begin(), corners.end());
+      if (part.from == node) {
+        between.insert(between.end(), part.between.begin(), part.between.end());
+      } else {
+        between.insert(between.end(), part.between.rbegin(), part.between.rend());
+      }
       merged.length_m += part.length_m;
       merged.clearance_m = std::min(merged.clearance_m, part.clearance_m);
       node = other_end(edge, node);
       merged.to = number[node];
       if (merged.to >= 0) break;
-      merged.between.push_back(roadmap_.nodes[node].position);
+      between.push_back(roadmap_.nodes[node].position);
       const auto& edges = edges_of_[node];
       edge = edges[0] == edge ? edges[1] : edges[0];
     }
+    merged.between = std::move(between);
     if (merged.to != merged.from) result_.edges.push_back(std::move(merged));
   }
 
@@ -116,12 +120,10 @@ void price(Roadmap<2>& roadmap, const TravelCost& cost) {
   }
   for (auto& edge : roadmap.edges) {
     std::vector<Vector2> line = {roadmap.nodes[edge.from].position};
-    for (Vector2& point : edge.between) {
-      point = pushed_off(point, cost);
-      line.push_back(point);
-    }
+    for (const Vector2& point : edge.between) line.push_back(pushed_off(point, cost));
     line.push_back(roadmap.nodes[edge.to].position);
     edge.length_m = cost_of(line, cost);
+    edge.between = std::vector<Vector2>(line.begin() + 1, line.end() - 1);
   }
   const auto impossible = [](const auto& edge) { return !std::isfinite(edge.length_m); };
   roadmap.edges.erase(std::remove_if(roadmap.edges.begin(), roadmap.edges.end(), impossible),

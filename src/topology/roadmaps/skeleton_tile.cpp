@@ -15,23 +15,20 @@ constexpr int kNone = -1;
 constexpr int kApart = 6;               // cells between gates of one stretch, at least
 constexpr std::size_t kNeighbours = 6;  // of a node, that straight edges are tried to
 
-class Builder {
- public:
-  Builder(const DistanceField& field, const CornerWindow& window, const TravelCost& cost)
-      : field_(field),
-        window_(window),
-        cost_(cost),
-        figure_{window.columns(), window.rows(), {}},
-        around_{1,  figure_.columns + 1,  figure_.columns,  figure_.columns - 1,
-                -1, -figure_.columns - 1, -figure_.columns, -figure_.columns + 1} {
-    figure_.room.resize(static_cast<std::size_t>(figure_.columns) * figure_.rows);
-    for (int y = 0; y < figure_.rows; ++y) {
-      for (int x = 0; x < figure_.columns; ++x)
-        figure_.room[y * figure_.columns + x] = room(x + window_.x0, y + window_.y0);
-    }
-  }
+/// One line of the skeleton, as it is followed.
+struct Line {
+  std::vector<Vector2> between;
+  double cost_m = 0.0;
+};
 
-  SkeletonTile run(const std::vector<int>& anchors) {
+}  // namespace
+
+class SkeletonTiler::Builder {
+ public:
+  Builder(const DistanceField& field, const TravelCost& cost) : field_(field), cost_(cost) {}
+
+  SkeletonTile run(const CornerWindow& window, const std::vector<int>& anchors) {
+    look_at(window);
     add_gates();
     for (const int anchor : anchors) {
       const int place = place_of(anchor);
@@ -39,16 +36,33 @@ class Builder {
     }
     std::sort(nodes_.begin(), nodes_.end());
     nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
-    const bool open = *std::min_element(figure_.room.begin(), figure_.room.end()) >= 0.0f;
     index_.assign(figure_.room.size(), kNone);
     for (std::size_t i = 0; i < nodes_.size(); ++i) index_[nodes_[i]] = static_cast<int>(i);
-    if (!open && !nodes_.empty()) trace(thinned(figure_, nodes_));
-    add_straight_edges(open ? nodes_.size() : kNeighbours);
+    if (!is_open_ && !nodes_.empty()) trace(thinning_.run(figure_, nodes_));
+    add_straight_edges(is_open_ ? nodes_.size() : kNeighbours);
     for (const int node : nodes_) tile_.nodes.push_back(number_of(node));
-    return std::move(tile_);
+    return std::exchange(tile_, {});
   }
 
  private:
+  void look_at(const CornerWindow& window) {
+    window_ = window;
+    const int columns = window.columns();
+    figure_.columns = columns;
+    figure_.rows = window.rows();
+    around_ = {1, columns + 1, columns, columns - 1, -1, -columns - 1, -columns, -columns + 1};
+    nodes_.clear();
+    figure_.room.resize(static_cast<std::size_t>(columns) * figure_.rows);
+    is_open_ = true;
+    float* place = figure_.room.data();
+    for (int y = window.y0; y <= window.y1; ++y) {
+      for (int x = window.x0; x <= window.x1; ++x, ++place) {
+        *place = room(x, y);
+        is_open_ = is_open_ && *place >= 0.0f;
+      }
+    }
+  }
+
   /// Of a corner of the field: its distance to what bars the way.
   float room(int x, int y) const {
     const double distance_m = field_.at_corner(x, y);
@@ -152,13 +166,13 @@ class Builder {
 
   /// From a node to the next one; what is between has been there then.
   void follow(int node, int next, std::vector<std::uint8_t>& skeleton) {
-    SkeletonTile::Edge edge{index_[node], kNone, {}, 0.0};
+    Line line;
     int last = node;
     for (int before = kNone;;) {
-      add_step(last, next, edge);
+      add_step(last, next, line);
       if (is_node(next)) break;
       skeleton[next] = 0;
-      edge.between.push_back(position(next));
+      line.between.push_back(position(next));
       before = std::exchange(last, next);
       next = kNone;
       visit_neighbours(last, [&](int other) {
@@ -167,29 +181,29 @@ class Builder {
       });
       if (next == kNone) return;
     }
-    edge.to = index_[next];
-    if (edge.to != edge.from && std::isfinite(edge.cost_m)) tile_.edges.push_back(std::move(edge));
+    if (next != node && std::isfinite(line.cost_m))
+      tile_.edges.push_back({index_[node], index_[next], std::move(line.between), line.cost_m});
   }
 
   /// Where a diagonal step comes too close to obstacles between its ends, it goes by way of the
   /// roomier one of the two other corners of the cell.
-  void add_step(int from, int to, SkeletonTile::Edge& edge) const {
+  void add_step(int from, int to, Line& line) const {
     const int dx = to % figure_.columns - from % figure_.columns;
     const int dy = to / figure_.columns - from / figure_.columns;
     const double step_m = field_.resolution_m();
     if (dx == 0 || dy == 0) {
-      edge.cost_m += step_m * 0.5 * (cost_at(from) + cost_at(to));
+      line.cost_m += step_m * 0.5 * (cost_at(from) + cost_at(to));
       return;
     }
     const bool roomy = std::min(figure_.room[from], figure_.room[to]) >=
                        cost_.options().required_clearance_m + step_m;
     if (roomy || cost_.of_line(position(from), position(to)) < TravelCost::kInfinity) {
-      edge.cost_m += M_SQRT2 * step_m * 0.5 * (cost_at(from) + cost_at(to));
+      line.cost_m += M_SQRT2 * step_m * 0.5 * (cost_at(from) + cost_at(to));
       return;
     }
     const int aside = figure_.room[from + dx] > figure_.room[to - dx] ? from + dx : to - dx;
-    edge.cost_m += step_m * (0.5 * cost_at(from) + cost_at(aside) + 0.5 * cost_at(to));
-    edge.between.push_back(position(aside));
+    line.cost_m += step_m * (0.5 * cost_at(from) + cost_at(aside) + 0.5 * cost_at(to));
+    line.between.push_back(position(aside));
   }
 
   /// Between nodes one of which is among the nearest of the other.
@@ -215,20 +229,24 @@ class Builder {
   }
 
   const DistanceField& field_;
-  const CornerWindow window_;
   const TravelCost& cost_;
-  RoomRaster figure_;
-  const std::array<int, 8> around_;
-  std::vector<int> nodes_;  // places of the figure
-  std::vector<int> index_;  // of each place among the nodes, or kNone
+  CornerWindow window_{};
+  RoomRaster figure_{};
+  bool is_open_ = true;  // nothing bars any place
+  Thinning thinning_;
+  std::array<int, 8> around_{};  // a place
+  std::vector<int> nodes_;       // places of the figure
+  std::vector<int> index_;       // of each place among the nodes, or kNone
   SkeletonTile tile_;
 };
 
-}  // namespace
+SkeletonTiler::SkeletonTiler(const DistanceField& field, const TravelCost& cost)
+    : builder_(std::make_unique<Builder>(field, cost)) {}
 
-SkeletonTile skeleton_tile(const DistanceField& field, const CornerWindow& window,
-                           const TravelCost& cost, const std::vector<int>& anchors) {
-  return Builder(field, window, cost).run(anchors);
+SkeletonTiler::~SkeletonTiler() = default;
+
+SkeletonTile SkeletonTiler::tile(const CornerWindow& window, const std::vector<int>& anchors) {
+  return builder_->run(window, anchors);
 }
 
 }  // namespace mocha

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "topology/roadmaps/shared_corners.h"
 #include "topology/static_map/travel_cost.h"
 #include "world/corner_window.h"
 #include "world/distance_field.h"
@@ -16,18 +18,29 @@ namespace mocha {
 /// of its tiles.
 struct SkeletonTile {
   struct Edge {
-    int from;                      ///< index of a node
-    int to;                        ///< of another one
-    std::vector<Vector2> between;  ///< corners from one to the other, ends left out
+    int from;                        ///< index of a node
+    int to;                          ///< of another one
+    SharedCorners<Vector2> between;  ///< of the line from one to the other, ends left out
     double cost_m;
   };
   std::vector<int> nodes;  ///< numbers of corners: y * columns of the field + x
   std::vector<Edge> edges;
 };
 
-/// `anchors`: numbers of corners of the window that are to be nodes, if one may be there at all.
-/// Besides the skeleton, nodes that see each other have straight edges to the nearest of them.
-SkeletonTile skeleton_tile(const DistanceField& field, const CornerWindow& window,
-                           const TravelCost& cost, const std::vector<int>& anchors);
+/// Makes one tile after the other, in the same memory.
+class SkeletonTiler {
+ public:
+  /// Keeps references to both.
+  SkeletonTiler(const DistanceField& field, const TravelCost& cost);
+  ~SkeletonTiler();
+
+  /// `anchors`: numbers of corners of the window that are to be nodes, if one may be there at all.
+  /// Besides the skeleton, nodes that see each other have straight edges to the nearest of them.
+  SkeletonTile tile(const CornerWindow& window, const std::vector<int>& anchors);
+
+ private:
+  class Builder;
+  std::unique_ptr<Builder> builder_;
+};
 
 }  // namespace mocha

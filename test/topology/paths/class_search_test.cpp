@@ -293,7 +293,7 @@ TEST(ClassSearch, GoesNowhereFromTheStartToAGoalAtTheSamePlace) {
 TEST(ClassSearch, WorksInSpace) {
   Roadmap<3> roadmap;
   roadmap.nodes = {{{0.0, 0.0, 1.0}, 1.0}, {{10.0, 0.0, 1.0}, 1.0}};
-  roadmap.edges = {{0, 1, {{5.0, 0.0, 1.0}}, 10.0, 1.0}, {0, 1, {{5.0, 0.0, 5.0}}, 13.0, 1.0}};
+  roadmap.edges = {{0, 1, {{{5.0, 0.0, 1.0}}}, 10.0, 1.0}, {0, 1, {{{5.0, 0.0, 5.0}}}, 13.0, 1.0}};
   const Cuts<3> window(
       {Loop{{{5.0, -1.0, 0.0}, {5.0, 1.0, 0.0}, {5.0, 1.0, 2.0}, {5.0, -1.0, 2.0}}}});
   EXPECT_EQ(shortest_classes<3>(roadmap, window, {6, 2.0}).size(), 2u);

@@ -71,7 +71,9 @@ Roadmap<2> random_roadmap(int seed, int nodes, int edges) {
   std::uniform_int_distribution<int> node(0, nodes - 1);
   for (int i = 0; i < edges; ++i) {
     Roadmap<2>::Edge edge{node(random), node(random), {}, 0.0, uniform(random, 0.3, 1.0)};
-    for (int k = i % 3; k > 0; --k) edge.between.push_back(point());
+    std::vector<Vector2> between;
+    for (int k = i % 3; k > 0; --k) between.push_back(point());
+    edge.between = std::move(between);
     const auto line = line_of(roadmap, edge);
     for (std::size_t k = 1; k < line.size(); ++k)
       edge.length_m += uniform(random, 1.0, 1.2) * (line[k] - line[k - 1]).norm();
@@ -137,7 +139,7 @@ TEST(RoadmapSimplification, ContractionLeavesNoDeadEndsAndNoNodesThatAreOnlyPass
 TEST(RoadmapSimplification, ContractionTakesTheLeastClearanceAlong) {
   Roadmap<2> chain;
   chain.nodes = {{{0.0, 0.0}, 1.0}, {{3.0, 0.0}, 1.0}, {{1.0, 0.0}, 1.0}, {{2.0, 0.0}, 1.0}};
-  chain.edges = {{2, 0, {{0.5, 0.1}}, 1.0, 0.9}, {3, 2, {}, 1.5, 0.4}, {3, 1, {}, 1.25, 0.7}};
+  chain.edges = {{2, 0, {{{0.5, 0.1}}}, 1.0, 0.9}, {3, 2, {}, 1.5, 0.4}, {3, 1, {}, 1.25, 0.7}};
   const Roadmap<2> edge = contracted(chain);
   ASSERT_EQ(edge.nodes.size(), 2u);
   ASSERT_EQ(edge.edges.size(), 1u);
@@ -172,13 +174,13 @@ TEST(RoadmapSimplification, PricesMoveWhatIsALittleTooCloseButNotFarther) {
       Eigen::AlignedBox2d(Vector2(0.0, 0.0), Vector2(10.0, 8.0)));
   Roadmap<2> roadmap;
   roadmap.nodes = {{park.start, 1.0}, {park.goal, 1.0}, {{3.8, 4.0}, 0.2}, {{5.0, 6.0}, 1.0}};
-  roadmap.edges = {{0, 2, {}, 0.0, 0.0}, {0, 3, {{3.5, 5.5}, {5.0, 5.25}}, 0.0, 0.0}};
+  roadmap.edges = {{0, 2, {}, 0.0, 0.0}, {0, 3, {{{3.5, 5.5}, {5.0, 5.25}}}, 0.0, 0.0}};
   price(roadmap, park.cost());
   ASSERT_EQ(roadmap.edges.size(), 2u);
   EXPECT_NEAR((roadmap.nodes[2].position - Vector2(3.68, 4.0)).norm(), 0.0, 1e-9);
   EXPECT_EQ(roadmap.nodes[3].position, Vector2(5.0, 6.0));
-  EXPECT_EQ(roadmap.edges[1].between[0], Vector2(3.5, 5.5));
-  EXPECT_NEAR((roadmap.edges[1].between[1] - Vector2(5.0, 5.32)).norm(), 0.0, 1e-9);
+  EXPECT_EQ(roadmap.edges[1].between.points()[0], Vector2(3.5, 5.5));
+  EXPECT_NEAR((roadmap.edges[1].between.points()[1] - Vector2(5.0, 5.32)).norm(), 0.0, 1e-9);
 }
 
 TEST(RoadmapSimplification, ShortcutsAreFreeAndMakeNoClassLonger) {

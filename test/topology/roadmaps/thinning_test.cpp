@@ -60,9 +60,9 @@ TEST(Thinning, ADiscBecomesAPointAndARingALoop) {
       if (away > 4.0f && away < 9.0f) ring.room[y * 21 + x] = 2.5f - std::abs(away - 6.5f);
     }
   }
-  EXPECT_EQ(count(thinned(disc, {})), 1);
-  EXPECT_EQ(thinned(disc, {})[10 * 21 + 10], 1);  // where there is most room
-  const auto loop = thinned(ring, {});
+  EXPECT_EQ(count(Thinning().run(disc, {})), 1);
+  EXPECT_EQ(Thinning().run(disc, {})[10 * 21 + 10], 1);  // where there is most room
+  const auto loop = Thinning().run(ring, {});
   for (int y = 0; y < 21; ++y) {
     for (int x = 0; x < 21; ++x) {
       if (!loop[y * 21 + x]) continue;
@@ -81,7 +81,7 @@ TEST(Thinning, BetweenAnchorsALineInTheMiddleRemains) {
   for (int y = 0; y < 9; ++y) {
     for (int x = 0; x < 30; ++x) hall.room[y * 30 + x] = static_cast<float>(std::min(y, 8 - y));
   }
-  const auto line = thinned(hall, {4 * 30, 4 * 30 + 29});
+  const auto line = Thinning().run(hall, {4 * 30, 4 * 30 + 29});
   EXPECT_EQ(count(line), 30);
   for (int x = 0; x < 30; ++x) EXPECT_EQ(line[4 * 30 + x], 1);
 }
@@ -98,7 +98,7 @@ TEST(Thinning, KeepsPiecesHolesAndAnchorsAndNothingMore) {
     for (int place = 0; place < 24 * 18 && anchors.size() < 5; place += 79) {
       if (before[place]) anchors.push_back(place);
     }
-    const auto after = thinned(figure, anchors);
+    const auto after = Thinning().run(figure, anchors);
     for (std::size_t i = 0; i < after.size(); ++i) ASSERT_LE(after[i], before[i]);
     for (const int anchor : anchors) EXPECT_EQ(after[anchor], 1);
     EXPECT_EQ(pieces(after, 24, 1, true), pieces(before, 24, 1, true)) << trial;
@@ -109,22 +109,22 @@ TEST(Thinning, KeepsPiecesHolesAndAnchorsAndNothingMore) {
       return wider;
     };
     EXPECT_EQ(pieces(framed(after), 26, 0, false), pieces(framed(before), 26, 0, false)) << trial;
-    const auto again = thinned({24, 18,
-                                [&] {
-                                  std::vector<float> room = figure.room;
-                                  for (std::size_t i = 0; i < room.size(); ++i) {
-                                    if (!after[i]) room[i] = -1.0f;
-                                  }
-                                  return room;
-                                }()},
-                               anchors);
+    const auto again = Thinning().run({24, 18,
+                                       [&] {
+                                         std::vector<float> room = figure.room;
+                                         for (std::size_t i = 0; i < room.size(); ++i) {
+                                           if (!after[i]) room[i] = -1.0f;
+                                         }
+                                         return room;
+                                       }()},
+                                      anchors);
     EXPECT_EQ(again, after) << trial;
   }
 }
 
 TEST(Thinning, OfNothingIsNothing) {
-  EXPECT_TRUE(thinned({0, 0, {}}, {}).empty());
-  EXPECT_EQ(count(thinned(raster(5, 5), {})), 0);
+  EXPECT_TRUE(Thinning().run({0, 0, {}}, {}).empty());
+  EXPECT_EQ(count(Thinning().run(raster(5, 5), {})), 0);
 }
 
 }  // namespace

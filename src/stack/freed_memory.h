@@ -1,0 +1,11 @@
+#pragma once
+
+namespace mocha {
+
+/// Lets the process keep memory that it has freed, instead of returning it to the system at once:
+/// plans and maps need the like of it again, and each page that is handed out anew has to be
+/// mapped and cleared first, which can take longer than the work on it. Where the C library has no
+/// such setting, this does nothing.
+void keep_freed_memory();
+
+}  // namespace mocha
