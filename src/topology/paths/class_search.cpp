@@ -4,7 +4,6 @@
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <queue>
 #include <stdexcept>
 #include <string>
@@ -20,7 +19,6 @@ constexpr int kSignatures = 4;      // of one node that are looked at, for each 
 
 /// One direction of an edge, without its shape.
 struct Arc {
-  int from;
   int to;
   int edge;
   double length_m;
@@ -29,11 +27,14 @@ struct Arc {
 /// Arcs by the node that they lead from.
 class Arcs {
  public:
-  Arcs(std::size_t nodes, const std::vector<Arc>& arcs) : first_(nodes + 1, 0), arcs_(arcs.size()) {
-    for (const Arc& arc : arcs) ++first_[arc.from + 1];
+  /// `visit` calls what it is given with (from, arc) for each arc; it is called twice.
+  template <typename Visit>
+  Arcs(std::size_t nodes, const Visit& visit) : first_(nodes + 1, 0) {
+    visit([&](int from, const Arc&) { ++first_[from + 1]; });
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    arcs_.resize(first_.back());
     std::vector<int> next(first_.begin(), first_.end() - 1);
-    for (const Arc& arc : arcs) arcs_[next[arc.from]++] = arc;
+    visit([&](int from, const Arc& arc) { arcs_[next[from]++] = arc; });
   }
 
   std::size_t nodes() const { return first_.size() - 1; }
@@ -42,46 +43,41 @@ class Arcs {
   int first(int node) const { return first_[node]; }
   const Arc& operator[](int number) const { return arcs_[number]; }
 
-  /// The arcs that lead to each node.
-  Arcs reversed() const {
-    std::vector<Arc> back = arcs_;
-    for (Arc& arc : back) std::swap(arc.from, arc.to);
-    return Arcs(nodes(), back);
-  }
-
  private:
   std::vector<int> first_;
   std::vector<Arc> arcs_;
 };
 
+/// Each edge in both directions.
 template <int D>
 Arcs arcs_of(const Roadmap<D>& roadmap, const Cuts<D>&) {
-  std::vector<Arc> arcs;
-  arcs.reserve(2 * roadmap.edges.size());
-  for (std::size_t i = 0; i < roadmap.edges.size(); ++i) {
-    const auto& edge = roadmap.edges[i];
-    arcs.push_back({edge.from, edge.to, static_cast<int>(i), edge.length_m});
-    arcs.push_back({edge.to, edge.from, static_cast<int>(i), edge.length_m});
-  }
-  return Arcs(roadmap.nodes.size(), arcs);
+  return Arcs(roadmap.nodes.size(), [&](const auto& add) {
+    for (std::size_t i = 0; i < roadmap.edges.size(); ++i) {
+      const auto& edge = roadmap.edges[i];
+      add(edge.from, {edge.to, static_cast<int>(i), edge.length_m});
+      add(edge.to, {edge.from, static_cast<int>(i), edge.length_m});
+    }
+  });
+}
+
+/// Each edge in the directions that are in order; turned round where `back` is set.
+template <int D>
+Arcs arcs_of(const Roadmap<D>& roadmap, const SampledSpace<D>& space, bool back = false) {
+  return Arcs(roadmap.nodes.size(), [&](const auto& add) {
+    const auto add_if_in_order = [&](int from, int to, std::size_t i) {
+      if (!space.in_order(roadmap.nodes[from].position, roadmap.nodes[to].position)) return;
+      if (back) std::swap(from, to);
+      add(from, {to, static_cast<int>(i), roadmap.edges[i].length_m});
+    };
+    for (std::size_t i = 0; i < roadmap.edges.size(); ++i) {
+      add_if_in_order(roadmap.edges[i].from, roadmap.edges[i].to, i);
+      add_if_in_order(roadmap.edges[i].to, roadmap.edges[i].from, i);
+    }
+  });
 }
 
 template <int D>
-Arcs arcs_of(const Roadmap<D>& roadmap, const SampledSpace<D>& space) {
-  std::vector<Arc> arcs;
-  const auto add = [&](int from, int to, std::size_t edge) {
-    if (space.in_order(roadmap.nodes[from].position, roadmap.nodes[to].position))
-      arcs.push_back({from, to, static_cast<int>(edge), roadmap.edges[edge].length_m});
-  };
-  for (std::size_t i = 0; i < roadmap.edges.size(); ++i) {
-    add(roadmap.edges[i].from, roadmap.edges[i].to, i);
-    add(roadmap.edges[i].to, roadmap.edges[i].from, i);
-  }
-  return Arcs(roadmap.nodes.size(), arcs);
-}
-
-template <int D>
-SignatureKey key_along(const Arc& arc, const Roadmap<D>& roadmap, const Cuts<D>& cuts) {
+SignatureKey key_along(int from, const Arc& arc, const Roadmap<D>& roadmap, const Cuts<D>& cuts) {
   const auto& edge = roadmap.edges[arc.edge];
   SignatureKey key = 0;
   typename Roadmap<D>::Point last = roadmap.nodes[edge.from].position;
@@ -90,12 +86,13 @@ SignatureKey key_along(const Arc& arc, const Roadmap<D>& roadmap, const Cuts<D>&
     last = point;
   }
   key += key_of<D>(cuts, last, roadmap.nodes[edge.to].position);
-  return edge.from == arc.from ? key : SignatureKey(0) - key;
+  return edge.from == from ? key : SignatureKey(0) - key;
 }
 
 template <int D>
-SignatureKey key_along(const Arc& arc, const Roadmap<D>& roadmap, const SampledSpace<D>& space) {
-  return space.key(roadmap.nodes[arc.from].position, roadmap.nodes[arc.to].position);
+SignatureKey key_along(int from, const Arc& arc, const Roadmap<D>& roadmap,
+                       const SampledSpace<D>& space) {
+  return space.key(roadmap.nodes[from].position, roadmap.nodes[arc.to].position);
 }
 
 /// Shortest distance to the goal of every node from which it is no longer than the options allow;
@@ -126,15 +123,16 @@ std::vector<double> distances_to_goal(const Arcs& back, const ClassSearchOptions
 
 /// Where each edge has an arc in both directions, the arcs are their own inverses.
 template <int D>
-std::vector<double> distances_to_goal(const Arcs& arcs, const Cuts<D>&,
+std::vector<double> distances_to_goal(const Arcs& arcs, const Roadmap<D>&, const Cuts<D>&,
                                       const ClassSearchOptions& options) {
   return distances_to_goal(arcs, options);
 }
 
 template <int D>
-std::vector<double> distances_to_goal(const Arcs& arcs, const SampledSpace<D>&,
+std::vector<double> distances_to_goal(const Arcs&, const Roadmap<D>& roadmap,
+                                      const SampledSpace<D>& space,
                                       const ClassSearchOptions& options) {
-  return distances_to_goal(arcs.reversed(), options);
+  return distances_to_goal(arcs_of(roadmap, space, true), options);
 }
 
 /// The augmented search. Steps form a tree; a path is named by its last step.
@@ -148,13 +146,14 @@ class Search {
     double length_m;
   };
 
-  using KeyOf = std::function<SignatureKey(const Arc&)>;
+  using KeyOf = std::function<SignatureKey(int from, const Arc&)>;
 
   Search(const Arcs& arcs, KeyOf key_of, std::vector<double> to_goal_m,
          const ClassSearchOptions& options)
       : arcs_(arcs),
         key_of_(std::move(key_of)),
         keys_(arcs.size()),
+        has_key_(arcs.size(), false),
         to_goal_m_(std::move(to_goal_m)),
         options_(options),
         longest_m_(std::min(options.longest_m, (1.0 + kRounding) * options.longest_ratio *
@@ -184,7 +183,7 @@ class Search {
         const Arc& arc = arcs_[i];
         const double length_m = step.length_m + arc.length_m;
         if (length_m + to_goal_m_[arc.to] > longest_m_) continue;
-        const Step next{arc.to, current, arc.edge, step.key + key(i), length_m};
+        const Step next{arc.to, current, arc.edge, step.key + key(step.node, i), length_m};
         if (!is_seen(next) && !is_on_path(next.node, current)) push(next);
       }
     }
@@ -206,9 +205,10 @@ class Search {
   }
 
   /// Of an arc; most are never asked for.
-  SignatureKey key(int arc) {
-    if (!keys_[arc]) keys_[arc] = key_of_(arcs_[arc]);
-    return *keys_[arc];
+  SignatureKey key(int from, int arc) {
+    if (!has_key_[arc]) keys_[arc] = key_of_(from, arcs_[arc]);
+    has_key_[arc] = true;
+    return keys_[arc];
   }
 
   /// Whether a node is one of those of the path to the step `last`, all of which have been seen.
@@ -222,7 +222,8 @@ class Search {
 
   const Arcs& arcs_;
   const KeyOf key_of_;
-  std::vector<std::optional<SignatureKey>> keys_;
+  std::vector<SignatureKey> keys_;  // of the arcs that have one
+  std::vector<bool> has_key_;
   const std::vector<double> to_goal_m_;
   const ClassSearchOptions options_;
   const double longest_m_;
@@ -269,8 +270,8 @@ std::vector<ClassPath<D>> search(const Roadmap<D>& roadmap, const Classes& class
   check(options);
   const Arcs arcs = arcs_of(roadmap, classes);
   Search search(
-      arcs, [&](const Arc& arc) { return key_along<D>(arc, roadmap, classes); },
-      distances_to_goal(arcs, classes, options), options);
+      arcs, [&](int from, const Arc& arc) { return key_along<D>(from, arc, roadmap, classes); },
+      distances_to_goal(arcs, roadmap, classes, options), options);
   std::vector<ClassPath<D>> paths;
   for (const int last : search.run()) paths.push_back(trace(search, last, roadmap));
   return paths;
