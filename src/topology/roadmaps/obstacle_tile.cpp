@@ -19,7 +19,7 @@ class Builder {
   ObstacleTile run() {
     for (int y = window_.y0; y <= window_.y1; ++y) {
       for (int x = window_.x0; x <= window_.x1; ++x) {
-        if (field_.at_corner(x, y) < least_gap_m_ && part_at(x, y) == kNone &&
+        if (field_.at_corner(x, y) < 0.5 * least_gap_m_ && part_at(x, y) == kNone &&
             !passable(x, y, x, y))
           spread(x, y);
       }

@@ -9,10 +9,10 @@ namespace mocha {
 namespace {
 
 constexpr int kNone = -1;
-constexpr int kNotQueued = -2;
 constexpr std::uint8_t kGone = 0;
 constexpr std::uint8_t kThere = 1;
 constexpr std::uint8_t kAnchor = 2;
+constexpr std::uint8_t kQueued = 3;
 
 /// Whether a place may go without a change to pieces and holes, by which of its eight neighbours
 /// are there; bits counter-clockwise from +x. Its 8-connectivity number (Yokoi) is 1.
@@ -42,9 +42,9 @@ void Thinning::start(const RoomRaster& figure, const std::vector<int>& anchors) 
   around_ = {1, stride_ + 1, stride_, stride_ - 1, -1, -stride_ - 1, -stride_, -stride_ + 1};
   const std::size_t places = static_cast<std::size_t>(stride_) * (figure.rows + 2);
   state_.assign(places, kGone);
-  around_it_.assign(places, 0);
+  around_it_.resize(places);
   bucket_.resize(places);
-  next_.assign(places, kNotQueued);
+  next_.resize(places);
   first_.fill(kNone);
   last_.fill(kNone);
   lowest_ = kBuckets;
@@ -57,9 +57,13 @@ void Thinning::start(const RoomRaster& figure, const std::vector<int>& anchors) 
       if (room < 0.0f) continue;
       const int place = (y + 1) * stride_ + x + 1;
       state_[place] = kThere;
-      for (int k = 0; k < 8; ++k) around_it_[place + around_[k]] |= opposite(k);
       bucket_[place] = static_cast<std::uint8_t>(scale * room);
     }
+  }
+  for (std::size_t place = stride_ + 1; place + stride_ + 1 < places; ++place) {
+    int there = 0;
+    for (int k = 0; k < 8; ++k) there |= state_[place + around_[k]] << k;
+    around_it_[place] = static_cast<std::uint8_t>(there);
   }
   for (const int anchor : anchors)
     state_[(anchor / figure.columns + 1) * stride_ + anchor % figure.columns + 1] = kAnchor;
@@ -86,7 +90,8 @@ std::vector<std::uint8_t> Thinning::run(const RoomRaster& figure, const std::vec
 }
 
 void Thinning::push(int place) {
-  if (state_[place] != kThere || next_[place] != kNotQueued || !kSimple[around_it_[place]]) return;
+  if (state_[place] != kThere || !kSimple[around_it_[place]]) return;
+  state_[place] = kQueued;
   const int bucket = bucket_[place];
   (first_[bucket] == kNone ? first_[bucket] : next_[last_[bucket]]) = place;
   last_[bucket] = place;
@@ -98,7 +103,8 @@ int Thinning::pop() {
   while (lowest_ < kBuckets && first_[lowest_] == kNone) ++lowest_;
   if (lowest_ == kBuckets) return kNone;
   const int place = first_[lowest_];
-  first_[lowest_] = std::exchange(next_[place], kNotQueued);
+  first_[lowest_] = next_[place];
+  state_[place] = kThere;
   return place;
 }
 
