@@ -77,7 +77,9 @@ bool CandidatePipeline::prove(const StartManeuver& start_maneuver,
 }
 
 void CandidatePipeline::climb(const Seed& seed, const StartManeuver& start_maneuver,
-                              const std::function<bool()>& should_stop, PlanCandidate& best) const {
+                              const std::function<bool()>& should_stop,
+                              const std::function<bool(double)>& cannot_win,
+                              PlanCandidate& best) const {
   const DriveQuery query = rules_.drive(seed, start_maneuver);
   const EffortLadder ladder = rules_.ladder();
   Effort effort;
@@ -95,14 +97,16 @@ void CandidatePipeline::climb(const Seed& seed, const StartManeuver& start_maneu
     if (slower > 1.0 && slower <= (attempt == ladder.attempts ? kSlowest : kRepairable))
       prove(start_maneuver, slowed(found, slower, query.duration_cost), tried);
     const Violation violation = tried.violation;
+    const double cost = tried.cost;
     if (tried.met <= best.met) best = std::move(tried);
-    if (best.met == rules_.wanted() || !rules_.may_be_mended(violation)) return;
+    if (best.met == rules_.wanted() || !rules_.may_be_mended(violation) || cannot_win(cost)) return;
     effort = raised(effort, violation, ladder.factor);
   }
 }
 
 PlanCandidate CandidatePipeline::optimise_and_certify(
-    const Seed& seed, const std::function<bool()>& should_stop) const {
+    const Seed& seed, const std::function<bool()>& should_stop,
+    const std::function<bool(double)>& cannot_win) const {
   PlanCandidate best;
   best.signature = seed.signature;
   best.driven = seed.driven;
@@ -111,11 +115,14 @@ PlanCandidate CandidatePipeline::optimise_and_certify(
     return should_stop() || best.work >= most_work;
   };
   for (const StartManeuver& start_maneuver : seed.start_maneuvers) {
-    climb(seed, start_maneuver, is_over, best);
+    climb(seed, start_maneuver, is_over, cannot_win, best);
     if (best.met == rules_.wanted()) break;
   }
   if (best.met != RequirementName::kNone) {
     best.reason = PlanReason::kSolved;
+  } else if (cannot_win(std::max(best.cost, seed.least_cost))) {
+    best.reason = PlanReason::kCannotWin;
+    best.cost = std::max(best.cost, seed.least_cost);
   } else {
     best.reason = is_over() ? PlanReason::kBudgetExhausted : PlanReason::kNotCertified;
   }
@@ -131,12 +138,9 @@ std::vector<PlanCandidate> CandidatePipeline::race(const std::vector<Seed>& seed
   in_parallel(seeds.size(), threads, [&](std::size_t i) {
     const Seed& seed = seeds[i];
     PlanCandidate& candidate = candidates[i];
-    const auto cannot_win = [&] { return !seed.driven && seed.least_cost >= to_beat.get(); };
-    candidate = optimise_and_certify(seed, [&] { return cannot_win() || should_stop(); });
-    if (candidate.reason == PlanReason::kBudgetExhausted && cannot_win()) {
-      candidate.reason = PlanReason::kCannotWin;
-      candidate.cost = std::max(candidate.cost, seed.least_cost);
-    }
+    const auto cannot_win = [&](double cost) { return !seed.driven && cost >= to_beat.get(); };
+    candidate = optimise_and_certify(
+        seed, [&] { return cannot_win(seed.least_cost) || should_stop(); }, cannot_win);
     if (candidate.met == rules_.wanted())
       to_beat.lower_to(seed.driven ? rule.to_beat(candidate.cost) : candidate.cost);
   });

@@ -59,9 +59,11 @@ class CandidatePipeline {
       : optimizer_(optimizer), obstacles_(obstacles), rules_(rules) {}
 
   /// Tries the start maneuvers of a seed in turn, each with rising effort, until what is wanted is
-  /// met, the work is used up, or `should_stop`. Returns the last of the best.
-  PlanCandidate optimise_and_certify(const Seed& seed,
-                                     const std::function<bool()>& should_stop) const;
+  /// met, the work is used up, or `should_stop`. Effort makes drives dearer, so it does not rise
+  /// beyond a cost that `cannot_win`. Returns the last of the best.
+  PlanCandidate optimise_and_certify(
+      const Seed& seed, const std::function<bool()>& should_stop,
+      const std::function<bool(double)>& cannot_win = [](double) { return false; }) const;
 
   /// Does so with all seeds, on up to `threads` threads; a candidate for each, in the same order.
   ///
@@ -75,7 +77,8 @@ class CandidatePipeline {
  private:
   /// The attempts after one start maneuver.
   void climb(const Seed& seed, const StartManeuver& start_maneuver,
-             const std::function<bool()>& should_stop, PlanCandidate& best) const;
+             const std::function<bool()>& should_stop,
+             const std::function<bool(double)>& cannot_win, PlanCandidate& best) const;
   /// Makes a candidate's motion of what was found, and certifies it; false where that is none.
   bool prove(const StartManeuver& start_maneuver, const OptimizedTrajectory<2, 3>& found,
              PlanCandidate& candidate) const;

@@ -137,6 +137,21 @@ TEST_F(PipelineTest, WhatCannotWinIsStoppedUnlessItIsDriven) {
   EXPECT_TRUE(raced[2].driven);
 }
 
+TEST_F(PipelineTest, TriesNoHarderBeyondACostThatCannotWin) {
+  rules_.verdicts = {{Name::kNone, violated(ViolatedTerm::kClearance, 0.1, 0.2)}};
+  double asked_of = 0.0;
+  const auto cannot_win = [&](double cost) {
+    asked_of = cost;
+    return cost > 1.0;
+  };
+  const PlanCandidate candidate =
+      pipeline_.optimise_and_certify(seed(0.0, false), kGoOn, cannot_win);
+  EXPECT_EQ(candidate.reason, PlanReason::kCannotWin);
+  EXPECT_EQ(rules_.durations_s.size(), 1u);
+  EXPECT_EQ(asked_of, candidate.cost);
+  EXPECT_EQ(candidate.violation.term, ViolatedTerm::kClearance);
+}
+
 TEST_F(PipelineTest, SaysThatItWasStopped) {
   rules_.verdicts = {{Name::kDetour, {}}};
   const auto raced = pipeline_.race({seed(0.0, false)}, {0.1, 0.0}, 1, [] { return true; });
