@@ -120,6 +120,16 @@ Sample2 sample(const Obstacle& obstacle, const Eigen::Vector2d& p) {
   return sample_of(std::get<Polygon>(obstacle), p);
 }
 
+double distance_m(const Obstacle& obstacle, const Eigen::Vector2d& p) {
+  const auto* circle = std::get_if<Circle>(&obstacle);
+  return circle ? (p - circle->centre).norm() - circle->radius_m
+                : gap(p, std::get<Polygon>(obstacle)).distance_m;
+}
+
+double distance_m(const Cylinder& cylinder, const Eigen::Vector3d& p) {
+  return sample(cylinder, p).distance_m;
+}
+
 Sample3 sample(const Cylinder& cylinder, const Eigen::Vector3d& p) {
   const Vector2 away = p.head<2>() - cylinder.centre;
   const double from_axis = away.norm();

@@ -18,6 +18,10 @@ void check(const Cylinder& cylinder);
 ObstacleField<2>::Sample sample(const Obstacle& obstacle, const Eigen::Vector2d& p);
 ObstacleField<3>::Sample sample(const Cylinder& cylinder, const Eigen::Vector3d& p);
 
+/// The distance alone.
+double distance_m(const Obstacle& obstacle, const Eigen::Vector2d& p);
+double distance_m(const Cylinder& cylinder, const Eigen::Vector3d& p);
+
 /// How far the shape is from the nearest point of a box, exact; 0 or less where they overlap.
 double distance_m(const Obstacle& obstacle, const Eigen::AlignedBox2d& box);
 double distance_m(const Cylinder& cylinder, const Eigen::AlignedBox3d& box);

@@ -112,19 +112,22 @@ auto PrimitiveField<D>::cell_box(int column, int row) const -> Box {
 template <int D>
 auto PrimitiveField<D>::sample(const Vector& p) const -> Sample {
   if (!p.allFinite()) return {kNan, Vector::Constant(kNan)};
-  Sample nearest{kInfinity, Vector::Zero()};
+  const Primitive* nearest = nullptr;
+  double nearest_m = kInfinity;
   const auto keep_nearer = [&](const Primitive& primitive) {
-    const Sample sample = mocha::sample(primitive, p);
-    if (sample.distance_m < nearest.distance_m) nearest = sample;
+    const double distance = distance_m(primitive, p);
+    if (!(distance < nearest_m)) return;
+    nearest_m = distance;
+    nearest = &primitive;
   };
   for (const Entry& entry : listed(p)) {
-    if (entry.bound_m > std::max(0.0, nearest.distance_m)) break;
+    if (entry.bound_m > std::max(0.0, nearest_m)) break;
     keep_nearer(primitives_[entry.primitive]);
   }
-  if (nearest.distance_m > listed_m_) {  // what is not listed may be as near
+  if (nearest_m > listed_m_) {  // what is not listed may be as near
     for (const Primitive& primitive : primitives_) keep_nearer(primitive);
   }
-  return nearest;
+  return nearest ? mocha::sample(*nearest, p) : Sample{kInfinity, Vector::Zero()};
 }
 
 template <int D>
@@ -157,7 +160,7 @@ double PrimitiveField<D>::room(const Vector& p, double radius_m) const {
   double nearest_m = listed_m_;  // what is not listed is farther
   for (const Entry& entry : listed(p)) {
     if (entry.bound_m >= nearest_m) break;
-    nearest_m = std::min(nearest_m, mocha::sample(primitives_[entry.primitive], p).distance_m);
+    nearest_m = std::min(nearest_m, distance_m(primitives_[entry.primitive], p));
   }
   return std::max(0.0, nearest_m - radius_m);
 }

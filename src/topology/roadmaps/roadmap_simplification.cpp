@@ -1,8 +1,9 @@
 #include "topology/roadmaps/roadmap_simplification.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "topology/paths/path_shortcutting.h"
@@ -143,7 +144,7 @@ Roadmap<2> contracted(const Roadmap<2>& roadmap) {
 void add_shortcuts(Roadmap<2>& roadmap, const TravelCost& cost) {
   const int nodes = static_cast<int>(roadmap.nodes.size());
   std::vector<std::pair<double, int>> others;
-  std::set<std::pair<int, int>> tried;  // nodes may be near each other both ways
+  std::vector<std::pair<int, int>> pairs;
   for (int i = 0; i < nodes; ++i) {
     const Vector2& from = roadmap.nodes[i].position;
     others.clear();
@@ -152,12 +153,19 @@ void add_shortcuts(Roadmap<2>& roadmap, const TravelCost& cost) {
     }
     const std::size_t near = std::min<std::size_t>(kNeighbours, others.size());
     std::partial_sort(others.begin(), others.begin() + near, others.end());
-    for (std::size_t k = 0; k < near; ++k) {
-      const int j = others[k].second;
-      if (!tried.insert(std::minmax(i, j)).second) continue;
-      const double straight = cost.of_line(from, roadmap.nodes[j].position);
-      if (std::isfinite(straight)) roadmap.edges.push_back({i, j, {}, straight, 0.0});
-    }
+    for (std::size_t k = 0; k < near; ++k) pairs.push_back(std::minmax(i, others[k].second));
+  }
+  // Nodes may be near each other both ways.
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::vector<double> costs_m(pairs.size());
+  tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
+    costs_m[k] = cost.of_line(roadmap.nodes[pairs[k].first].position,
+                              roadmap.nodes[pairs[k].second].position);
+  });
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (std::isfinite(costs_m[k]))
+      roadmap.edges.push_back({pairs[k].first, pairs[k].second, {}, costs_m[k], 0.0});
   }
 }
 
