@@ -16,7 +16,7 @@ import tempfile
 from benchmarks import benchmark
 
 KINDS = ("rooms", "corridors", "pillars", "maze", "clutter", "logs")
-SIDES_M = (30, 100)
+SIDES_M = (30, 100, 200)
 CASES = ("first", "replan", "door_closed", "unreachable")
 
 
