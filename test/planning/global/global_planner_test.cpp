@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 
 #include "planning/candidates/peer_discs.h"
-#include "planning/global/global_rules.h"
 #include "planning/worlds.h"
 #include "safety/certificate.h"
 #include "trajectory/rover_braking.h"
@@ -360,80 +358,6 @@ TEST_F(GlobalPlannerTest, ATurnAtTheGoalThatCannotBeProvedIsNotHandedOut) {
   EXPECT_EQ(result.reason, PlanReason::kNotCertified);
   EXPECT_TRUE(result.motion.empty());
   EXPECT_FALSE(result.message.empty());
-}
-
-TEST_F(GlobalPlannerTest, StopsWorkingWhenToldTo) {
-  PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-  std::atomic<int> calls{0};
-  for (const int allowed : {0, 1, 30}) {
-    calls = 0;
-    query.should_stop = [&] { return ++calls > allowed; };
-    const PlanResult result = plan(query, open_);
-    if (result.reason == PlanReason::kSolved) continue;  // was fast enough
-    EXPECT_EQ(result.reason, PlanReason::kBudgetExhausted);
-    EXPECT_TRUE(result.motion.empty());
-    EXPECT_EQ(result.message.find("no violation"), std::string::npos) << result.message;
-  }
-}
-
-TEST_F(GlobalPlannerTest, StoppedAnywhereItHasAProvedMotionOrSaysThatTimeIsUp) {
-  OccupancyGrid grid = free_grid({-2.0, -4.0}, {10.0, 4.0});
-  fill_box(grid, {3.0, -1.0}, {4.0, 1.0});
-  PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-  std::atomic<int> calls{0};
-  query.should_stop = [&] { return ++calls < 0; };
-  ASSERT_EQ(plan(query, grid).reason, PlanReason::kSolved);
-  const int all = calls;
-  int solved = 0;
-  for (int allowed = 0; allowed < all; allowed += std::max(1, all / 40)) {
-    calls = 0;
-    query.should_stop = [&] { return ++calls > allowed; };
-    const PlanResult result = plan(query, grid);
-    solved += result.reason == PlanReason::kSolved;
-    if (result.reason == PlanReason::kSolved) {
-      EXPECT_FALSE(certify_plan(result.motion, rover(), static_map_of(grid)->field(), kStart_s));
-    } else {
-      EXPECT_EQ(result.reason, PlanReason::kBudgetExhausted) << result.message;
-    }
-  }
-  EXPECT_GT(solved, 3);  // before all has been looked at
-}
-
-TEST_F(GlobalPlannerTest, StoppedAfterTheDrivenPathHasFailedItDoesNotSayThatAllHas) {
-  PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-  query.driven = plan(query, open_).motion;
-  // Nothing around has been seen, so that no motion is certified.
-  OccupancyGrid unseen = open_;
-  fill_box(unseen, {-2.0, -4.0}, {10.0, 4.0}, OccupancyGrid::kUnknown);
-  PlannerOptions options = default_options();
-  options.max_evaluations = 10;
-  options.threads = 1;
-  const GlobalPlanner planner(rover(), options);
-  const PlanningScene scene{static_map_of(open_), {}, [&] {
-                              return std::make_shared<DistanceField>(
-                                  unseen, DistanceField::Solid::kOccupiedOrUnknown);
-                            }};
-  std::atomic<int> calls{0};
-  query.should_stop = [&] { return ++calls < 0; };
-  ASSERT_EQ(planner.plan(query, scene).reason, PlanReason::kNotCertified);
-  const int all = calls;
-  for (int allowed = 0; allowed < all * 9 / 10; allowed += std::max(1, all / 50)) {
-    calls = 0;
-    query.should_stop = [&] { return ++calls > allowed; };
-    EXPECT_EQ(planner.plan(query, scene).reason, PlanReason::kBudgetExhausted) << allowed;
-  }
-}
-
-TEST_F(GlobalPlannerTest, TheWorkThatItMayTakeFollowsTheTimeLimit) {
-  PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-  query.time_limit_s = 0.5;
-  const PlanResult enough = plan(query, open_);
-  ASSERT_EQ(enough.reason, PlanReason::kSolved);
-  query.time_limit_s = 1e-5;
-  const PlanResult little = plan(query, open_);
-  for (const PlanCandidate& candidate : little.candidates)
-    EXPECT_LE(candidate.evaluations, 1);  // of the whole drive, as it has to begin somewhere
-  EXPECT_LT(little.candidates.front().work, enough.candidates.front().work);
 }
 
 TEST_F(GlobalPlannerTest, InvalidInputIsNamedAndNothingMoves) {
