@@ -7,10 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
+
+#include "topology/static_map/union_find.h"
 
 namespace mocha {
 namespace {
@@ -95,28 +96,6 @@ int entry_corner(const DistanceField& field, const Vector2& p, const TravelCost&
   return best;
 }
 
-/// Parts of all tiles, numbered one tile after the other: which ones hang together.
-class Parts {
- public:
-  explicit Parts(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-
-  int root(int part) {
-    while (parent_[part] != part) part = parent_[part] = parent_[parent_[part]];
-    return part;
-  }
-
-  void join(int a, int b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
 }  // namespace
 
 MapSkeleton::MapSkeleton(std::shared_ptr<const DistanceField> field, SkeletonTiles tiles)
@@ -172,7 +151,7 @@ std::vector<Vector2> MapSkeleton::joined_obstacles(const SkeletonTiles& tiles) {
     first.push_back(static_cast<int>(parts.size()));
     for (const ObstacleTile::Part& part : tiles[tile].obstacles.parts) parts.push_back(&part);
   }
-  Parts joined(parts.size());
+  UnionFind joined(static_cast<int>(parts.size()));
   std::unordered_map<int, int> at_corner;  // a part of those that go on there
   for (int tile = 0; tile < tiles.size(); ++tile) {
     for (const auto& [corner, part] : tiles[tile].obstacles.border) {
