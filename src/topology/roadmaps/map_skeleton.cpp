@@ -16,7 +16,6 @@
 namespace mocha {
 namespace {
 
-constexpr double kNarrowest = 0.5;   // passage that obstacles are told apart by, of the required
 constexpr std::size_t kInSight = 8;  // nodes that straight edges from start and goal are tried to
 
 /// What a metre costs from no start in particular, with nobody in the way.
@@ -125,7 +124,7 @@ bool MapSkeleton::complete(const TravelCost& cost, const std::function<bool()>& 
   SkeletonTiles made = tiles();
   if (is_complete_) return true;
   const TravelCost priced = anywhere(cost);
-  const double narrow_m = kNarrowest * options().required_clearance_m;
+  const double narrow_m = kNarrowestPassage * options().required_clearance_m;
   // Not locked: others who ask for what is made do not wait.
   tbb::parallel_for(0, made.size(), [&](int tile) {
     if (made.has(tile) || should_stop()) return;
