@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "topology/paths/lattice.h"
 #include "topology/static_map/union_find.h"
 
 namespace mocha {
@@ -78,22 +79,6 @@ class Assembly {
   std::unordered_map<int, int> node_of_;  // by the number of its corner
   std::vector<int> numbers_;              // of the nodes of a tile
 };
-
-/// The corner around p to which the straight line is cheapest; -1 if all are blocked.
-int entry_corner(const DistanceField& field, const Vector2& p, const TravelCost& cost) {
-  const Vector2 at = (p - field.origin()) / field.resolution_m();
-  int best = -1;
-  double least = TravelCost::kInfinity;
-  for (int which = 0; which < 4; ++which) {
-    const int x = std::clamp(static_cast<int>(at.x()) + which % 2, 0, field.columns() - 1);
-    const int y = std::clamp(static_cast<int>(at.y()) + which / 2, 0, field.rows() - 1);
-    const double cost_m = cost.of_line(p, field.corner(x, y));
-    if (!(cost_m < least)) continue;
-    least = cost_m;
-    best = y * field.columns() + x;
-  }
-  return best;
-}
 
 }  // namespace
 
@@ -191,8 +176,8 @@ Roadmap<2> MapSkeleton::roadmap(const TravelCost& cost, const Vector2& goal) con
   remake(goal, 0.0);
   for (const BlockedDisc& disc : cost.blocked()) remake(disc.centre, disc.radius_m);
   Assembly assembly(*field_, cost.start(), goal);
-  const std::array<int, 2> entries = {entry_corner(*field_, cost.start(), cost),
-                                      entry_corner(*field_, goal, cost)};
+  const Lattice corners(cost.static_map(), field_->resolution_m());
+  const std::array<int, 2> entries = {corners.entry(cost.start(), cost), corners.entry(goal, cost)};
   for (auto& [tile, anchors] : remade) {
     for (const int entry : entries) {
       const int x = entry % field_->columns();
