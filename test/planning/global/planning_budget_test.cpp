@@ -1,34 +1,19 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <atomic>
 #include <memory>
 
-#include "planning/global/global_planner.h"
+#include "planning/global/global_planner_fixture.h"
 #include "planning/global/global_rules.h"
-#include "planning/worlds.h"
 
 namespace mocha {
 namespace {
 
-constexpr double kStart_s = 1.7e9 + 0.25;  // what ROS time looks like
-
-/// From standing straight ahead, with little time.
-class PlanningBudget : public ::testing::Test {
+/// Straight ahead, with little time.
+class PlanningBudget : public GlobalPlannerTest {
  protected:
-  PlanningBudget() {
-    query_.start_time_s = kStart_s;
-    query_.committed = standing(kStart_s - 1.0, {0.0, 0.0}, 0.0);
-    query_.goal = {8.0, 0.0};
-  }
+  PlanResult plan(const OccupancyGrid& grid) const { return GlobalPlannerTest::plan(query_, grid); }
 
-  PlanResult plan(const OccupancyGrid& grid) const {
-    return planner_.plan(query_, {static_map_of(grid), {}});
-  }
-
-  const GlobalPlanner planner_{rover(), default_options()};
-  const OccupancyGrid open_ = free_grid({-2.0, -4.0}, {12.0, 4.0});
-  PlanQuery query_;
+  PlanQuery query_ = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
 };
 
 TEST_F(PlanningBudget, StopsWorkingWhenToldTo) {
