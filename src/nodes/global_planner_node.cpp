@@ -77,8 +77,9 @@ class GlobalPlannerNode {
         parameters_(values_,
                     [this](const ParameterTable& changed) { planning_.set_options(changed); }),
         loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }),
-        service_(node, {[this](const auto& request) { return work_on(request); },
-                        [this](const PlanResult& result) { return response_to(result); }}) {
+        service_(node,
+                 {[this](const auto& request) { return work_on(request); },
+                  [this](const PlanResult& result) { return outputs_.answer(result, now_); }}) {
     diagnostics_.setHardwareID(identity_.name);
     diagnostics_.add("planning", this, &GlobalPlannerNode::diagnose);
     ROS_INFO("%s: passes gaps of %.2f m, turns on the spot in %.2f m", identity_.name.c_str(),
@@ -185,18 +186,6 @@ class GlobalPlannerNode {
     executive_.drop();
     outputs_.adopt(Motion(), now_);
     report(PlanReason::kNoGoal, {}, why);
-  }
-
-  PlanService::Response response_to(const PlanResult& result) {
-    PlanService::Response response;
-    response.success = result.reason == PlanReason::kSolved;
-    response.status =
-        to_message(result.reason, result.violation, result.message, identity_.map_frame, now_);
-    if (!result.motion.empty()) response.trajectory = outputs_.planned(result.motion, now_);
-    for (const auto& candidate : result.candidates) {
-      response.candidates.push_back(to_message(candidate, identity_.map_frame, now_));
-    }
-    return response;
   }
 
   PlanService::Work work_on(const PlanService::Request& request) {

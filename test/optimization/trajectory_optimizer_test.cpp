@@ -4,6 +4,8 @@
 
 #include <limits>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "camouflage/camouflage_map.h"
 #include "optimization/dynamics_penalty.h"
@@ -22,8 +24,8 @@ const std::function<bool()> kGoOn = [] { return false; };
 const OptimizerOptions kUsual{400, kRelativeCost, kGoOn};
 
 /// Straight ahead from rest to rest over pieces of `spacing_m`.
-TrajectoryObjective<2, 3> straight_line(int pieces, double duration_weight,
-                                        double spacing_m = 1.0) {
+TrajectoryObjective<2, 3>::Options straight_line_options(int pieces, double duration_weight,
+                                                         double spacing_m) {
   Eigen::Matrix2Xd prey = Eigen::Matrix2Xd::Zero(2, pieces - 1);
   for (int k = 0; k + 1 < pieces; ++k) prey(0, k) = spacing_m * (k + 1);
   TrajectoryObjective<2, 3>::Options options;
@@ -37,7 +39,20 @@ TrajectoryObjective<2, 3> straight_line(int pieces, double duration_weight,
   options.metres_per_eta = 1.0;
   options.penalties.push_back(
       std::make_unique<DynamicsPenalty<2>>(1e4, kMaxSpeed, kMaxAcceleration));
-  return TrajectoryObjective<2, 3>(std::move(options));
+  return options;
+}
+
+TrajectoryObjective<2, 3> straight_line(int pieces, double duration_weight,
+                                        double spacing_m = 1.0) {
+  return TrajectoryObjective<2, 3>(straight_line_options(pieces, duration_weight, spacing_m));
+}
+
+/// Posts in turn on the left and on the right, each across the straight line.
+CircleField slalom_posts(int posts, double apart_m) {
+  std::vector<CircleField::Circle> circles;
+  for (int k = 0; k < posts; ++k)
+    circles.push_back({{apart_m * (k + 0.5), k % 2 == 0 ? -0.3 : 0.3}, 0.5});
+  return CircleField(std::move(circles));
 }
 
 Eigen::VectorXd slow_start(const TrajectoryObjective<2, 3>& objective) {
@@ -70,6 +85,29 @@ TEST(TrajectoryOptimizer, WithAModelALongCurveTakesAboutAsManyEvaluationsAsAShor
     return result.evaluations;
   };
   EXPECT_LT(evaluations(200), 2 * evaluations(10));
+}
+
+/// It does because the model gives effort far more weight than the cost does. With the true weight
+/// it would take more evaluations than without a model.
+TEST(TrajectoryOptimizer, WithAModelALongSlalomTakesFewerEvaluations) {
+  constexpr int kPosts = 10;
+  constexpr int kPiecesPerPost = 6;
+  constexpr double kSpacing_m = 0.5;
+  const CircleField posts = slalom_posts(kPosts, kPiecesPerPost * kSpacing_m);
+  const auto slalom = [&](bool model) {
+    auto options = straight_line_options(kPosts * kPiecesPerPost, 1.0, kSpacing_m);
+    options.effort_weight = 1e-2;
+    options.penalties.push_back(std::make_unique<ObstaclePenalty<2>>(
+        200.0, posts, std::vector<ObstaclePenalty<2>::Cover>{{0.0, 0.5}}, 0.05));
+    TrajectoryObjective<2, 3> objective(std::move(options));
+    return optimize<2, 3>(objective, slow_start(objective), {4000, 1e-5, kGoOn, model});
+  };
+  const auto without = slalom(false);
+  const auto with = slalom(true);
+  ASSERT_EQ(without.stop, StopReason::kConverged);
+  EXPECT_EQ(with.stop, StopReason::kConverged);
+  EXPECT_LT(2 * with.evaluations, without.evaluations);
+  EXPECT_LT(with.cost, 1.005 * without.cost);
 }
 
 TEST(TrajectoryOptimizer, WithAModelItComesToTheSameCost) {

@@ -10,81 +10,44 @@
 namespace mocha {
 namespace {
 
-constexpr int kQueue = 1000;               // updates that wait while a node is busy
-constexpr std::size_t kMostWaiting = 500;  // updates
+constexpr int kQueue = 1000;  // updates that wait while a node is busy
 
 }  // namespace
 
 MapInput::MapInput(std::string frame, std::function<void()> ask_anew)
-    : frame_(std::move(frame)), ask_anew_(std::move(ask_anew)) {}
+    : frame_(std::move(frame)), order_(std::move(ask_anew)) {}
 
 void MapInput::on_map(const nav_msgs::OccupancyGrid& map) {
   if (!is_ours(map.header, "a map")) return;
+  const std::uint64_t stamp_ns = map.header.stamp.toNSec();
   try {
     OccupancyGrid grid = from_message(map);
-    if (map.header.stamp < awaited_) return;
+    if (!order_.admits_grid(stamp_ns)) return;
     take(std::move(grid));
   } catch (const std::exception& error) {
     return refuse("a map", error.what());
   }
   ++taken_;
-  grid_stamp_ = map.header.stamp;
-  stamp_ns_ = grid_stamp_.toNSec();
-  is_waiting_ = is_asked_for_ = false;
-  awaited_ = ros::Time();
-  std::vector<map_msgs::OccupancyGridUpdate> waiting;
-  waiting.swap(waiting_);
-  for (const auto& update : waiting) apply(update);
+  stamp_ns_ = stamp_ns;
+  for (const Order::Stamped& update : order_.follow(stamp_ns)) apply(update);
 }
 
 void MapInput::on_update(const map_msgs::OccupancyGridUpdate& update) {
-  heed_order(update.header);
-  if (is_ours(update.header, "an update of a map")) apply(update);
+  const std::uint64_t stamp_ns = update.header.stamp.toNSec();
+  order_.hear(update.header.seq, stamp_ns);
+  if (!is_ours(update.header, "an update of a map")) return;
+  apply({stamp_ns, update.data.empty() && update.width == 0, update});
 }
 
-/// Asks for a grid where the updates, which are numbered, show a gap.
-void MapInput::heed_order(const std_msgs::Header& header) {
-  const bool is_first = !has_heard_;
-  const bool follows = header.seq == heard_.seq + 1 && header.stamp >= heard_.stamp;
-  has_heard_ = true;
-  heard_ = header;
-  if (is_first) {
-    ask_anew();
-  } else if (!follows) {
-    wait_for_grid();
-  }
-}
-
-void MapInput::ask_anew() {
-  is_asked_for_ = true;
-  waiting_.clear();
-  if (ask_anew_) ask_anew_();
-}
-
-void MapInput::wait_for_grid() {
-  is_waiting_ = true;
-  awaited_ = ros::Time();
-  ask_anew();
-}
-
-void MapInput::apply(const map_msgs::OccupancyGridUpdate& update) {
-  const ros::Time stamp = update.header.stamp;
-  if (is_waiting_ || is_asked_for_) waiting_.push_back(update);
-  if (waiting_.size() > kMostWaiting) ask_anew();
-  if (is_waiting_) return;
-  if (stamp <= grid_stamp_) return;  // the grid contains it
-  if (update.data.empty() && update.width == 0) {
-    is_waiting_ = true;
-    awaited_ = stamp;
-    return;
-  }
+void MapInput::apply(const Order::Stamped& stamped) {
+  if (!order_.admits(stamped)) return;
   try {
-    take(from_message(update));
+    take(from_message(stamped.update));
     ++taken_;
-    stamp_ns_ = stamp.toNSec();
+    stamp_ns_ = stamped.stamp_ns;
   } catch (const std::exception& error) {
     refuse("an update of a map", error.what());
-    wait_for_grid();
+    order_.start_over();
   }
 }
 

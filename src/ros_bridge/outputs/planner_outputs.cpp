@@ -40,6 +40,25 @@ mocha_ugv::Trajectory PlannerOutputs::planned(const Motion& motion, ros::Time no
   return message;
 }
 
+std::vector<mocha_ugv::Candidate> PlannerOutputs::messages(
+    const std::vector<PlanCandidate>& candidates, ros::Time now) const {
+  std::vector<mocha_ugv::Candidate> messages;
+  for (const PlanCandidate& candidate : candidates)
+    messages.push_back(to_message(candidate, identity_.map_frame, now));
+  return messages;
+}
+
+mocha_ugv::PlanTrajectory::Response PlannerOutputs::answer(const PlanResult& result,
+                                                           ros::Time now) const {
+  mocha_ugv::PlanTrajectory::Response response;
+  response.success = result.reason == PlanReason::kSolved;
+  response.status =
+      to_message(result.reason, result.violation, result.message, identity_.map_frame, now);
+  if (!result.motion.empty()) response.trajectory = planned(result.motion, now);
+  response.candidates = messages(result.candidates, now);
+  return response;
+}
+
 void PlannerOutputs::adopt(const Motion& motion, ros::Time now) {
   ++adopted_;
   plans_.publish(planned(motion, now));
@@ -52,9 +71,7 @@ void PlannerOutputs::show_candidates(const PlanResult& result, const Goal& goal,
   message.header.stamp = now;
   message.header.frame_id = identity_.map_frame;
   Drawing drawing(identity_.map_frame, now);
-  for (const PlanCandidate& candidate : result.candidates) {
-    message.candidates.push_back(to_message(candidate, identity_.map_frame, now));
-  }
+  message.candidates = messages(result.candidates, now);
   draw_candidates("candidates", result.candidates, drawing);
   drawing.add_goal(identity_.name, goal.position, goal.yaw_rad);
   candidates_.publish(message);

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <mocha_ugv/Candidate.h>
+#include <mocha_ugv/PlanTrajectory.h>
 #include <mocha_ugv/Trajectory.h>
 #include <ros/ros.h>
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "planning/candidates/plan_result.h"
 #include "planning/executive/goal_queue.h"
@@ -23,8 +26,8 @@ class PlannerOutputs {
 
   /// The plan that is to be driven from now on; an empty one: there is nothing to drive to.
   void adopt(const Motion& motion, ros::Time now);
-  /// A plan as message, whether adopted or not.
-  mocha_ugv::Trajectory planned(const Motion& motion, ros::Time now) const;
+  /// What the service `plan` answers; nothing is adopted.
+  mocha_ugv::PlanTrajectory::Response answer(const PlanResult& result, ros::Time now) const;
 
   void show_candidates(const PlanResult& result, const Goal& goal, ros::Time now);
 
@@ -38,6 +41,10 @@ class PlannerOutputs {
   const std::string& text() const { return text_; }
 
  private:
+  mocha_ugv::Trajectory planned(const Motion& motion, ros::Time now) const;
+  std::vector<mocha_ugv::Candidate> messages(const std::vector<PlanCandidate>& candidates,
+                                             ros::Time now) const;
+
   const RobotIdentity identity_;
   const double radius_m_;
   const Braking braking_;

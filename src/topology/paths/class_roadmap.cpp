@@ -23,9 +23,8 @@ constexpr bool kHaveApollonius = true;
 constexpr bool kHaveApollonius = false;
 #endif
 constexpr double kCircleError_m = 0.12;  // of the circles that stand for solid matter, at most
-constexpr double kNarrowest = 0.5;  // passage that obstacles are told apart by, of the required
-constexpr std::uint64_t kSeed = 1;  // of the sampled roadmap
-constexpr double kReach_m = 20.0;   // its edges are no longer
+constexpr std::uint64_t kSeed = 1;       // of the sampled roadmap
+constexpr double kReach_m = 20.0;        // its edges are no longer
 
 /// A path that begins inside may leave.
 double radius_of(const BlockedDisc& disc, const TravelCost& cost) {
@@ -37,7 +36,7 @@ std::vector<ObstacleGroup> groups_of(const TravelCost& cost) {
   // What one starts between can be passed, though it be too narrow elsewhere.
   const double start_m = cost.static_map().field().sample(cost.start()).distance_m;
   std::vector<ObstacleGroup> groups =
-      cost.static_map().groups(std::clamp(start_m, kNarrowest * required_m, required_m));
+      cost.static_map().groups(std::clamp(start_m, kNarrowestPassage * required_m, required_m));
   for (const BlockedDisc& disc : cost.blocked()) {
     const double radius_m = radius_of(disc, cost) - required_m;
     groups.push_back({disc.centre, {{disc.centre, std::max(0.0, radius_m)}}});
@@ -73,7 +72,7 @@ Roadmap<2> rough_roadmap(const TravelCost& cost, const std::vector<ObstacleGroup
 #ifdef MOCHA_WITH_CGAL
   if (apollonius) {
     const double required_m = cost.options().required_clearance_m;
-    const double relaxed_m = std::max(kNarrowest * required_m, required_m - kCircleError_m);
+    const double relaxed_m = std::max(kNarrowestPassage * required_m, required_m - kCircleError_m);
     return apollonius_roadmap(groups, cost.static_map().bounds(), cost.start(), goal,
                               {relaxed_m, cost.options().escape_radius_m});
   }

@@ -28,7 +28,7 @@ class LatticeSearch {
 
   /// Start, nodes between, goal; nothing if there is no path.
   std::vector<Vector2> run(const Vector2& start, const Vector2& goal) {
-    const int to = entry_node(goal);
+    const int to = lattice_.entry(goal, cost_);
     if (to < 0) return {};
     std::vector<Vector2> points =
         search(start, to, nullptr, std::numeric_limits<double>::infinity());
@@ -51,7 +51,7 @@ class LatticeSearch {
   };
 
   std::vector<Vector2> search(const Vector2& start, int to, const Suits& suits, double most_m) {
-    const int from = entry_node(start);
+    const int from = lattice_.entry(start, cost_);
     if (from < 0) return {};
     best_.assign(lattice_.size(), std::numeric_limits<float>::infinity());
     parent_.assign(lattice_.size(), -1);
@@ -70,21 +70,6 @@ class LatticeSearch {
       expand(entry.node, to);
     }
     return {};
-  }
-
-  /// The node around p to which the straight line is cheapest; -1 if all are blocked.
-  int entry_node(const Vector2& p) const {
-    int best = -1;
-    double least = TravelCost::kInfinity;
-    for (int corner = 0; corner < 4; ++corner) {
-      const int node = lattice_.corner(p, corner);
-      const double cost = cost_.of_line(p, position(node));
-      if (cost < least) {
-        least = cost;
-        best = node;
-      }
-    }
-    return best;
   }
 
   Vector2 position(int node) const { return lattice_.position(node); }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "topology/static_map/static_map.h"
+#include "topology/static_map/travel_cost.h"
 
 namespace mocha {
 
@@ -33,6 +33,21 @@ class Lattice {
     const int x = std::clamp(static_cast<int>(at.x()) + which % 2, 0, columns_ - 1);
     const int y = std::clamp(static_cast<int>(at.y()) + which / 2, 0, rows_ - 1);
     return y * columns_ + x;
+  }
+
+  /// That corner of the square that holds p to which the straight line is cheapest; -1 if all are
+  /// blocked.
+  int entry(const Vector2& p, const TravelCost& cost) const {
+    int best = -1;
+    double least = TravelCost::kInfinity;
+    for (int which = 0; which < 4; ++which) {
+      const int node = corner(p, which);
+      const double cost_m = cost.of_line(p, position(node));
+      if (!(cost_m < least)) continue;
+      least = cost_m;
+      best = node;
+    }
+    return best;
   }
 
   int nearest(const Vector2& p) const {

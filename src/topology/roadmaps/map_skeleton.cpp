@@ -8,15 +8,16 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
+#include "topology/paths/lattice.h"
+#include "topology/static_map/union_find.h"
+
 namespace mocha {
 namespace {
 
-constexpr double kNarrowest = 0.5;   // passage that obstacles are told apart by, of the required
 constexpr std::size_t kInSight = 8;  // nodes that straight edges from start and goal are tried to
 
 /// What a metre costs from no start in particular, with nobody in the way.
@@ -86,44 +87,6 @@ class Assembly {
   std::vector<int> numbers_;              // of the nodes of a tile
 };
 
-/// The corner around p to which the straight line is cheapest; -1 if all are blocked.
-int entry_corner(const DistanceField& field, const Vector2& p, const TravelCost& cost) {
-  const Vector2 at = (p - field.origin()) / field.resolution_m();
-  int best = -1;
-  double least = TravelCost::kInfinity;
-  for (int which = 0; which < 4; ++which) {
-    const int x = std::clamp(static_cast<int>(at.x()) + which % 2, 0, field.columns() - 1);
-    const int y = std::clamp(static_cast<int>(at.y()) + which / 2, 0, field.rows() - 1);
-    const double cost_m = cost.of_line(p, field.corner(x, y));
-    if (!(cost_m < least)) continue;
-    least = cost_m;
-    best = y * field.columns() + x;
-  }
-  return best;
-}
-
-/// Parts of all tiles, numbered one tile after the other: which ones hang together.
-class Parts {
- public:
-  explicit Parts(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-
-  int root(int part) {
-    while (parent_[part] != part) part = parent_[part] = parent_[parent_[part]];
-    return part;
-  }
-
-  void join(int a, int b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
 }  // namespace
 
 MapSkeleton::MapSkeleton(std::shared_ptr<const DistanceField> field, SkeletonTiles tiles)
@@ -153,7 +116,7 @@ bool MapSkeleton::complete(const TravelCost& cost, const std::function<bool()>& 
   SkeletonTiles made = tiles();
   if (is_complete_) return true;
   const TravelCost priced = anywhere(cost);
-  const double narrow_m = kNarrowest * options().required_clearance_m;
+  const double narrow_m = kNarrowestPassage * options().required_clearance_m;
   // Not locked: others who ask for what is made do not wait.
   tbb::parallel_for(tbb::blocked_range<int>(0, made.size()), [&](const auto& range) {
     SkeletonTiler tiler(*field_, priced);
@@ -181,7 +144,7 @@ std::vector<Vector2> MapSkeleton::joined_obstacles(const SkeletonTiles& tiles) {
     first.push_back(static_cast<int>(parts.size()));
     for (const ObstacleTile::Part& part : tiles[tile].obstacles.parts) parts.push_back(&part);
   }
-  Parts joined(parts.size());
+  UnionFind joined(static_cast<int>(parts.size()));
   std::unordered_map<int, int> at_corner;  // a part of those that go on there
   for (int tile = 0; tile < tiles.size(); ++tile) {
     for (const auto& [corner, part] : tiles[tile].obstacles.border) {
@@ -222,8 +185,8 @@ Roadmap<2> MapSkeleton::roadmap(const TravelCost& cost, const Vector2& goal) con
   remake(goal, 0.0);
   for (const BlockedDisc& disc : cost.blocked()) remake(disc.centre, disc.radius_m);
   Assembly assembly(*field_, cost.start(), goal);
-  const std::array<int, 2> entries = {entry_corner(*field_, cost.start(), cost),
-                                      entry_corner(*field_, goal, cost)};
+  const Lattice corners(cost.static_map(), field_->resolution_m());
+  const std::array<int, 2> entries = {corners.entry(cost.start(), cost), corners.entry(goal, cost)};
   for (auto& [tile, anchors] : remade) {
     for (const int entry : entries) {
       const int x = entry % field_->columns();

@@ -17,7 +17,6 @@ namespace {
 using Point = Eigen::Vector3d;
 
 constexpr int kSpare = 2;           // paths that are shortened, for each one that is kept
-constexpr double kNarrowest = 0.5;  // passage that obstacles are told apart by, of the required
 constexpr double kFinest_m = 1e-3;  // such a passage, at least
 
 /// Without a look at how exactly it moves.
@@ -156,7 +155,7 @@ Cuts<2> cuts_within(const StaticMap& static_map, const Eigen::AlignedBox2d& reac
   // What one starts between can be passed, though it be too narrow elsewhere.
   const double required_m = options.required_clearance_m;
   const double start_m = static_map.field().sample(start).distance_m;
-  const double passage_m = std::clamp(start_m, kNarrowest * required_m, required_m);
+  const double passage_m = std::clamp(start_m, kNarrowestPassage * required_m, required_m);
   std::vector<Vector2> representatives;
   for (const ObstacleGroup& group : static_map.groups_within(reach, std::max(kFinest_m, passage_m)))
     representatives.push_back(group.representative);

@@ -8,14 +8,14 @@ namespace mocha {
 
 Connectivity::Connectivity(const DistanceField& field, double clearance_m)
     : origin_(field.origin()), resolution_m_(field.resolution_m()) {
+  UnionFind sets;  // of runs
   rows_.reserve(field.rows() + 1);
   rows_.push_back(0);
-  for (int y = 0; y < field.rows(); ++y) add_row(field, y, static_cast<float>(clearance_m));
-  // Flat trees: a query follows one step.
-  for (int i = 0; i < static_cast<int>(runs_.size()); ++i) runs_[i].parent = root(i);
+  for (int y = 0; y < field.rows(); ++y) add_row(field, y, static_cast<float>(clearance_m), sets);
+  for (int i = 0; i < sets.size(); ++i) runs_[i].component = sets.root(i);
 }
 
-void Connectivity::add_row(const DistanceField& field, int y, float least_m) {
+void Connectivity::add_row(const DistanceField& field, int y, float least_m, UnionFind& sets) {
   int before = y > 0 ? rows_[y - 1] : 0;
   const int begin = rows_[y];
   for (int x = 0; x < field.columns();) {
@@ -23,28 +23,16 @@ void Connectivity::add_row(const DistanceField& field, int y, float least_m) {
       ++x;
       continue;
     }
-    const int run = static_cast<int>(runs_.size());
+    const int run = sets.size();
+    sets.add();
     const int first = x;
     while (x < field.columns() && field.at_corner(x, y) >= least_m) ++x;
     runs_.push_back({first, x - 1, run});
     // Those below that end left of this one touch no later one, either.
     while (before < begin && runs_[before].last < first - 1) ++before;
-    for (int i = before; i < begin && runs_[i].first <= x; ++i) join(i, run);
+    for (int i = before; i < begin && runs_[i].first <= x; ++i) sets.join(i, run);
   }
   rows_.push_back(static_cast<int>(runs_.size()));
-}
-
-int Connectivity::root(int run) const {
-  while (runs_[run].parent != run) run = runs_[run].parent;
-  return run;
-}
-
-void Connectivity::join(int a, int b) {
-  const int low = root(a);
-  const int other = root(b);
-  // The older root stays; both paths get shorter for the next time.
-  const auto [to, from] = std::minmax(low, other);
-  runs_[from].parent = runs_[a].parent = runs_[b].parent = to;
 }
 
 std::vector<int> Connectivity::components_at(const Vector2& place) const {
@@ -59,7 +47,7 @@ std::vector<int> Connectivity::components_at(const Vector2& place) const {
     const auto end = runs_.begin() + rows_[y + 1];
     auto run = std::partition_point(runs_.begin() + rows_[y], end,
                                     [&](const Run& each) { return each.last < x; });
-    for (; run != end && run->first <= x + 1; ++run) components.push_back(run->parent);
+    for (; run != end && run->first <= x + 1; ++run) components.push_back(run->component);
   }
   return components;
 }
@@ -78,7 +66,7 @@ std::optional<Vector2> Connectivity::nearest(const Vector2& from, const Vector2&
   for (int y = 0; y + 1 < static_cast<int>(rows_.size()); ++y) {
     for (int i = rows_[y]; i < rows_[y + 1]; ++i) {
       const Run& run = runs_[i];
-      if (std::find(here.begin(), here.end(), run.parent) == here.end()) continue;
+      if (std::find(here.begin(), here.end(), run.component) == here.end()) continue;
       const Vector2 corner(std::clamp<double>(std::round(at.x()), run.first, run.last), y);
       const double squared = (corner - at).squaredNorm();
       if (squared >= least) continue;

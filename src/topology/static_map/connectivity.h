@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "topology/static_map/union_find.h"
 #include "world/distance_field.h"
 
 namespace mocha {
@@ -30,13 +31,10 @@ class Connectivity {
   struct Run {
     int first;  // columns
     int last;
-    int parent;  // a run of the same component; that of the root is itself
+    int component;  // one of its runs, which stands for all
   };
 
-  void add_row(const DistanceField& field, int y, float least_m);
-  void join(int a, int b);
-  int root(int run) const;
-  /// Roots.
+  void add_row(const DistanceField& field, int y, float least_m, UnionFind& sets);
   std::vector<int> components_at(const Vector2& place) const;
 
   Vector2 origin_;

@@ -6,6 +6,9 @@
 
 namespace mocha {
 
+/// The narrowest passage that tells two obstacles apart, of the clearance that is required.
+inline constexpr double kNarrowestPassage = 0.5;
+
 /// One obstacle as topology sees it: solid matter between whose parts the robot cannot pass, such
 /// as a wall, or two crates that stand close together. A path goes round all of it or not at all.
 struct ObstacleGroup {

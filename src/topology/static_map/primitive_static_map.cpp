@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
+#include "topology/static_map/union_find.h"
 #include "world/primitive.h"
 
 namespace mocha {
@@ -13,38 +13,19 @@ namespace {
 
 constexpr double kDetail_m = 0.1;
 
-/// Which of n things belong together.
-class Partition {
- public:
-  explicit Partition(std::size_t n) : parent_(n) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// The lower number stands for both.
-  void join(std::size_t i, std::size_t j) {
-    const std::size_t a = find(i);
-    const std::size_t b = find(j);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
-Partition impassable(const std::vector<Obstacle>& obstacles, double clearance_m) {
-  Partition partition(obstacles.size());
+/// Which obstacles belong together.
+UnionFind impassable(const std::vector<Obstacle>& obstacles, double clearance_m) {
+  const int count = static_cast<int>(obstacles.size());
+  UnionFind sets(count);
   std::vector<Eigen::AlignedBox2d> boxes;
   for (const Obstacle& obstacle : obstacles) boxes.push_back(extent(obstacle));
-  for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < i; ++j) {
       if (boxes[i].exteriorDistance(boxes[j]) >= 2.0 * clearance_m) continue;
-      if (gap(obstacles[i], obstacles[j]).distance_m < 2.0 * clearance_m) partition.join(i, j);
+      if (gap(obstacles[i], obstacles[j]).distance_m < 2.0 * clearance_m) sets.join(i, j);
     }
   }
-  return partition;
+  return sets;
 }
 
 Vector2 point_of(const Circle& circle) { return circle.centre; }
@@ -77,11 +58,11 @@ std::vector<ObstacleGroup> PrimitiveStaticMap::groups_within(const Eigen::Aligne
   std::copy_if(field_->primitives().begin(), field_->primitives().end(),
                std::back_inserter(obstacles),
                [&](const Obstacle& obstacle) { return extent(obstacle).intersects(window); });
-  Partition partition = impassable(obstacles, clearance_m);
+  UnionFind sets = impassable(obstacles, clearance_m);
   std::vector<ObstacleGroup> groups;
   std::vector<std::size_t> group_of(obstacles.size());
-  for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    const std::size_t first = partition.find(i);
+  for (int i = 0; i < static_cast<int>(obstacles.size()); ++i) {
+    const int first = sets.root(i);
     if (first == i) {
       group_of[i] = groups.size();
       groups.emplace_back();

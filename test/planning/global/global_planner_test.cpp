@@ -1,87 +1,14 @@
 #include "planning/global/global_planner.h"
 
-#include <gtest/gtest.h>
+#include <cmath>
+#include <memory>
+#include <variant>
 
-#include <algorithm>
-#include <atomic>
-#include <limits>
-
-#include "planning/candidates/peer_discs.h"
-#include "planning/global/global_rules.h"
-#include "planning/worlds.h"
-#include "safety/certificate.h"
+#include "planning/global/global_planner_fixture.h"
 #include "trajectory/rover_braking.h"
-#include "trajectory/stopping.h"
-#include "world/margin_budget.h"
 
 namespace mocha {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kStart_s = 1.7e9 + 0.25;  // what ROS time looks like
-
-class GlobalPlannerTest : public ::testing::Test {
- protected:
-  PlanQuery from_standing(const Vector2& start, double yaw_rad, const Vector2& goal) const {
-    PlanQuery query;
-    query.start_time_s = kStart_s;
-    query.committed = standing(kStart_s - 1.0, start, yaw_rad);
-    query.goal = goal;
-    return query;
-  }
-
-  PlanResult plan(const PlanQuery& query, const OccupancyGrid& grid) const {
-    return planner_.plan(query, {static_map_of(grid), {}});
-  }
-
-  void expect_certified(const PlanResult& result, const PlanQuery& query,
-                        const OccupancyGrid& grid) const {
-    ASSERT_EQ(result.reason, PlanReason::kSolved) << result.message;
-    const auto field = occupied_field(grid);
-    const SpeedMargin margin = MarginBudget::of(robot_).static_margin();
-    EXPECT_FALSE(result.violation) << describe(result.violation);
-    const Violation limits = check_limits(result.motion, robot_.limits, query.start_time_s);
-    EXPECT_FALSE(limits) << describe(limits);
-    const Violation clearance =
-        check_clearance(result.motion, robot_.footprint, *field, margin, query.start_time_s);
-    EXPECT_FALSE(clearance) << describe(clearance);
-    EXPECT_EQ(result.motion.start_time(), query.start_time_s);
-    ASSERT_FALSE(result.candidates.empty());
-    EXPECT_EQ(std::count_if(result.candidates.begin(), result.candidates.end(),
-                            [](const auto& candidate) { return candidate.selected; }),
-              1);
-  }
-
-  /// The motion must go on from the committed one in everything that a base cannot change at once.
-  void expect_joined(const PlanResult& result, const PlanQuery& query) const {
-    const MotionState before = query.committed.at(query.start_time_s);
-    const MotionState after = result.motion.at(query.start_time_s);
-    EXPECT_LT((before.pose.position - after.pose.position).norm(), 1e-6);
-    EXPECT_LT(std::abs(wrap_angle(before.pose.yaw_rad - after.pose.yaw_rad)), 1e-4);
-    EXPECT_LT((before.velocity - after.velocity).norm(), 1e-5);
-    if (before.at_rest) return;
-    EXPECT_LT((before.acceleration - after.acceleration).norm(), 1e-4);
-  }
-
-  /// A corridor closed at its end; too narrow to turn in for a robot with a long footprint.
-  OccupancyGrid dead_end() const {
-    OccupancyGrid grid = open_;
-    fill_box(grid, {0.0, 0.42}, {4.0, 0.62});
-    fill_box(grid, {0.0, -0.62}, {4.0, -0.42});
-    fill_box(grid, {4.0, -0.62}, {4.2, 0.62});
-    return grid;
-  }
-
-  RobotModel long_robot() const {
-    RobotModel robot = robot_;
-    robot.footprint = Footprint::rectangle(1.0, 0.4);
-    return robot;
-  }
-
-  const RobotModel robot_ = rover();
-  const GlobalPlanner planner_{robot_, default_options()};
-  const OccupancyGrid open_ = free_grid({-2.0, -4.0}, {12.0, 4.0});
-};
 
 TEST_F(GlobalPlannerTest, DrivesStraightAhead) {
   const PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
@@ -264,55 +191,6 @@ TEST_F(GlobalPlannerTest, StandingInAWallIsNamed) {
   EXPECT_TRUE(result.motion.empty());
 }
 
-TEST_F(GlobalPlannerTest, BacksOutOfADeadEnd) {
-  RobotModel robot = long_robot();
-  const PlanQuery query = from_standing({3.2, 0.0}, 0.0, {8.0, 0.0});
-  const PlanningScene scene{static_map_of(dead_end()), {}};
-  const PlanResult backs_out = GlobalPlanner(robot, default_options()).plan(query, scene);
-  ASSERT_EQ(backs_out.reason, PlanReason::kSolved) << backs_out.message;
-  EXPECT_EQ(std::get<DrivePhase>(backs_out.motion.phases().front()).direction, -1);
-  EXPECT_FALSE(check_clearance(backs_out.motion, robot.footprint, scene.static_map->field(),
-                               MarginBudget::of(robot).static_margin(), kStart_s));
-  robot.limits.can_reverse = false;
-  const PlanResult stuck = GlobalPlanner(robot, default_options()).plan(query, scene);
-  EXPECT_NE(stuck.reason, PlanReason::kSolved);
-  EXPECT_TRUE(stuck.motion.empty());
-}
-
-/// The nearest place to turn in is beside the team-mate; farther up there is another.
-TEST_F(GlobalPlannerTest, BacksOutOfADeadEndClearOfATeamMateBeforeIt) {
-  const RobotModel robot = long_robot();
-  const PlanQuery query = from_standing({3.2, 0.0}, 0.0, {8.0, 0.0});
-  const auto stand = std::make_shared<const Motion>(standing(kStart_s - 5.0, {-0.9, -1.1}, 0.0));
-  const auto peer = std::make_shared<PeerObstacle>("ugv2", stand, 0.3, test::kRoverBraking);
-  const BlockedDisc disc = peer_keep_out(*peer, kStart_s, robot, 0.0);
-  const auto nearest_m = [&](const Motion& motion) {
-    double apart_m = std::numeric_limits<double>::infinity();
-    for (double t = kStart_s; t < motion.end_time(); t += 0.05)
-      apart_m = std::min(apart_m, (motion.position(t) - disc.centre).norm());
-    return apart_m;
-  };
-  const GlobalPlanner planner(robot, default_options());
-  const auto map = static_map_of(dead_end());
-  const PlanResult alone = planner.plan(query, {map, {}});
-  ASSERT_EQ(alone.reason, PlanReason::kSolved) << alone.message;
-  ASSERT_LT(nearest_m(alone.motion), disc.radius_m);
-  const PlanResult result = planner.plan(query, {map, {peer}});
-  ASSERT_EQ(result.reason, PlanReason::kSolved) << result.message;
-  EXPECT_GT(nearest_m(result.motion), disc.radius_m);
-}
-
-TEST_F(GlobalPlannerTest, StaysInADeadEndThatATeamMateCloses) {
-  const RobotModel robot = long_robot();
-  const PlanQuery query = from_standing({3.2, 0.0}, 0.0, {8.0, 0.0});
-  const auto stand = std::make_shared<const Motion>(standing(kStart_s - 5.0, {0.5, 0.0}, 0.0));
-  const auto peer = std::make_shared<PeerObstacle>("ugv2", stand, 0.3, test::kRoverBraking);
-  const PlanResult result =
-      GlobalPlanner(robot, default_options()).plan(query, {static_map_of(dead_end()), {peer}});
-  EXPECT_EQ(result.reason, PlanReason::kPeerConflict) << result.message;
-  EXPECT_TRUE(result.motion.empty());
-}
-
 TEST_F(GlobalPlannerTest, GoesRoundAStandingPeer) {
   const PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
   const auto stand = std::make_shared<const Motion>(standing(kStart_s - 5.0, {4.0, 0.0}, 0.0));
@@ -362,143 +240,6 @@ TEST_F(GlobalPlannerTest, ATurnAtTheGoalThatCannotBeProvedIsNotHandedOut) {
   EXPECT_FALSE(result.message.empty());
 }
 
-TEST_F(GlobalPlannerTest, StopsWorkingWhenToldTo) {
-  PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-  std::atomic<int> calls{0};
-  for (const int allowed : {0, 1, 30}) {
-    calls = 0;
-    query.should_stop = [&] { return ++calls > allowed; };
-    const PlanResult result = plan(query, open_);
-    if (result.reason == PlanReason::kSolved) continue;  // was fast enough
-    EXPECT_EQ(result.reason, PlanReason::kBudgetExhausted);
-    EXPECT_TRUE(result.motion.empty());
-    EXPECT_EQ(result.message.find("no violation"), std::string::npos) << result.message;
-  }
-}
-
-TEST_F(GlobalPlannerTest, StoppedAnywhereItHasAProvedMotionOrSaysThatTimeIsUp) {
-  OccupancyGrid grid = free_grid({-2.0, -4.0}, {10.0, 4.0});
-  fill_box(grid, {3.0, -1.0}, {4.0, 1.0});
-  PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-  std::atomic<int> calls{0};
-  query.should_stop = [&] { return ++calls < 0; };
-  ASSERT_EQ(plan(query, grid).reason, PlanReason::kSolved);
-  const int all = calls;
-  int solved = 0;
-  for (int allowed = 0; allowed < all; allowed += std::max(1, all / 40)) {
-    calls = 0;
-    query.should_stop = [&] { return ++calls > allowed; };
-    const PlanResult result = plan(query, grid);
-    solved += result.reason == PlanReason::kSolved;
-    if (result.reason == PlanReason::kSolved) {
-      EXPECT_FALSE(certify_plan(result.motion, rover(), static_map_of(grid)->field(), kStart_s));
-    } else {
-      EXPECT_EQ(result.reason, PlanReason::kBudgetExhausted) << result.message;
-    }
-  }
-  EXPECT_GT(solved, 3);  // before all has been looked at
-}
-
-TEST_F(GlobalPlannerTest, StoppedAfterTheDrivenPathHasFailedItDoesNotSayThatAllHas) {
-  PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-  query.driven = plan(query, open_).motion;
-  // Nothing around has been seen, so that no motion is certified.
-  OccupancyGrid unseen = open_;
-  fill_box(unseen, {-2.0, -4.0}, {10.0, 4.0}, OccupancyGrid::kUnknown);
-  PlannerOptions options = default_options();
-  options.max_evaluations = 10;
-  options.threads = 1;
-  const GlobalPlanner planner(rover(), options);
-  const PlanningScene scene{static_map_of(open_), {}, [&] {
-                              return std::make_shared<DistanceField>(
-                                  unseen, DistanceField::Solid::kOccupiedOrUnknown);
-                            }};
-  std::atomic<int> calls{0};
-  query.should_stop = [&] { return ++calls < 0; };
-  ASSERT_EQ(planner.plan(query, scene).reason, PlanReason::kNotCertified);
-  const int all = calls;
-  for (int allowed = 0; allowed < all * 9 / 10; allowed += std::max(1, all / 50)) {
-    calls = 0;
-    query.should_stop = [&] { return ++calls > allowed; };
-    EXPECT_EQ(planner.plan(query, scene).reason, PlanReason::kBudgetExhausted) << allowed;
-  }
-}
-
-TEST_F(GlobalPlannerTest, TheWorkThatItMayTakeFollowsTheTimeLimit) {
-  PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-  query.time_limit_s = 0.5;
-  const PlanResult enough = plan(query, open_);
-  ASSERT_EQ(enough.reason, PlanReason::kSolved);
-  query.time_limit_s = 1e-5;
-  const PlanResult little = plan(query, open_);
-  for (const PlanCandidate& candidate : little.candidates)
-    EXPECT_LE(candidate.evaluations, 1);  // of the whole drive, as it has to begin somewhere
-  EXPECT_LT(little.candidates.front().work, enough.candidates.front().work);
-}
-
-TEST_F(GlobalPlannerTest, InvalidInputIsNamedAndNothingMoves) {
-  const PlanQuery good = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-  const auto expect_reason = [&](const PlanQuery& query, PlanReason reason) {
-    const PlanResult result = plan(query, open_);
-    EXPECT_EQ(result.reason, reason) << result.message;
-    EXPECT_TRUE(result.motion.empty());
-    EXPECT_FALSE(result.message.empty());
-  };
-  for (const double bad : {kNan, std::numeric_limits<double>::infinity()}) {
-    PlanQuery query = good;
-    query.goal.y() = bad;
-    expect_reason(query, PlanReason::kInvalidInput);
-    query = good;
-    query.goal_yaw_rad = bad;
-    expect_reason(query, PlanReason::kInvalidInput);
-    query = good;
-    query.start_time_s = bad;
-    expect_reason(query, PlanReason::kInvalidInput);
-  }
-  PlanQuery query = good;
-  query.committed = Motion();
-  expect_reason(query, PlanReason::kNoPose);
-  EXPECT_EQ(planner_.plan(good, {}).reason, PlanReason::kNoMap);
-}
-
-TEST_F(GlobalPlannerTest, HugeNumbersAreNoWay) {
-  for (const double huge : {1e6, 1e9, 1e300, -1e300}) {
-    PlanQuery query = from_standing({0.0, 0.0}, 0.0, {huge, 0.0});
-    EXPECT_EQ(plan(query, open_).reason, PlanReason::kNoPath) << huge;
-    query = from_standing({huge, 0.0}, 0.0, {8.0, 0.0});
-    EXPECT_TRUE(plan(query, open_).motion.empty()) << huge;
-    query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
-    query.goal_yaw_rad = huge;
-    plan(query, open_);
-  }
-}
-
-TEST_F(GlobalPlannerTest, AMapFarFromItsOriginIsNone) {
-  for (const double far_m : {2e6, -2e6, 1e12}) {
-    const OccupancyGrid far = free_grid({far_m - 6.0, -4.0}, {far_m + 8.0, 4.0});
-    const PlanQuery query = from_standing({far_m - 3.0, 0.0}, 0.0, {far_m + 3.0, 0.0});
-    PlanResult result;
-    ASSERT_NO_THROW(result = plan(query, far)) << far_m;
-    EXPECT_EQ(result.reason, PlanReason::kNoMap) << far_m << ": " << result.message;
-    EXPECT_TRUE(result.motion.empty());
-    EXPECT_FALSE(result.message.empty());
-  }
-}
-
-TEST_F(GlobalPlannerTest, FromAStateThatNoRobotHasThereIsAReasonAndNoPlan) {
-  for (const double speed : {30.0, 1e3, 1e5, 1e6}) {
-    PlanQuery query;
-    query.committed = straight_drive(kStart_s, {-2.0 * speed, 0.0}, 0.0, 4.0 * speed, speed, speed);
-    query.start_time_s = 0.5 * (kStart_s + query.committed.end_time());
-    query.goal = {8.0, 0.0};
-    PlanResult result;
-    ASSERT_NO_THROW(result = plan(query, open_)) << speed;
-    EXPECT_EQ(result.reason, PlanReason::kNotCertified) << speed << ": " << result.message;
-    EXPECT_TRUE(result.motion.empty());
-    EXPECT_EQ(result.message.find("no violation"), std::string::npos) << result.message;
-  }
-}
-
 TEST_F(GlobalPlannerTest, MovingStartAtTheGoalStillStops) {
   PlanQuery query;
   query.committed = straight_drive(kStart_s, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5);
@@ -508,11 +249,6 @@ TEST_F(GlobalPlannerTest, MovingStartAtTheGoalStillStops) {
   expect_certified(result, query, open_);
   expect_joined(result, query);
   EXPECT_LT((result.motion.end_pose().position - query.goal).norm(), 0.05);
-}
-
-TEST_F(GlobalPlannerTest, AMapOfOneCellIsNoWay) {
-  const OccupancyGrid tiny = free_grid({0.0, 0.0}, {0.05, 0.05});
-  EXPECT_EQ(plan(from_standing({0.02, 0.02}, 0.0, {8.0, 0.0}), tiny).reason, PlanReason::kNoPath);
 }
 
 }  // namespace
