@@ -18,8 +18,8 @@ ObstacleComponents::ObstacleComponents(const DistanceField& field, const CornerW
       number_(static_cast<std::size_t>(window.columns()) * window.rows(), kNone) {
   for (int y = window.y0; y <= window.y1; ++y) {
     for (int x = window.x0; x <= window.x1; ++x) {
-      // Whatever begins one has less room than that.
-      if (field.at_corner(x, y) >= 0.5 * least_gap_m_ || at(x, y) != kNone) continue;
+      // Whatever begins one has no more room than that.
+      if (field.at_corner(x, y) > 0.5 * least_gap_m_ || at(x, y) != kNone) continue;
       const bool begins =
           kind == Kind::kSolid ? field.at_corner(x, y) <= 0.0 : !passable(x, y, x, y);
       if (begins) flood(x, y);
