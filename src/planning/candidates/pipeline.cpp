@@ -14,6 +14,7 @@ namespace {
 constexpr double kSlowest = 4.0;      // times as long as optimised: slower motions are none
 constexpr double kRepairable = 1.03;  // not worth another optimisation
 constexpr double kSlowDownSlack = 1.001;
+constexpr int kLikely = 2;  // attempts that are made whatever they cost
 
 /// How many times as long a motion must take to keep the limit that it violates; 1 where that does
 /// not help.
@@ -78,7 +79,7 @@ bool CandidatePipeline::prove(const StartManeuver& start_maneuver,
 
 void CandidatePipeline::climb(const Seed& seed, const StartManeuver& start_maneuver,
                               const std::function<bool()>& should_stop,
-                              const std::function<bool(double)>& cannot_win,
+                              const std::function<bool(double)>& is_too_dear,
                               PlanCandidate& best) const {
   const DriveQuery query = rules_.drive(seed, start_maneuver);
   const EffortLadder ladder = rules_.ladder();
@@ -93,20 +94,21 @@ void CandidatePipeline::climb(const Seed& seed, const StartManeuver& start_maneu
       if (!query.found_before || !std::exchange(effort.from_found, false)) return;
       continue;
     }
+    const double cost = tried.cost;
     const double slower = is_free_in_time(query) ? slow_down(tried.violation) : 1.0;
     if (slower > 1.0 && slower <= (attempt == ladder.attempts ? kSlowest : kRepairable))
       prove(start_maneuver, slowed(found, slower, query.duration_cost), tried);
     const Violation violation = tried.violation;
-    const double cost = tried.cost;
     if (tried.met <= best.met) best = std::move(tried);
-    if (best.met == rules_.wanted() || !rules_.may_be_mended(violation) || cannot_win(cost)) return;
+    if (best.met == rules_.wanted() || !rules_.may_be_mended(violation)) return;
+    if (attempt >= kLikely && is_too_dear(cost)) return;
     effort = raised(effort, violation, ladder.factor);
   }
 }
 
 PlanCandidate CandidatePipeline::optimise_and_certify(
     const Seed& seed, const std::function<bool()>& should_stop,
-    const std::function<bool(double)>& cannot_win) const {
+    const std::function<bool(double)>& is_too_dear) const {
   PlanCandidate best;
   best.signature = seed.signature;
   best.driven = seed.driven;
@@ -115,14 +117,11 @@ PlanCandidate CandidatePipeline::optimise_and_certify(
     return should_stop() || best.work >= most_work;
   };
   for (const StartManeuver& start_maneuver : seed.start_maneuvers) {
-    climb(seed, start_maneuver, is_over, cannot_win, best);
+    climb(seed, start_maneuver, is_over, is_too_dear, best);
     if (best.met == rules_.wanted()) break;
   }
   if (best.met != RequirementName::kNone) {
     best.reason = PlanReason::kSolved;
-  } else if (cannot_win(std::max(best.cost, seed.least_cost))) {
-    best.reason = PlanReason::kCannotWin;
-    best.cost = std::max(best.cost, seed.least_cost);
   } else {
     best.reason = is_over() ? PlanReason::kBudgetExhausted : PlanReason::kNotCertified;
   }
@@ -138,9 +137,14 @@ std::vector<PlanCandidate> CandidatePipeline::race(const std::vector<Seed>& seed
   in_parallel(seeds.size(), threads, [&](std::size_t i) {
     const Seed& seed = seeds[i];
     PlanCandidate& candidate = candidates[i];
-    const auto cannot_win = [&](double cost) { return !seed.driven && cost >= to_beat.get(); };
+    const auto is_too_dear = [&](double cost) { return !seed.driven && cost >= to_beat.get(); };
+    const auto cannot_win = [&] { return is_too_dear(seed.least_cost); };
     candidate = optimise_and_certify(
-        seed, [&] { return cannot_win(seed.least_cost) || should_stop(); }, cannot_win);
+        seed, [&] { return cannot_win() || should_stop(); }, is_too_dear);
+    if (candidate.reason == PlanReason::kBudgetExhausted && cannot_win()) {
+      candidate.reason = PlanReason::kCannotWin;
+      candidate.cost = std::max(candidate.cost, seed.least_cost);
+    }
     if (candidate.met == rules_.wanted())
       to_beat.lower_to(seed.driven ? rule.to_beat(candidate.cost) : candidate.cost);
   });

@@ -59,18 +59,20 @@ class CandidatePipeline {
       : optimizer_(optimizer), obstacles_(obstacles), rules_(rules) {}
 
   /// Tries the start maneuvers of a seed in turn, each with rising effort, until what is wanted is
-  /// met, the work is used up, or `should_stop`. Effort makes drives dearer, so it does not rise
-  /// beyond a cost that `cannot_win`. Returns the last of the best.
+  /// met, the work is used up, or `should_stop`. After two attempts that could not be certified, no
+  /// more are made at a cost that `is_too_dear`: as a rule, more effort makes a drive dearer.
+  /// Returns the last of the best.
   PlanCandidate optimise_and_certify(
       const Seed& seed, const std::function<bool()>& should_stop,
-      const std::function<bool(double)>& cannot_win = [](double) { return false; }) const;
+      const std::function<bool(double)>& is_too_dear = [](double) { return false; }) const;
 
   /// Does so with all seeds, on up to `threads` threads; a candidate for each, in the same order.
   ///
   /// A candidate is stopped (kCannotWin) as soon as its least cost is not below what another one
-  /// that meets what is wanted costs; so the cheapest is the same however many threads there are.
-  /// The candidate of the class that is driven runs to its end, as the others are measured against
-  /// it. `should_stop` may be called by several threads at once.
+  /// that meets what is wanted costs, and is too dear where its own cost is not. So the cheapest is
+  /// the same however many threads there are, unless more effort would have made another one
+  /// cheaper. The candidate of the class that is driven runs to its end, as the others are measured
+  /// against it. `should_stop` may be called by several threads at once.
   std::vector<PlanCandidate> race(const std::vector<Seed>& seeds, const SwitchRule& rule,
                                   int threads, const std::function<bool()>& should_stop) const;
 
@@ -78,7 +80,7 @@ class CandidatePipeline {
   /// The attempts after one start maneuver.
   void climb(const Seed& seed, const StartManeuver& start_maneuver,
              const std::function<bool()>& should_stop,
-             const std::function<bool(double)>& cannot_win, PlanCandidate& best) const;
+             const std::function<bool(double)>& is_too_dear, PlanCandidate& best) const;
   /// Makes a candidate's motion of what was found, and certifies it; false where that is none.
   bool prove(const StartManeuver& start_maneuver, const OptimizedTrajectory<2, 3>& found,
              PlanCandidate& candidate) const;

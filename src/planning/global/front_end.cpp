@@ -17,9 +17,8 @@ namespace {
 
 constexpr double kSameGoal_m = 0.5;
 constexpr double kReachableStep_m = 0.1;  // between the places that are tried
-// Shortening makes paths of roadmaps cheaper by a tenth at most, measured on maps of 100 m; to what
-// a drive costs, the costs of paths are in proportion to within a few percent.
-constexpr double kShortened = 0.9;
+// To what a drive costs, the costs of paths are in proportion to within a few percent, measured on
+// maps of 100 m.
 constexpr double kProportion = 0.93;
 
 /// The shortest time in which a length can be driven from `speed` to rest, straight.

@@ -16,9 +16,6 @@ namespace mocha {
 namespace {
 
 constexpr int kSpare = 2;  // paths that are shortened, for each one that is kept
-// Dearer than the cheapest before they are shortened, beyond what is allowed afterwards: shortening
-// makes paths of roadmaps cheaper by a tenth at most, measured on maps of 100 m.
-constexpr double kSlack = 1.1;
 
 /// From the start that `cost` knows, no dearer than `most_m`.
 std::vector<std::vector<Vector2>> paths_of_classes(const TravelCost& cost,
@@ -29,7 +26,7 @@ std::vector<std::vector<Vector2>> paths_of_classes(const TravelCost& cost,
   std::vector<std::vector<Vector2>> paths;
   for (auto& path :
        shortest_classes(classes.roadmap, classes.cuts,
-                        {kSpare * options.classes, kSlack * options.longest_ratio, most_m}))
+                        {kSpare * options.classes, options.longest_ratio / kShortened, most_m}))
     paths.push_back(std::move(path.points));
   if (!paths.empty() || query.below_driven) return paths;
   // Too narrow for the roadmap's circles, perhaps; the lattice is slower, but misses nothing.

@@ -35,7 +35,14 @@ class Assembly {
       roadmap_.nodes.push_back({end, field.sample(end).distance_m});
   }
 
-  void reserve(std::size_t nodes, std::size_t edges) {
+  /// For about as much as there is in tiles.
+  void reserve(const SkeletonTiles& tiles) {
+    std::size_t nodes = 0;
+    std::size_t edges = 0;
+    for (int tile = 0; tile < tiles.size(); ++tile) {
+      nodes += tiles[tile].skeleton.nodes.size();
+      edges += tiles[tile].skeleton.edges.size();
+    }
     roadmap_.nodes.reserve(nodes);
     roadmap_.edges.reserve(edges);
     node_of_.reserve(nodes);
@@ -185,6 +192,7 @@ Roadmap<2> MapSkeleton::roadmap(const TravelCost& cost, const Vector2& goal) con
   remake(goal, 0.0);
   for (const BlockedDisc& disc : cost.blocked()) remake(disc.centre, disc.radius_m);
   Assembly assembly(*field_, cost.start(), goal);
+  // At the step of the map's cells, the lattice has the numbers of the field's corners.
   const Lattice corners(cost.static_map(), field_->resolution_m());
   const std::array<int, 2> entries = {corners.entry(cost.start(), cost), corners.entry(goal, cost)};
   for (auto& [tile, anchors] : remade) {
@@ -194,13 +202,7 @@ Roadmap<2> MapSkeleton::roadmap(const TravelCost& cost, const Vector2& goal) con
       if (entry >= 0 && tiles_.window(tile).holds(x, y)) anchors.push_back(entry);
     }
   }
-  std::size_t nodes = 0;
-  std::size_t edges = 0;
-  for (int tile = 0; tile < tiles_.size(); ++tile) {
-    nodes += tiles_[tile].skeleton.nodes.size();
-    edges += tiles_[tile].skeleton.edges.size();
-  }
-  assembly.reserve(nodes, edges);
+  assembly.reserve(tiles_);
   SkeletonTiler tiler(*field_, cost);
   for (int tile = 0; tile < tiles_.size(); ++tile) {
     const auto special = remade.find(tile);

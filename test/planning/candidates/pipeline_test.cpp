@@ -137,19 +137,25 @@ TEST_F(PipelineTest, WhatCannotWinIsStoppedUnlessItIsDriven) {
   EXPECT_TRUE(raced[2].driven);
 }
 
-TEST_F(PipelineTest, TriesNoHarderBeyondACostThatCannotWin) {
+TEST_F(PipelineTest, TriesNoThirdTimeAtACostThatIsTooDear) {
   rules_.verdicts = {{Name::kNone, violated(ViolatedTerm::kClearance, 0.1, 0.2)}};
-  double asked_of = 0.0;
-  const auto cannot_win = [&](double cost) {
-    asked_of = cost;
-    return cost > 1.0;
-  };
+  const auto is_too_dear = [](double cost) { return cost > 1.0; };
   const PlanCandidate candidate =
-      pipeline_.optimise_and_certify(seed(0.0, false), kGoOn, cannot_win);
-  EXPECT_EQ(candidate.reason, PlanReason::kCannotWin);
-  EXPECT_EQ(rules_.durations_s.size(), 1u);
-  EXPECT_EQ(asked_of, candidate.cost);
+      pipeline_.optimise_and_certify(seed(0.0, false), kGoOn, is_too_dear);
+  EXPECT_EQ(candidate.reason, PlanReason::kNotCertified);
   EXPECT_EQ(candidate.violation.term, ViolatedTerm::kClearance);
+  EXPECT_EQ(rules_.durations_s.size(), 2u);
+}
+
+TEST_F(PipelineTest, OnlyWhatIsNotDrivenIsTooDear) {
+  const Violation unclear = violated(ViolatedTerm::kClearance, 0.1, 0.2);
+  for (const bool driven : {false, true}) {
+    rules_.durations_s.clear();
+    rules_.verdicts = {{Name::kDetour, {}}, {Name::kNone, unclear}};
+    // Alike, one after the other: the second costs as much as the first, which is certified.
+    pipeline_.race({seed(0.0, false), seed(0.0, driven)}, SwitchRule{0.0, 0.0}, 1, kGoOn);
+    EXPECT_EQ(rules_.durations_s.size(), driven ? 5u : 3u);
+  }
 }
 
 TEST_F(PipelineTest, SaysThatItWasStopped) {

@@ -122,6 +122,22 @@ TEST(Thinning, KeepsPiecesHolesAndAnchorsAndNothingMore) {
   }
 }
 
+TEST(Thinning, IsInUsedMemoryAsInFreshMemory) {
+  std::mt19937 random(2);
+  Thinning used;
+  for (int trial = 0; trial < 200; ++trial) {
+    RoomRaster figure =
+        raster(1 + static_cast<int>(random() % 30), 1 + static_cast<int>(random() % 30));
+    for (float& room : figure.room) {
+      if (random() % 100 < 80) room = static_cast<float>(random() % 1000) * 0.01f;
+    }
+    std::vector<int> anchors;
+    if (figure.room.back() >= 0.0f) anchors.push_back(static_cast<int>(figure.room.size()) - 1);
+    ASSERT_EQ(used.run(figure, anchors), Thinning().run(figure, anchors))
+        << figure.columns << " x " << figure.rows;
+  }
+}
+
 TEST(Thinning, OfNothingIsNothing) {
   EXPECT_TRUE(Thinning().run({0, 0, {}}, {}).empty());
   EXPECT_EQ(count(Thinning().run(raster(5, 5), {})), 0);
