@@ -1,0 +1,26 @@
+"""What rviz shows of a world: all of it."""
+import os
+
+import yaml
+
+CONFIG = os.path.join(os.path.dirname(os.path.realpath(__file__)), "../../rviz/fleet.rviz")
+SHOWN_PX = (1250, 480)  # of the window, beside the list of displays
+
+
+def view_of(bounds):
+    """Centre [m] and scale [pixels per metre] of the smallest view that holds the bounds of a world file."""
+    sides_m = [high - low for low, high in zip(bounds["min"], bounds["max"])]
+    x_m, y_m = [0.5 * (low + high) for low, high in zip(bounds["min"], bounds["max"])]
+    return x_m, y_m, min(pixels / side_m for pixels, side_m in zip(SHOWN_PX, sides_m))
+
+
+def write(world, path):
+    """Writes a copy of rviz/fleet.rviz that shows all of a world file."""
+    with open(world) as file:
+        bounds = yaml.safe_load(file)["bounds"]
+    with open(CONFIG) as file:
+        config = yaml.safe_load(file)
+    x_m, y_m, scale = view_of(bounds)
+    config["Visualization Manager"]["Views"]["Current"].update({"X": x_m, "Y": y_m, "Scale": scale})
+    with open(path, "w") as file:
+        yaml.safe_dump(config, file, sort_keys=False)
