@@ -139,8 +139,11 @@ class PlanningBesideTest(unittest.TestCase):
         self.assertEqual(self.candidates, [])
 
     def test_3_says_what_planning_took(self):
-        efforts = [each.effort for each in self.statuses if each.effort.plans > 0]
-        effort = efforts[-1]
+        def efforts():
+            return [each.effort for each in self.statuses if each.effort.plans > 0]
+
+        wait_until(efforts, "a status after a plan", 20.0)
+        effort = efforts()[-1]
         self.assertGreater(effort.time, 0.0)
         self.assertGreaterEqual(effort.time_longest, effort.time_95)
         self.assertGreaterEqual(effort.time_95, effort.time_median)
