@@ -30,6 +30,18 @@ class RvizView(unittest.TestCase):
         view.update({key: shipped["Visualization Manager"]["Views"]["Current"][key] for key in ("X", "Y", "Scale")})
         self.assertEqual(written, shipped)
 
+    def test_leaves_the_view_where_the_bounds_are_none(self):
+        with open(rviz_view.CONFIG) as shipped:
+            shipped = yaml.safe_load(shipped)
+        for bounds in ("", "bounds: 3", "bounds: {min: [0, 0]}", "bounds: {min: [0, 0], max: [0, 9]}", "bounds: {min: [a, 0], max: [1, 9]}",
+                       "bounds: {min: [0], max: [9]}"):
+            with tempfile.NamedTemporaryFile("w") as world, tempfile.NamedTemporaryFile() as file:
+                world.write(f"robots: []\n{bounds}\n")
+                world.flush()
+                rviz_view.write(world.name, file.name)
+                with open(file.name) as written:
+                    self.assertEqual(yaml.safe_load(written), shipped, bounds)
+
 
 if __name__ == "__main__":
     unittest.main()

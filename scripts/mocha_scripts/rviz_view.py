@@ -15,12 +15,16 @@ def view_of(bounds):
 
 
 def write(world, path):
-    """Writes a copy of rviz/fleet.rviz that shows all of a world file."""
+    """Writes a copy of rviz/fleet.rviz that shows all of a world file. Where its bounds are none, which the simulator then says, the view is
+    the shipped one."""
     with open(world) as file:
-        bounds = yaml.safe_load(file)["bounds"]
+        bounds = yaml.safe_load(file).get("bounds")
     with open(CONFIG) as file:
         config = yaml.safe_load(file)
-    x_m, y_m, scale = view_of(bounds)
-    config["Visualization Manager"]["Views"]["Current"].update({"X": x_m, "Y": y_m, "Scale": scale})
+    try:
+        x_m, y_m, scale = view_of(bounds)
+        config["Visualization Manager"]["Views"]["Current"].update({"X": x_m, "Y": y_m, "Scale": scale})
+    except (KeyError, TypeError, ValueError, ZeroDivisionError):
+        pass
     with open(path, "w") as file:
         yaml.safe_dump(config, file, sort_keys=False)

@@ -14,7 +14,6 @@ namespace {
 constexpr double kSlowest = 4.0;      // times as long as optimised: slower motions are none
 constexpr double kRepairable = 1.03;  // not worth another optimisation
 constexpr double kSlowDownSlack = 1.001;
-constexpr int kLikely = 2;  // attempts that are made whatever they cost
 
 /// How many times as long a motion must take to keep the limit that it violates; 1 where that does
 /// not help.
@@ -101,7 +100,8 @@ void CandidatePipeline::climb(const Seed& seed, const StartManeuver& start_maneu
     const Violation violation = tried.violation;
     if (tried.met <= best.met) best = std::move(tried);
     if (best.met == rules_.wanted() || !rules_.may_be_mended(violation)) return;
-    if (attempt >= kLikely && is_too_dear(cost)) return;
+    // A search that ended early does not tell what the drive would cost.
+    if (found.stop == StopReason::kConverged && is_too_dear(cost)) return;
     effort = raised(effort, violation, ladder.factor);
   }
 }

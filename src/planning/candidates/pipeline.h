@@ -59,9 +59,9 @@ class CandidatePipeline {
       : optimizer_(optimizer), obstacles_(obstacles), rules_(rules) {}
 
   /// Tries the start maneuvers of a seed in turn, each with rising effort, until what is wanted is
-  /// met, the work is used up, or `should_stop`. After two attempts that could not be certified, no
-  /// more are made at a cost that `is_too_dear`: as a rule, more effort makes a drive dearer.
-  /// Returns the last of the best.
+  /// met, the work is used up, or `should_stop`. A drive that `is_too_dear` where its search
+  /// converged is not tried harder: as a rule, more effort makes it dearer. Returns the last of the
+  /// best.
   PlanCandidate optimise_and_certify(
       const Seed& seed, const std::function<bool()>& should_stop,
       const std::function<bool(double)>& is_too_dear = [](double) { return false; }) const;

@@ -6,7 +6,7 @@
 #include <queue>
 #include <utility>
 
-#include "topology/paths/lattice.h"
+#include "topology/static_map/lattice.h"
 
 namespace mocha {
 namespace {

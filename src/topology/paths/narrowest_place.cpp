@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "topology/paths/lattice.h"
+#include "topology/static_map/lattice.h"
 
 namespace mocha {
 namespace {

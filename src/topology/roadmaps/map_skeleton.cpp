@@ -12,7 +12,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "topology/paths/lattice.h"
+#include "topology/static_map/lattice.h"
 #include "topology/static_map/union_find.h"
 
 namespace mocha {

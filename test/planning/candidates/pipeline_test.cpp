@@ -61,10 +61,10 @@ Violation violated(ViolatedTerm term, double value = 2.0, double limit = 1.0) {
 
 class PipelineTest : public ::testing::Test {
  protected:
-  /// Six metres ahead, from rest.
-  Seed seed(double least_cost, bool driven) const {
+  /// Straight ahead, from rest.
+  Seed seed(double least_cost, bool driven, double length_m = 6.0) const {
     const StartManeuvers start_maneuvers(robot_.limits, 0.8);
-    return {start_maneuvers.from_rest({}, {{0.0, 0.0}, 0.0}, {{0.0, 0.0}, {6.0, 0.0}}),
+    return {start_maneuvers.from_rest({}, {{0.0, 0.0}, 0.0}, {{0.0, 0.0}, {length_m, 0.0}}),
             {},
             {},
             least_cost,
@@ -137,14 +137,21 @@ TEST_F(PipelineTest, WhatCannotWinIsStoppedUnlessItIsDriven) {
   EXPECT_TRUE(raced[2].driven);
 }
 
-TEST_F(PipelineTest, TriesNoThirdTimeAtACostThatIsTooDear) {
-  rules_.verdicts = {{Name::kNone, violated(ViolatedTerm::kClearance, 0.1, 0.2)}};
+TEST_F(PipelineTest, TriesNoHarderWhatIsTooDearUnlessItsSearchEndedEarly) {
   const auto is_too_dear = [](double cost) { return cost > 1.0; };
-  const PlanCandidate candidate =
-      pipeline_.optimise_and_certify(seed(0.0, false), kGoOn, is_too_dear);
-  EXPECT_EQ(candidate.reason, PlanReason::kNotCertified);
-  EXPECT_EQ(candidate.violation.term, ViolatedTerm::kClearance);
-  EXPECT_EQ(rules_.durations_s.size(), 2u);
+  PlannerOptions hasty = default_options();
+  hasty.max_evaluations = 2;
+  const DriveOptimizer hasty_optimizer(robot_, hasty, MarginBudget::of(robot_).static_margin());
+  for (const bool converges : {true, false}) {
+    rules_.durations_s.clear();
+    rules_.verdicts = {{Name::kNone, violated(ViolatedTerm::kClearance, 0.1, 0.2)}};
+    const CandidatePipeline pipeline(converges ? optimizer_ : hasty_optimizer, open_, rules_);
+    const PlanCandidate candidate =
+        pipeline.optimise_and_certify(seed(0.0, false), kGoOn, is_too_dear);
+    EXPECT_EQ(candidate.reason, PlanReason::kNotCertified);
+    EXPECT_EQ(candidate.violation.term, ViolatedTerm::kClearance);
+    EXPECT_EQ(rules_.durations_s.size(), converges ? 1u : 4u);
+  }
 }
 
 TEST_F(PipelineTest, OnlyWhatIsNotDrivenIsTooDear) {
@@ -152,9 +159,9 @@ TEST_F(PipelineTest, OnlyWhatIsNotDrivenIsTooDear) {
   for (const bool driven : {false, true}) {
     rules_.durations_s.clear();
     rules_.verdicts = {{Name::kDetour, {}}, {Name::kNone, unclear}};
-    // Alike, one after the other: the second costs as much as the first, which is certified.
-    pipeline_.race({seed(0.0, false), seed(0.0, driven)}, SwitchRule{0.0, 0.0}, 1, kGoOn);
-    EXPECT_EQ(rules_.durations_s.size(), driven ? 5u : 3u);
+    // One after the other: the second costs more than the first, which is certified.
+    pipeline_.race({seed(0.0, false), seed(0.0, driven, 7.0)}, SwitchRule{0.0, 0.0}, 1, kGoOn);
+    EXPECT_EQ(rules_.durations_s.size(), driven ? 5u : 2u);
   }
 }
 
