@@ -6,15 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "world/window_joining.h"
-
 namespace mocha {
 namespace {
 
 constexpr double kMostCells = 2.5e7;
 constexpr int kPatch = 32;             // cells along a side: changes are repaired together
 constexpr double kMostRepaired = 0.1;  // share of the map; beyond, all is made anew
-constexpr int kReach = 100;            // cells that distances are made anew around a change, or so
 constexpr double kSameCell = 1e-6;     // cells
 
 /// Around the cells of each patch of the held map in which a new part of it differs.
@@ -145,14 +142,15 @@ void KnownMap::repair(const OccupancyGrid& part, const Eigen::Vector2i& place) {
   static_map_.reset();
   make_own(occupied_);
   make_own(unseen_);
-  for (const CornerWindow& patch : joined(patches, kReach)) {
+  for (const CornerWindow& patch : patches) {
     for (int y = patch.y0; y <= patch.y1; ++y) {
       for (int x = patch.x0; x <= patch.x1; ++x)
         held_.at(x, y) = part.at(x - place.x(), y - place.y());
     }
-    if (unseen_) unseen_->repair(held_, patch);
-    if (!occupied_) continue;
-    for (const CornerWindow& differ : occupied_->repair(held_, patch)) {
+  }
+  if (unseen_) unseen_->repair(held_, patches);
+  if (occupied_) {
+    for (const CornerWindow& differ : occupied_->repair(held_, patches)) {
       if (tiles) tiles->forget(differ);
     }
   }

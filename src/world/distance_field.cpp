@@ -6,13 +6,17 @@
 #include <limits>
 #include <stdexcept>
 
+#include "world/distance_repair.h"
 #include "world/distance_transform.h"
+#include "world/window_joining.h"
 
 namespace mocha {
 namespace {
 
 constexpr double kSlackCells = 1.5;  // between a corner and a place between corners
-constexpr int kDiffer = 64;          // corners along the sides of what is told to differ
+constexpr std::size_t kFewSites = 32;
+constexpr int kReach = 100;  // corners that are made anew around what changed, or so
+constexpr int kDiffer = 64;  // corners along the sides of what is told to differ
 
 /// Marks the corners of all cells that are (or are not) solid as sites, in a window.
 std::vector<float> corner_sites(const OccupancyGrid& grid, DistanceField::Solid solid, bool wanted,
@@ -93,13 +97,56 @@ DistanceField::DistanceField(const OccupancyGrid& grid, Solid solid)
 }
 
 std::vector<CornerWindow> DistanceField::repair(const OccupancyGrid& grid,
-                                                const CornerWindow& cells) {
+                                                const std::vector<CornerWindow>& cells) {
   if (grid.width + 1 != columns_ || grid.height + 1 != rows_ || grid.origin != origin_ ||
       grid.resolution_m != resolution_m_)
     throw std::invalid_argument("DistanceField: the changed map is another one");
-  const CornerWindow changed =
-      CornerWindow{cells.x0, cells.y0, cells.x1 + 1, cells.y1 + 1}.within(corners());
-  if (changed.empty()) return {};
+  std::vector<CornerWindow> differ;
+  std::vector<CornerWindow> with_many;
+  for (const CornerWindow& window : cells) {
+    const CornerWindow changed =
+        CornerWindow{window.x0, window.y0, window.x1 + 1, window.y1 + 1}.within(corners());
+    if (!changed.empty() && !repair_sites(grid, changed, differ)) with_many.push_back(changed);
+  }
+  for (const CornerWindow& changed : joined(with_many, kReach)) make_anew(grid, changed, differ);
+  return differ;
+}
+
+/// Where few sites have changed, and with little that depends on them; else returns false.
+bool DistanceField::repair_sites(const OccupancyGrid& grid, const CornerWindow& changed,
+                                 std::vector<CornerWindow>& differ) {
+  struct Side {
+    int sign;
+    std::vector<Eigen::Vector2i> gone, come;
+  };
+  std::vector<Side> sides = {{1, {}, {}}};
+  if (!outside_solid_) sides.push_back({-1, {}, {}});
+  std::size_t count = 0;
+  for (Side& side : sides) {
+    std::vector<float> sites = corner_sites(grid, solid(), side.sign > 0, changed);
+    if (outside_solid_) add_rim(grid, changed, sites);
+    for (int y = changed.y0, i = 0; y <= changed.y1; ++y) {
+      for (int x = changed.x0; x <= changed.x1; ++x, ++i) {
+        const bool was_site = side.sign * at_corner(x, y) <= 0.0;
+        if ((sites[i] == 0.0f) != was_site) (was_site ? side.gone : side.come).emplace_back(x, y);
+      }
+    }
+    count += side.gone.size() + side.come.size();
+  }
+  if (count > kFewSites) return false;
+  for (const Side& side : sides) {
+    DistanceRepair repair(distance_m_, columns_, rows_, static_cast<float>(resolution_m_),
+                          side.sign);
+    if (!repair.remove(side.gone)) return false;
+    repair.add(side.come);
+    differ.insert(differ.end(), repair.touched().begin(), repair.touched().end());
+  }
+  return true;
+}
+
+/// With all that what changed may have been or may be nearest to.
+void DistanceField::make_anew(const OccupancyGrid& grid, const CornerWindow& changed,
+                              std::vector<CornerWindow>& differ) {
   const CornerWindow reach = reach_of(changed);
   // What is nearest to a place in reach lies as far beyond its rim as it is away from there at
   // most.
@@ -109,9 +156,7 @@ std::vector<CornerWindow> DistanceField::repair(const OccupancyGrid& grid,
   });
   const double margin = std::min(most_m * cells_per_m_ + kSlackCells, columns_ + rows_ + 0.0);
   const CornerWindow sources = reach.grown(static_cast<int>(margin) + 1).within(corners());
-  const Solid solid = outside_solid_ ? Solid::kOccupiedOrUnknown : Solid::kOccupied;
-  const std::vector<float> made = distances_m(grid, solid, sources, reach.y0, reach.y1);
-  std::vector<CornerWindow> differ;
+  const std::vector<float> made = distances_m(grid, solid(), sources, reach.y0, reach.y1);
   for (int y = reach.y0; y <= reach.y1; y += kDiffer) {
     for (int x = reach.x0; x <= reach.x1; x += kDiffer) {
       const CornerWindow part{x, y, x + kDiffer - 1, y + kDiffer - 1};
@@ -119,7 +164,6 @@ std::vector<CornerWindow> DistanceField::repair(const OccupancyGrid& grid,
       if (!window.empty()) differ.push_back(window);
     }
   }
-  return differ;
 }
 
 /// The corners whose nearest obstacle may be in `changed`, before or after the change. Around it

@@ -28,11 +28,12 @@ class DistanceField : public ObstacleField<2> {
   /// Throws std::invalid_argument for an empty grid or sizes that do not match.
   DistanceField(const OccupancyGrid& grid, Solid solid);
 
-  /// Brings it up to date with a map in which only some cells have changed since: as if made anew,
-  /// at the cost of what is around those. Both ends of `cells` included. Returns windows around the
-  /// corners whose distances differ now, none of them wide. Not while others read it. Throws
-  /// std::invalid_argument for a map of another size or place.
-  std::vector<CornerWindow> repair(const OccupancyGrid& grid, const CornerWindow& cells);
+  /// Brings it up to date with a map in which only some cells have changed since, all of them in
+  /// these windows of cells: as if made anew, at the cost of what is around those. Returns windows
+  /// around the corners whose distances differ now, none of them wide. Not while others read it.
+  /// Throws std::invalid_argument for a map of another size or place.
+  std::vector<CornerWindow> repair(const OccupancyGrid& grid,
+                                   const std::vector<CornerWindow>& cells);
 
   Sample sample(const Vector2& p) const override;
   double distance_bound(const Vector2& p) const override;
@@ -57,6 +58,11 @@ class DistanceField : public ObstacleField<2> {
   }
   Sample interpolated(const Vector2& at) const;
   double bound_inside(const Vector2& at) const;
+  Solid solid() const { return outside_solid_ ? Solid::kOccupiedOrUnknown : Solid::kOccupied; }
+  bool repair_sites(const OccupancyGrid& grid, const CornerWindow& changed,
+                    std::vector<CornerWindow>& differ);
+  void make_anew(const OccupancyGrid& grid, const CornerWindow& changed,
+                 std::vector<CornerWindow>& differ);
   CornerWindow reach_of(const CornerWindow& changed) const;
   template <typename Visit>
   void visit_rim(const CornerWindow& window, const Visit& visit) const;

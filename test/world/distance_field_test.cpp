@@ -290,7 +290,7 @@ TEST(DistanceField, RepairedIsAsIfMadeAnew) {
       for (int y = cells.y0; y <= cells.y1; ++y) {
         for (int x = cells.x0; x <= cells.x1; ++x) grid.at(x, y) = values[random() % 3];
       }
-      const std::vector<CornerWindow> differ = field.repair(grid, cells);
+      const std::vector<CornerWindow> differ = field.repair(grid, {cells});
       const DistanceField fresh(grid, solid);
       for (int y = 0; y < field.rows(); ++y) {
         for (int x = 0; x < field.columns(); ++x) {
@@ -306,14 +306,40 @@ TEST(DistanceField, RepairedIsAsIfMadeAnew) {
   }
 }
 
+TEST(DistanceField, CellsThatFlickerAreRepairedAsIfMadeAnew) {
+  std::mt19937 random(4);
+  for (const auto solid :
+       {DistanceField::Solid::kOccupied, DistanceField::Solid::kOccupiedOrUnknown}) {
+    OccupancyGrid grid = building(random);
+    DistanceField field(grid, solid);
+    for (int trial = 0; trial < 150; ++trial) {
+      std::vector<CornerWindow> windows;
+      for (int i = 0; i < 3; ++i) {
+        const int x = static_cast<int>(random() % grid.width);
+        const int y = static_cast<int>(random() % grid.height);
+        windows.push_back({x, y, x, y});
+        grid.at(x, y) = random() % 3 == 0   ? OccupancyGrid::kUnknown
+                        : random() % 2 == 0 ? OccupancyGrid::kOccupied
+                                            : OccupancyGrid::kFree;
+      }
+      field.repair(grid, windows);
+      const DistanceField fresh(grid, solid);
+      for (int y = 0; y < field.rows(); ++y) {
+        for (int x = 0; x < field.columns(); ++x)
+          ASSERT_EQ(field.at_corner(x, y), fresh.at_corner(x, y)) << trial << ": " << x << " " << y;
+      }
+    }
+  }
+}
+
 TEST(DistanceField, WhereNothingChangedNothingDiffers) {
   std::mt19937 random(5);
   const OccupancyGrid grid = building(random);
   DistanceField field(grid, DistanceField::Solid::kOccupied);
-  EXPECT_TRUE(field.repair(grid, {20, 20, 40, 40}).empty());
+  EXPECT_TRUE(field.repair(grid, {{20, 20, 40, 40}}).empty());
   OccupancyGrid other = grid;
   other.origin.x() += 0.05;
-  EXPECT_THROW(field.repair(other, {20, 20, 40, 40}), std::invalid_argument);
+  EXPECT_THROW(field.repair(other, {{20, 20, 40, 40}}), std::invalid_argument);
 }
 
 }  // namespace
