@@ -10,9 +10,8 @@ namespace mocha {
 namespace {
 
 constexpr double kMostCells = 2.5e7;
-constexpr int kPatch = 32;             // cells along a side: changes are repaired together
-constexpr double kMostRepaired = 0.1;  // share of the map; beyond, all is made anew
-constexpr double kSameCell = 1e-6;     // cells
+constexpr int kPatch = 32;          // cells along a side: changes are repaired together
+constexpr double kSameCell = 1e-6;  // cells
 
 /// Around the cells of each patch of the held map in which a new part of it differs.
 std::vector<CornerWindow> changes(const OccupancyGrid& held, const OccupancyGrid& grid,
@@ -136,8 +135,6 @@ std::optional<Eigen::Vector2i> KnownMap::place_of(const OccupancyGrid& grid) con
 void KnownMap::repair(const OccupancyGrid& part, const Eigen::Vector2i& place) {
   const std::vector<CornerWindow> patches = changes(held_, part, place);
   if (patches.empty()) return;
-  const double repaired = static_cast<double>(patches.size()) * kPatch * kPatch;
-  if (repaired > kMostRepaired * static_cast<double>(held_.cells.size())) forget();
   std::optional<SkeletonTiles> tiles = static_map_ ? static_map_->tiles() : std::nullopt;
   static_map_.reset();
   make_own(occupied_);
