@@ -7,16 +7,32 @@ DEPTH_M = 0.05  # of a surface
 OCCUPIED, UNKNOWN, FREE = 0, 205, 254  # grey, as map_server has it
 
 
-def depths(world, x, y):
-    """How deep points are inside the world's solids [m]; negative outside, where it is not exact."""
-    depth = numpy.full(numpy.broadcast(x, y).shape, -numpy.inf)
+def circle_depth(cx, cy, radius):
+    return lambda x, y: radius - numpy.hypot(x - cx, y - cy)
+
+
+def wall_depth(low, high):
+    return lambda x, y: numpy.minimum(numpy.minimum(x - low[0], high[0] - x), numpy.minimum(y - low[1], high[1] - y))
+
+
+def solids(world):
+    """Each with its lower and upper corner, and how deep places are inside of it [m]."""
     for cx, cy, radius in world.get("circles", []):
-        depth = numpy.maximum(depth, radius - numpy.hypot(x - cx, y - cy))
+        yield (cx - radius, cy - radius), (cx + radius, cy + radius), circle_depth(cx, cy, radius)
     for corners in world.get("polygons", []):  # convex ones, which walls are
-        lows, highs = numpy.min(corners, axis=0), numpy.max(corners, axis=0)
-        if {tuple(corner) for corner in corners} != {(a, b) for a in (lows[0], highs[0]) for b in (lows[1], highs[1])}:
+        low, high = numpy.min(corners, axis=0), numpy.max(corners, axis=0)
+        if {tuple(corner) for corner in corners} != {(a, b) for a in (low[0], high[0]) for b in (low[1], high[1])}:
             raise ValueError("only walls along the axes are drawn")
-        depth = numpy.maximum(depth, numpy.minimum(numpy.minimum(x - lows[0], highs[0] - x), numpy.minimum(y - lows[1], highs[1] - y)))
+        yield low, high, wall_depth(low, high)
+
+
+def depths(world, x, y):
+    """How deep the centres of cells, at ascending x and y, are inside the world's solids [m]; negative outside, where it is not exact."""
+    depth = numpy.full((len(y), len(x)), -numpy.inf)
+    for low, high, depth_in in solids(world):
+        columns = slice(*numpy.searchsorted(x, (low[0], high[0])))
+        rows = slice(*numpy.searchsorted(y, (low[1], high[1])))
+        depth[rows, columns] = numpy.maximum(depth[rows, columns], depth_in(x[None, columns], y[rows, None]))
     return depth
 
 
@@ -24,9 +40,8 @@ def write(world, resolution_m, path):
     """Writes path (a .yaml) and the image beside it."""
     low, high = numpy.array(world["bounds"]["min"]), numpy.array(world["bounds"]["max"])
     cells = numpy.ceil((high - low) / resolution_m - 1e-6).astype(int)
-    x = low[0] + resolution_m * (numpy.arange(cells[0]) + 0.5)
-    y = low[1] + resolution_m * (numpy.arange(cells[1]) + 0.5)
-    depth = depths(world, x[None, :], y[::-1, None])
+    x, y = (low[axis] + resolution_m * (numpy.arange(cells[axis]) + 0.5) for axis in (0, 1))
+    depth = depths(world, x, y)[::-1]
     grey = numpy.select([depth < 0.0, depth < DEPTH_M], [FREE, OCCUPIED], UNKNOWN).astype(numpy.uint8)
     image = os.path.splitext(path)[0] + ".pgm"
     with open(image, "wb") as file:
