@@ -63,7 +63,8 @@ ROOMS = {
     "topology/space_time": "The same with time as an axis.",
     "topology/static_map": "What stands, as searches for paths see it.",
     "trajectory": "What a motion is: polynomials, MINCO, timed phases, braking, separation.",
-    "world": "Geometry: obstacles, distance fields, footprints, robot models, world files.",
+    "world": "Geometry: obstacles, grids, footprints, robot models, world files.",
+    "world/distances": "How far it is to what a grid holds: made, and repaired where it changes.",
 }
 MOST_FILES = 40  # in a room
 MOST_LINES = 320  # of a source

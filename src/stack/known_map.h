@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "topology/static_map/grid_static_map.h"
-#include "world/distance_field.h"
+#include "world/distances/distance_field.h"
 #include "world/occupancy_grid.h"
 
 namespace mocha {

@@ -4,7 +4,8 @@ All that launch/robot.launch starts, in the corridor, beside a second robot that
 the robot finds its place in it. What plays its surroundings is not counted. All runs on the machine's clock, as on a robot: nodes that follow
 a simulated one take a third more, for its steps, receipts and timers.
 cpu_s_per_s is the processor time of all threads of a node for each second while the robot drives, standing_cpu_s_per_s the same before it is
-given its goal; peak_mib the most memory that was resident, shared libraries included. Messages count once for each subscriber.
+given its goal; peak_mib the most memory that was resident, shared libraries included; share_mib that at the end, with what several processes
+share divided among them, so that its sum is what the computer has less. Messages count once for each subscriber.
 """
 import os
 import time
@@ -61,7 +62,7 @@ def rows_between(nodes, standing, driving):
         elapsed_s = end.time_s - begin.time_s
         messages, size = consumption.traffic(begin.sent[node.name], end.sent[node.name])
         rows.append({"node": node.name, "cpu_s_per_s": round((end.cpu_s[node.name] - begin.cpu_s[node.name]) / elapsed_s, 4),
-                     "peak_mib": round(node.peak_mib(), 1), "messages_per_s": round(messages / elapsed_s, 1),
+                     "peak_mib": round(node.peak_mib(), 1), "share_mib": round(node.share_mib(), 1), "messages_per_s": round(messages / elapsed_s, 1),
                      "bytes_per_s": round(size / elapsed_s),
                      "standing_cpu_s_per_s": round((goal.cpu_s[node.name] - still.cpu_s[node.name]) / (goal.time_s - still.time_s), 4)})
     return sorted(rows, key=lambda row: -row["cpu_s_per_s"])
@@ -109,10 +110,10 @@ def measure(session, launcher, world):
 
 
 def print_table(rows, total):
-    print(f"\n{'node':26}{'cpu [s/s]':>11}{'standing':>10}{'peak [MiB]':>12}{'messages/s':>12}{'kB/s':>10}")
+    print(f"\n{'node':26}{'cpu [s/s]':>11}{'standing':>10}{'peak [MiB]':>12}{'share [MiB]':>13}{'messages/s':>12}{'kB/s':>10}")
     for row in [*rows, {"node": "all", **total}]:
         print(f"{row['node']:26}{row['cpu_s_per_s']:11.3f}{row['standing_cpu_s_per_s']:10.3f}{row['peak_mib']:12.1f}"
-              f"{row['messages_per_s']:12.1f}{1e-3 * row['bytes_per_s']:10.1f}")
+              f"{row['share_mib']:13.1f}{row['messages_per_s']:12.1f}{1e-3 * row['bytes_per_s']:10.1f}")
 
 
 def run(options):

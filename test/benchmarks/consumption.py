@@ -28,6 +28,11 @@ class Node:
         with open(f"/proc/{self._pid}/status") as file:
             return next(int(line.split()[1]) for line in file if line.startswith("VmHWM")) / 1024.0
 
+    def share_mib(self):
+        """Resident now, what several processes share divided among them."""
+        with open(f"/proc/{self._pid}/smaps_rollup") as file:
+            return next(int(line.split()[1]) for line in file if line.startswith("Pss:")) / 1024.0
+
     def sent(self):
         """topic -> {connection: (bytes, messages)}"""
         if self._proxy is None:

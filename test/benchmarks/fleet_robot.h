@@ -8,7 +8,7 @@
 
 #include "fleet/wire/datagram_link.h"
 #include "stack/robot_stack.h"
-#include "world/distance_field.h"
+#include "world/distances/distance_field.h"
 #include "world/occupancy_grid.h"
 
 namespace mocha {

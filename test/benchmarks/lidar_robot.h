@@ -10,7 +10,7 @@
 #include "fleet/protocol/commitment_protocol.h"
 #include "simulation/world_simulator.h"
 #include "stack/robot_stack.h"
-#include "world/distance_field.h"
+#include "world/distances/distance_field.h"
 
 namespace mocha {
 

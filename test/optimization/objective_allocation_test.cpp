@@ -10,7 +10,7 @@
 #include "optimization/obstacle_penalty.h"
 #include "optimization/trajectory_objective.h"
 #include "optimization/turning_penalty.h"
-#include "world/distance_field.h"
+#include "world/distances/distance_field.h"
 
 // Eigen takes its memory from malloc and everything else from operator new, which takes it from
 // malloc: counting there sees all. The address sanitizer needs malloc for itself.

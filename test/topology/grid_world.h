@@ -8,7 +8,7 @@
 #include "topology/paths/grid_path.h"
 #include "topology/paths/path_shortcutting.h"
 #include "topology/static_map/grid_static_map.h"
-#include "world/distance_field.h"
+#include "world/distances/distance_field.h"
 #include "world/occupancy_grid.h"
 
 namespace mocha {

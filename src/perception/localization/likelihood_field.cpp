@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "perception/sensor/beam.h"
-#include "world/distance_transform.h"
+#include "world/distances/distance_transform.h"
 
 namespace mocha {
 namespace {

@@ -6,7 +6,7 @@
 #include "topology/roadmaps/shared_corners.h"
 #include "topology/static_map/travel_cost.h"
 #include "world/corner_window.h"
-#include "world/distance_field.h"
+#include "world/distances/distance_field.h"
 
 namespace mocha {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "topology/static_map/union_find.h"
-#include "world/distance_field.h"
+#include "world/distances/distance_field.h"
 
 namespace mocha {
 

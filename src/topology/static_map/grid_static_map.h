@@ -6,7 +6,7 @@
 
 #include "topology/roadmaps/skeleton_tiles.h"
 #include "topology/static_map/static_map.h"
-#include "world/distance_field.h"
+#include "world/distances/distance_field.h"
 
 namespace mocha {
 

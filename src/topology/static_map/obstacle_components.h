@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "world/corner_window.h"
-#include "world/distance_field.h"
+#include "world/distances/distance_field.h"
 
 namespace mocha {
 

@@ -1,4 +1,4 @@
-#include "world/distance_field.h"
+#include "world/distances/distance_field.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "world/distance_field.h"
+#include "world/distances/distance_field.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "world/distance_repair.h"
-#include "world/distance_transform.h"
+#include "world/distances/distance_repair.h"
+#include "world/distances/distance_transform.h"
 #include "world/window_joining.h"
 
 namespace mocha {

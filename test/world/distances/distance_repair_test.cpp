@@ -1,4 +1,4 @@
-#include "world/distance_repair.h"
+#include "world/distances/distance_repair.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "world/distance_field.h"
+#include "world/distances/distance_field.h"
 
 namespace mocha {
 namespace {

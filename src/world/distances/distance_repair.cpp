@@ -1,4 +1,4 @@
-#include "world/distance_repair.h"
+#include "world/distances/distance_repair.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "world/distance_transform.h"
+#include "world/distances/distance_transform.h"
 
 namespace mocha {
 namespace {

@@ -1,4 +1,4 @@
-#include "world/distance_transform.h"
+#include "world/distances/distance_transform.h"
 
 #include <gtest/gtest.h>
 
