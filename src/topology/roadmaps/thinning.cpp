@@ -45,8 +45,6 @@ void Thinning::start(const RoomRaster& figure, const std::vector<int>& anchors) 
   bucket_.resize(places);
   next_.resize(places);
   first_.fill(kNone);
-  last_.fill(kNone);
-  lowest_ = kBuckets;
   float most = 0.0f;
   for (const float room : figure.room) most = std::max(most, room);
   const float scale = most > 0.0f ? (kBuckets - 1) / most : 0.0f;

@@ -56,6 +56,12 @@ TEST_F(ObstacleComponentsTest, AWindowThatShowsOnlyTheGapHasNoSolidComponent) {
   EXPECT_TRUE(any.solid(0).empty());
 }
 
+TEST_F(ObstacleComponentsTest, OnlyWhatIsNarrowerByMoreThanHalfACellIsNoPassage) {
+  const CornerWindow middle{36, 15, 36, 25};  // 0.2 m from both crates
+  EXPECT_EQ(ObstacleComponents(field_, middle, 0.21, Kind::kAny).size(), 0);
+  EXPECT_EQ(ObstacleComponents(field_, middle, 0.24, Kind::kAny).size(), 1);
+}
+
 TEST_F(ObstacleComponentsTest, AnEmptyWindowHasNone) {
   EXPECT_EQ(ObstacleComponents(field_, {10, 10, 9, 9}, 0.3, Kind::kAny).size(), 0);
 }
