@@ -34,7 +34,8 @@ class RvizView(unittest.TestCase):
         with open(rviz_view.CONFIG) as shipped:
             shipped = yaml.safe_load(shipped)
         for bounds in ("", "bounds: 3", "bounds: {min: [0, 0]}", "bounds: {min: [0, 0], max: [0, 9]}", "bounds: {min: [a, 0], max: [1, 9]}",
-                       "bounds: {min: [0], max: [9]}"):
+                       "bounds: {min: [0], max: [9]}", "bounds: {min: [1, 1], max: [0, 0]}", "bounds: {min: [0, 0], max: [.nan, 1]}",
+                       "bounds: {min: [0, 0], max: [.inf, 1]}"):
             with tempfile.NamedTemporaryFile("w") as world, tempfile.NamedTemporaryFile() as file:
                 world.write(f"robots: []\n{bounds}\n")
                 world.flush()

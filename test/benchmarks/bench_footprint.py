@@ -4,7 +4,7 @@ All that launch/robot.launch starts, in the corridor, beside a second robot that
 the robot finds its place in it. What plays its surroundings is not counted. All runs on the machine's clock, as on a robot: nodes that follow
 a simulated one take a third more, for its steps, receipts and timers.
 cpu_s_per_s is the processor time of all threads of a node for each second while the robot drives, standing_cpu_s_per_s the same before it is
-given its goal; peak_mib the most memory that was resident, shared libraries included; share_mib that at the end, with what several processes
+given its goal; peak_mib the most memory that was resident, shared libraries included; share_mib what is resident at the end, with what several processes
 share divided among them, so that its sum is what the computer has less. Messages count once for each subscriber.
 """
 import os

@@ -30,8 +30,8 @@ def depths(world, x, y):
     """How deep the centres of cells, at ascending x and y, are inside the world's solids [m]; negative outside, where it is not exact."""
     depth = numpy.full((len(y), len(x)), -numpy.inf)
     for low, high, depth_in in solids(world):
-        columns = slice(*numpy.searchsorted(x, (low[0], high[0])))
-        rows = slice(*numpy.searchsorted(y, (low[1], high[1])))
+        columns, rows = (slice(numpy.searchsorted(centres, low[axis]), numpy.searchsorted(centres, high[axis], side="right"))
+                         for axis, centres in enumerate((x, y)))
         depth[rows, columns] = numpy.maximum(depth[rows, columns], depth_in(x[None, columns], y[rows, None]))
     return depth
 

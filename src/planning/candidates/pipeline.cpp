@@ -100,8 +100,8 @@ void CandidatePipeline::climb(const Seed& seed, const StartManeuver& start_maneu
     const Violation violation = tried.violation;
     if (tried.met <= best.met) best = std::move(tried);
     if (best.met == rules_.wanted() || !rules_.may_be_mended(violation)) return;
-    // A search that ended early does not tell what the drive would cost.
-    if (found.stop == StopReason::kConverged && is_too_dear(cost)) return;
+    // A search whose evaluations are used up does not tell what the drive would cost.
+    if (found.stop != StopReason::kBudget && is_too_dear(cost)) return;
     effort = raised(effort, violation, ladder.factor);
   }
 }

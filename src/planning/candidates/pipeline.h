@@ -60,8 +60,8 @@ class CandidatePipeline {
 
   /// Tries the start maneuvers of a seed in turn, each with rising effort, until what is wanted is
   /// met, the work is used up, or `should_stop`. A drive that `is_too_dear` where its search
-  /// converged is not tried harder: as a rule, more effort makes it dearer. Returns the last of the
-  /// best.
+  /// came to its end is not tried harder: as a rule, more effort makes it dearer. Returns the last
+  /// of the best.
   PlanCandidate optimise_and_certify(
       const Seed& seed, const std::function<bool()>& should_stop,
       const std::function<bool(double)>& is_too_dear = [](double) { return false; }) const;

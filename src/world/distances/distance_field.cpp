@@ -1,5 +1,6 @@
 #include "world/distances/distance_field.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,10 +14,11 @@
 namespace mocha {
 namespace {
 
-constexpr double kSlackCells = 1.5;  // between a corner and a place between corners
-constexpr std::size_t kFewSites = 32;
-constexpr int kReach = 100;  // corners that are made anew around what changed, or so
-constexpr int kDiffer = 64;  // corners along the sides of what is told to differ
+constexpr double kSlackCells = 1.5;    // between a corner and a place between corners
+constexpr std::size_t kFewSites = 32;  // of a window; more of them depend on each other's places
+constexpr double kRepairWork = 2.0;    // of one side, for each corner: a third of making it anew
+constexpr int kReach = 100;            // corners that are made anew around what changed, or so
+constexpr int kDiffer = 64;            // corners along the sides of what is told to differ
 
 /// Marks the corners of all cells that are (or are not) solid as sites, in a window.
 std::vector<float> corner_sites(const OccupancyGrid& grid, DistanceField::Solid solid, bool wanted,
@@ -101,45 +103,55 @@ std::vector<CornerWindow> DistanceField::repair(const OccupancyGrid& grid,
   if (grid.width + 1 != columns_ || grid.height + 1 != rows_ || grid.origin != origin_ ||
       grid.resolution_m != resolution_m_)
     throw std::invalid_argument("DistanceField: the changed map is another one");
-  std::vector<CornerWindow> differ;
-  std::vector<CornerWindow> with_many;
+  const auto make_repair = [&](int side) {
+    return DistanceRepair(distance_m_, columns_, rows_, static_cast<float>(resolution_m_), side,
+                          static_cast<std::int64_t>(kRepairWork * distance_m_.size()));
+  };
+  std::vector<DistanceRepair> sides = {make_repair(1)};
+  if (!outside_solid_) sides.push_back(make_repair(-1));
+  std::vector<CornerWindow> left;
   for (const CornerWindow& window : cells) {
     const CornerWindow changed =
         CornerWindow{window.x0, window.y0, window.x1 + 1, window.y1 + 1}.within(corners());
-    if (!changed.empty() && !repair_sites(grid, changed, differ)) with_many.push_back(changed);
+    if (!changed.empty() && !repair_sites(grid, changed, sides)) left.push_back(changed);
   }
-  for (const CornerWindow& changed : joined(with_many, kReach)) make_anew(grid, changed, differ);
+  std::vector<CornerWindow> differ;
+  for (const DistanceRepair& side : sides)
+    differ.insert(differ.end(), side.touched().begin(), side.touched().end());
+  double area = 0.0;
+  for (const CornerWindow& changed : left)
+    area += static_cast<double>(changed.grown(kReach).columns()) * changed.grown(kReach).rows();
+  const bool is_spoilt = std::any_of(sides.begin(), sides.end(),
+                                     [](const DistanceRepair& side) { return side.used_up(); });
+  if (is_spoilt || area > static_cast<double>(distance_m_.size())) left = {corners()};
+  for (const CornerWindow& changed : joined(left, kReach)) make_anew(grid, changed, differ);
   return differ;
 }
 
-/// Where few sites have changed, and with little that depends on them; else returns false.
+/// Site by site, where few have changed; false where it is to be made anew.
 bool DistanceField::repair_sites(const OccupancyGrid& grid, const CornerWindow& changed,
-                                 std::vector<CornerWindow>& differ) {
-  struct Side {
-    int sign;
+                                 std::vector<DistanceRepair>& sides) {
+  struct Sites {
     std::vector<Eigen::Vector2i> gone, come;
   };
-  std::vector<Side> sides = {{1, {}, {}}};
-  if (!outside_solid_) sides.push_back({-1, {}, {}});
+  std::vector<Sites> changes;
   std::size_t count = 0;
-  for (Side& side : sides) {
-    std::vector<float> sites = corner_sites(grid, solid(), side.sign > 0, changed);
+  for (const int sign : {1, -1}) {
+    if (changes.size() == sides.size()) break;
+    auto& [gone, come] = changes.emplace_back();
+    std::vector<float> sites = corner_sites(grid, solid(), sign > 0, changed);
     if (outside_solid_) add_rim(grid, changed, sites);
     for (int y = changed.y0, i = 0; y <= changed.y1; ++y) {
       for (int x = changed.x0; x <= changed.x1; ++x, ++i) {
-        const bool was_site = side.sign * at_corner(x, y) <= 0.0;
-        if ((sites[i] == 0.0f) != was_site) (was_site ? side.gone : side.come).emplace_back(x, y);
+        const bool was_site = sign * at_corner(x, y) <= 0.0;
+        if ((sites[i] == 0.0f) != was_site) (was_site ? gone : come).emplace_back(x, y);
       }
     }
-    count += side.gone.size() + side.come.size();
+    count += gone.size() + come.size();
   }
   if (count > kFewSites) return false;
-  for (const Side& side : sides) {
-    DistanceRepair repair(distance_m_, columns_, rows_, static_cast<float>(resolution_m_),
-                          side.sign);
-    if (!repair.remove(side.gone)) return false;
-    repair.add(side.come);
-    differ.insert(differ.end(), repair.touched().begin(), repair.touched().end());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (!sides[i].remove(changes[i].gone) || !sides[i].add(changes[i].come)) return false;
   }
   return true;
 }

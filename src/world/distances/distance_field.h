@@ -8,6 +8,8 @@
 
 namespace mocha {
 
+class DistanceRepair;
+
 /// Exact Euclidean distances to the solid cells of a map.
 ///
 /// Distances are kept at the corners of the cells. There, the distance to the union of the closed
@@ -60,7 +62,7 @@ class DistanceField : public ObstacleField<2> {
   double bound_inside(const Vector2& at) const;
   Solid solid() const { return outside_solid_ ? Solid::kOccupiedOrUnknown : Solid::kOccupied; }
   bool repair_sites(const OccupancyGrid& grid, const CornerWindow& changed,
-                    std::vector<CornerWindow>& differ);
+                    std::vector<DistanceRepair>& sides);
   void make_anew(const OccupancyGrid& grid, const CornerWindow& changed,
                  std::vector<CornerWindow>& differ);
   CornerWindow reach_of(const CornerWindow& changed) const;

@@ -7,129 +7,123 @@
 #include <random>
 #include <vector>
 
-#include "world/distances/distance_field.h"
-
 namespace mocha {
 namespace {
 
-constexpr int kColumns = 70;
-constexpr int kRows = 50;
-constexpr float kStep_m = 0.05f;
+using Sites = std::vector<Eigen::Vector2i>;
 
-/// Signed distances to sites, one corner after the other.
-std::vector<float> distances(const std::vector<Eigen::Vector2i>& sites, int side) {
-  std::vector<float> signed_m;
-  for (int y = 0; y < kRows; ++y) {
-    for (int x = 0; x < kColumns; ++x) {
-      int least = 1 << 20;
-      for (const Eigen::Vector2i& site : sites)
-        least = std::min(least, (site - Eigen::Vector2i(x, y)).squaredNorm());
-      signed_m.push_back(least == 0 ? 0.0f : side * kStep_m * std::sqrt(static_cast<float>(least)));
+constexpr float kStep_m = 0.05f;
+constexpr std::int64_t kAnyWork = 1 << 30;
+
+/// A lattice with sites, and the signed distances that they make.
+struct Case {
+  int columns;
+  int rows;
+  int side;
+  Sites sites;
+
+  std::vector<float> distances_m() const {
+    std::vector<float> signed_m;
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < columns; ++x) {
+        int least = 1 << 24;
+        for (const Eigen::Vector2i& site : sites)
+          least = std::min(least, (site - Eigen::Vector2i(x, y)).squaredNorm());
+        signed_m.push_back(least == 0 ? 0.0f
+                                      : side * kStep_m * std::sqrt(static_cast<float>(least)));
+      }
     }
+    return signed_m;
   }
-  return signed_m;
+  bool has(const Eigen::Vector2i& site) const {
+    return std::find(sites.begin(), sites.end(), site) != sites.end();
+  }
+  DistanceRepair repair(std::vector<float>& signed_m, std::int64_t most_work = kAnyWork) const {
+    return DistanceRepair(signed_m, columns, rows, kStep_m, side, most_work);
+  }
+};
+
+/// Sites in a wall, or here and there.
+Case random_case(int trial, std::mt19937& random) {
+  Case made{70, 50, trial % 2 == 0 ? 1 : -1, {}};
+  const int count = 2 + static_cast<int>(random() % 60);
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector2i site = trial % 3 == 0 ? Eigen::Vector2i(5 + i, 20 + i / 7)
+                                                : Eigen::Vector2i(random() % 70, random() % 50);
+    if (!made.has(site)) made.sites.push_back(site);
+  }
+  std::shuffle(made.sites.begin(), made.sites.end(), random);
+  return made;
+}
+
+void expect_exact(Case here, const Sites& gone, const Sites& come) {
+  std::vector<float> repaired = here.distances_m();
+  const std::vector<float> before = repaired;
+  DistanceRepair repair = here.repair(repaired);
+  ASSERT_TRUE(repair.remove(gone));
+  ASSERT_TRUE(repair.add(come));
+  const auto is_gone = [&](const Eigen::Vector2i& site) {
+    return std::find(gone.begin(), gone.end(), site) != gone.end();
+  };
+  here.sites.erase(std::remove_if(here.sites.begin(), here.sites.end(), is_gone), here.sites.end());
+  here.sites.insert(here.sites.end(), come.begin(), come.end());
+  const std::vector<float> fresh = here.distances_m();
+  for (int i = 0; i < here.columns * here.rows; ++i) {
+    const int x = i % here.columns;
+    const int y = i / here.columns;
+    ASSERT_EQ(repaired[i], fresh[i]) << x << " " << y;
+    const auto holds = [&](const CornerWindow& window) { return window.holds(x, y); };
+    EXPECT_TRUE(fresh[i] == before[i] ||
+                std::any_of(repair.touched().begin(), repair.touched().end(), holds));
+  }
 }
 
 TEST(DistanceRepair, SitesThatComeAndGoLeaveExactDistances) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 300; ++trial) {
-    const int side = trial % 2 == 0 ? 1 : -1;
-    std::vector<Eigen::Vector2i> sites;
-    const int count = 2 + static_cast<int>(random() % 60);
-    const bool in_a_wall = trial % 3 == 0;
-    for (int i = 0; i < count; ++i) {
-      const int x = in_a_wall ? 5 + i : static_cast<int>(random() % kColumns);
-      const int y = in_a_wall ? 20 + i / 7 : static_cast<int>(random() % kRows);
-      if (std::find(sites.begin(), sites.end(), Eigen::Vector2i(x, y)) == sites.end())
-        sites.emplace_back(x, y);
+    const Case here = random_case(trial, random);
+    const std::size_t most = here.sites.size() / 2;
+    const Sites gone(here.sites.begin(), here.sites.begin() + std::min(most, random() % 4));
+    Sites come;
+    for (std::size_t i = random() % 4; i > 0; --i) {
+      const Eigen::Vector2i site(random() % 70, random() % 50);
+      if (!here.has(site) && std::find(come.begin(), come.end(), site) == come.end())
+        come.push_back(site);
     }
-    std::vector<float> repaired = distances(sites, side);
-    const std::vector<float> before = repaired;
-    std::shuffle(sites.begin(), sites.end(), random);
-    const auto take = [&](std::size_t most) {
-      const auto end = sites.end();
-      const auto begin = end - static_cast<long>(std::min(most, sites.size() / 2));
-      std::vector<Eigen::Vector2i> taken(begin, end);
-      sites.erase(begin, end);
-      return taken;
-    };
-    const std::vector<Eigen::Vector2i> gone = take(random() % 4);
-    const std::vector<Eigen::Vector2i> come = [&] {
-      std::vector<Eigen::Vector2i> some;
-      for (std::size_t i = random() % 4; i > 0; --i) {
-        const Eigen::Vector2i at(random() % kColumns, random() % kRows);
-        if (before[at.y() * kColumns + at.x()] != 0.0f &&
-            std::find(some.begin(), some.end(), at) == some.end())
-          some.push_back(at);
-      }
-      return some;
-    }();
-    DistanceRepair repair(repaired, kColumns, kRows, kStep_m, side);
-    ASSERT_TRUE(repair.remove(gone));
-    repair.add(come);
-    sites.insert(sites.end(), come.begin(), come.end());
-    const std::vector<float> fresh = distances(sites, side);
-    for (int i = 0; i < kColumns * kRows; ++i) {
-      const int x = i % kColumns;
-      const int y = i / kColumns;
-      ASSERT_EQ(repaired[i], fresh[i]) << trial << ": " << x << " " << y;
-      const auto holds = [&](const CornerWindow& window) { return window.holds(x, y); };
-      const auto& touched = repair.touched();
-      EXPECT_TRUE(fresh[i] == before[i] || std::any_of(touched.begin(), touched.end(), holds));
-    }
+    expect_exact(here, gone, come);
   }
 }
 
-TEST(DistanceRepair, RefusesWhereAllDependsOnWhatGoes) {
-  std::vector<float> wide(200 * 200);
-  for (int i = 0; i < 200 * 200; ++i)
-    wide[i] = kStep_m * std::hypot(static_cast<float>(i % 200 - 100), static_cast<float>(i / 200));
-  DistanceRepair repair(wide, 200, 200, kStep_m, 1);
-  EXPECT_FALSE(repair.remove({{100, 0}}));
+TEST(DistanceRepair, FollowsACellThatIsThinnerThanTheLattice) {
+  expect_exact({10, 25, 1, {{2, 6}, {6, 5}, {0, 7}}}, {{2, 6}}, {});
 }
 
-TEST(DistanceRepair, NarrowWedgesOfAWideHallTouchLittle) {
-  OccupancyGrid hall;
-  hall.width = hall.height = 600;
-  hall.cells.assign(600 * 600, OccupancyGrid::kFree);
-  for (int i = 0; i < 600; ++i) {
-    for (int k : {0, 599}) hall.at(i, k) = hall.at(k, i) = OccupancyGrid::kOccupied;
-  }
-  DistanceField field(hall, DistanceField::Solid::kOccupied);
-  std::mt19937 random(2);
-  for (int trial = 0; trial < 20; ++trial) {
-    // A cell of the wall, or before it.
-    const int at = 10 + static_cast<int>(random() % 580);
-    std::int8_t& cell = hall.at(at, trial % 2);
-    cell = cell == OccupancyGrid::kFree ? OccupancyGrid::kOccupied : OccupancyGrid::kFree;
-    const CornerWindow where{at, trial % 2, at, trial % 2};
-    long touched = 0;
-    for (const CornerWindow& window : field.repair(hall, {where}))
-      touched += window.columns() * window.rows();
-    EXPECT_LT(touched, 600 * 600 / 4);
-    const DistanceField fresh(hall, DistanceField::Solid::kOccupied);
-    for (int y = 0; y < field.rows(); ++y) {
-      for (int x = 0; x < field.columns(); ++x)
-        ASSERT_EQ(field.at_corner(x, y), fresh.at_corner(x, y)) << trial << ": " << x << " " << y;
-    }
-  }
+TEST(DistanceRepair, IsExactFarFromAllSites) {
+  expect_exact({4000, 2, 1, {{0, 0}, {3999, 1}}}, {{3999, 1}}, {{3, 1}});
 }
 
-TEST(DistanceRepair, WhatAllDependsOnMayGoFromAField) {
-  OccupancyGrid plain;
-  plain.width = plain.height = 200;
-  plain.cells.assign(200 * 200, OccupancyGrid::kFree);
-  plain.at(100, 50) = plain.at(20, 150) = OccupancyGrid::kOccupied;
-  DistanceField field(plain, DistanceField::Solid::kOccupied);
-  for (const CornerWindow& where : {CornerWindow{100, 50, 100, 50}, {20, 150, 20, 150}}) {
-    plain.at(where.x0, where.y0) = OccupancyGrid::kFree;
-    field.repair(plain, {where});
-    const DistanceField fresh(plain, DistanceField::Solid::kOccupied);
-    for (int y = 0; y < field.rows(); ++y) {
-      for (int x = 0; x < field.columns(); ++x)
-        ASSERT_EQ(field.at_corner(x, y), fresh.at_corner(x, y)) << x << " " << y;
-    }
-  }
+TEST(DistanceRepair, RefusesWhatTakesTooMuchWork) {
+  const Case lonely{200, 200, 1, {{100, 0}, {0, 150}}};
+  std::vector<float> signed_m = lonely.distances_m();
+  EXPECT_FALSE(lonely.repair(signed_m, 1000).remove({{100, 0}}));
+  signed_m = lonely.distances_m();
+  EXPECT_FALSE(lonely.repair(signed_m, 1000).add({{150, 190}}));
+  signed_m = lonely.distances_m();
+  EXPECT_TRUE(lonely.repair(signed_m).remove({{100, 0}}));
+}
+
+TEST(DistanceRepair, TouchesLittleOfAWideHall) {
+  Case hall{600, 300, 1, {}};
+  for (int x = 0; x < hall.columns; ++x) hall.sites.emplace_back(x, 0);
+  std::vector<float> signed_m;
+  for (int i = 0; i < hall.columns * hall.rows; ++i)
+    signed_m.push_back(kStep_m * static_cast<float>(i / hall.columns));
+  DistanceRepair repair = hall.repair(signed_m, 200 * hall.columns);
+  EXPECT_TRUE(repair.remove({{300, 0}}));
+  EXPECT_TRUE(repair.add({{300, 0}}));
+  long touched = 0;
+  for (const CornerWindow& window : repair.touched()) touched += window.columns() * window.rows();
+  EXPECT_LT(touched, 2 * hall.rows);
 }
 
 }  // namespace
