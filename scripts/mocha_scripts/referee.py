@@ -8,6 +8,9 @@ from mocha_ugv.msg import Contact, GroundTruth
 from move_base_msgs.msg import MoveBaseActionResult
 
 
+BLAME = {Contact.OWN: "its own contact", Contact.STANDING: "standing", Contact.UNSEEN: "run into unseen"}
+
+
 class RobotResult:
     def __init__(self, name):
         self.name = name
@@ -15,6 +18,7 @@ class RobotResult:
         self.reached = False
         self.gave_up = None  # why, in the robot's words
         self.contacts = 0
+        self.own_contacts = 0
         self.time_s = None
         self.path_m = 0.0
         self.min_clearance_m = math.inf
@@ -23,6 +27,7 @@ class RobotResult:
     def update(self, truth):
         self.has_goal = truth.has_goal
         self.contacts = truth.contacts
+        self.own_contacts = truth.own_contacts
         self.min_clearance_m = min(self.min_clearance_m, truth.clearance)
         self.max_speed_mps = max(self.max_speed_mps, abs(truth.speed))
         if self.reached:
@@ -34,7 +39,8 @@ class RobotResult:
 
     def as_dict(self):
         rounded = lambda value: None if value is None or not math.isfinite(value) else round(value, 4)
-        return {"name": self.name, "reached": self.reached, "gave_up": self.gave_up, "contacts": self.contacts, "time_s": rounded(self.time_s),
+        return {"name": self.name, "reached": self.reached, "gave_up": self.gave_up, "contacts": self.contacts,
+                "own_contacts": self.own_contacts, "time_s": rounded(self.time_s),
                 "path_m": rounded(self.path_m), "min_clearance_m": rounded(self.min_clearance_m),
                 "max_speed_mps": rounded(self.max_speed_mps)}
 
@@ -54,8 +60,9 @@ class Referee:
 
     def _on_contact(self, contact):
         with self._lock:
-            self.contacts.append(f"{contact.robot} touched {contact.other} at "
-                                 f"({contact.place.x:.2f}, {contact.place.y:.2f}), {contact.depth:.3f} m deep")
+            self.contacts.append(f"{contact.robot} ({BLAME[contact.blame]}) touched {contact.other} at "
+                                 f"({contact.place.x:.2f}, {contact.place.y:.2f}), {contact.depth:.3f} m deep, after "
+                                 f"{contact.header.stamp.to_sec():.2f} s, coming together at {contact.approach_speed:.2f} m/s")
 
     def _on_truth(self, message):
         with self._lock:

@@ -217,9 +217,10 @@ class FleetSimulatorNode {
   }
 
   void report(const ContactEvent& contact) {
-    ROS_WARN("Contact at %.2f s: %s with %s at (%.2f, %.2f), %.3f m deep", now_.toSec(),
-             contact.robot.c_str(), contact.other.c_str(), contact.place.x(), contact.place.y(),
-             contact.depth_m);
+    ROS_WARN("Contact at %.2f s: %s (%s) with %s at (%.2f, %.2f), %.3f m deep, at %.2f m/s",
+             now_.toSec(), contact.robot.c_str(), to_text(contact.blame), contact.other.c_str(),
+             contact.touch.place.x(), contact.touch.place.y(), contact.depth_m,
+             contact.touch.approach_mps());
     contacts_.publish(contact_message(contact, now_));
   }
 

@@ -5,25 +5,27 @@
 
 namespace mocha {
 
-MoverState mover_state(const Mover& mover, double elapsed_s) {
-  const std::size_t points = mover.path.size();
-  const std::size_t sides = mover.loop ? points : points - 1;
-  double round = 0.0;
-  for (std::size_t i = 0; i < sides; ++i) {
-    round += (mover.path[(i + 1) % points] - mover.path[i]).norm();
+std::optional<MoverState> mover_state(const Mover& mover, double elapsed_s) {
+  const Keyframe& first = mover.keyframes.front();
+  const Keyframe& last = mover.keyframes.back();
+  const bool stands = mover.after_last == AfterLast::kStands;
+  if (elapsed_s < first.time_s) {
+    return stands ? std::optional<MoverState>({first.place, Vector2::Zero()}) : std::nullopt;
   }
-  double ahead = mover.speed_mps * std::max(0.0, elapsed_s);
-  if (mover.loop && round > 0.0) ahead = std::fmod(ahead, round);
-  for (std::size_t i = 0; i < sides; ++i) {
-    const Vector2 side = mover.path[(i + 1) % points] - mover.path[i];
-    const double length = side.norm();
-    if (ahead < length) {
-      const Vector2 along = side / length;
-      return {mover.path[i] + ahead * along, mover.speed_mps * along};
-    }
-    ahead -= length;
+  double time_s = elapsed_s;
+  if (mover.after_last == AfterLast::kRepeats)
+    time_s = first.time_s + std::fmod(elapsed_s - first.time_s, last.time_s - first.time_s);
+  const auto is_later = [](double t, const Keyframe& keyframe) { return t < keyframe.time_s; };
+  const auto next =
+      std::upper_bound(mover.keyframes.begin(), mover.keyframes.end(), time_s, is_later);
+  if (next == mover.keyframes.end()) {
+    return stands || time_s == last.time_s
+               ? std::optional<MoverState>({last.place, Vector2::Zero()})
+               : std::nullopt;
   }
-  return {mover.loop ? mover.path.front() : mover.path.back(), Vector2::Zero()};
+  const Keyframe& before = *std::prev(next);
+  const Vector2 velocity = (next->place - before.place) / (next->time_s - before.time_s);
+  return MoverState{before.place + (time_s - before.time_s) * velocity, velocity};
 }
 
 }  // namespace mocha

@@ -1,16 +1,18 @@
 #pragma once
 
+#include <optional>
+
 #include "world/world_file.h"
 
 namespace mocha {
 
-/// Where a mover is and how fast, `elapsed_s` after it set out. Before, and after the end of a path
-/// that does not loop, it stands.
+/// Where a mover is and how fast.
 struct MoverState {
   Vector2 centre;
   Vector2 velocity;  ///< [m/s]
 };
 
-MoverState mover_state(const Mover& mover, double elapsed_s);
+/// `elapsed_s` after it set out; nothing while it is not in the world.
+std::optional<MoverState> mover_state(const Mover& mover, double elapsed_s);
 
 }  // namespace mocha

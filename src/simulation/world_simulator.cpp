@@ -21,6 +21,19 @@ bool is_moving(const SimulatedRobot& robot) {
   return std::abs(twist.speed) > kMovingSpeed || std::abs(twist.yaw_rate) > kMovingSpeed;
 }
 
+/// A contact with a body at `centre`, counted. What stands is touched in the direction of travel.
+ContactEvent blamed(SimulatedRobot& robot, const std::string& other, const Gap& between,
+                    const Vector2& centre, const Vector2& velocity) {
+  const Pose& base = robot.vehicle.pose();
+  Touch touch{between.place, velocity_at(between.place, base, robot.vehicle.twist()), velocity, {}};
+  touch.towards = other == "static" ? touch.own_velocity : centre - between.place;
+  touch.towards.normalize();
+  const Blame blame = blame_of(touch, base, robot.setup.model.lidar);
+  ++robot.contacts;
+  if (blame == Blame::kOwn) ++robot.own_contacts;
+  return {robot.setup.name, other, -between.distance_m, touch, blame};
+}
+
 /// Independent generators from one seed.
 std::uint64_t derived_seed(std::uint64_t seed, std::uint32_t robot, std::uint32_t use) {
   std::seed_seq mixer{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
@@ -94,7 +107,8 @@ double WorldSimulator::min_separation_m() const {
 std::vector<Circle> WorldSimulator::moving_discs(double time_s) const {
   std::vector<Circle> discs;
   for (const Mover& mover : world_.moving) {
-    discs.push_back({mover_state(mover, time_s - start_time_s_).centre, mover.radius_m});
+    if (const auto state = mover_state(mover, time_s - start_time_s_))
+      discs.push_back({state->centre, mover.radius_m});
   }
   return discs;
 }
@@ -125,25 +139,23 @@ Gap WorldSimulator::static_gap(const Obstacle& body, const Footprint& footprint,
 }
 
 void WorldSimulator::check_obstacles(SimulatedRobot& robot, std::vector<ContactEvent>& events) {
-  const std::string& name = robot.setup.name;
-  const Obstacle body = robot.body();
-  const auto check = [&](const std::string& key, const char* kind, const Gap& between,
-                         bool moving) {
-    robot.clearance_m = std::min(robot.clearance_m, between.distance_m);
-    if (!watch_.begins(name, key, between.distance_m, moving)) return;
-    ++robot.contacts;
-    events.push_back({name, kind, between.place, -between.distance_m});
-  };
-  robot.clearance_m = kInfinity;
-  const bool driving = is_moving(robot);
-  check("static", "static",
-        static_gap(body, robot.setup.model.footprint, robot.vehicle.pose().position), driving);
+  const Gap between = static_gap(robot.body(), robot.setup.model.footprint,
+                                 robot.vehicle.pose().position);
+  robot.clearance_m = between.distance_m;
+  if (watch_.begins(robot.setup.name, "static", between.distance_m, is_moving(robot)))
+    events.push_back(blamed(robot, "static", between, Vector2::Zero(), Vector2::Zero()));
+  check_movers(robot, events);
+}
+
+void WorldSimulator::check_movers(SimulatedRobot& robot, std::vector<ContactEvent>& events) {
   for (std::size_t i = 0; i < world_.moving.size(); ++i) {
-    const Mover& mover = world_.moving[i];
-    const MoverState state = mover_state(mover, time_s_ - start_time_s_);
-    const bool moving = driving || state.velocity.norm() > kMovingSpeed;
-    check("moving " + std::to_string(i), "moving", gap(body, Circle{state.centre, mover.radius_m}),
-          moving);
+    const auto state = mover_state(world_.moving[i], time_s_ - start_time_s_);
+    Gap between{kInfinity, Vector2::Zero()};  // to what is not there
+    if (state) between = gap(robot.body(), Circle{state->centre, world_.moving[i].radius_m});
+    robot.clearance_m = std::min(robot.clearance_m, between.distance_m);
+    const bool moving = is_moving(robot) || (state && state->velocity.norm() > kMovingSpeed);
+    if (watch_.begins(robot.setup.name, "moving " + std::to_string(i), between.distance_m, moving))
+      events.push_back(blamed(robot, "moving", between, state->centre, state->velocity));
   }
 }
 
@@ -157,9 +169,11 @@ void WorldSimulator::check_robots(std::vector<ContactEvent>& events) {
       if (!watch_.begins(first.setup.name, second.setup.name, between.distance_m, moving)) {
         continue;
       }
-      ++first.contacts;
-      ++second.contacts;
-      events.push_back({first.setup.name, second.setup.name, between.place, -between.distance_m});
+      for (auto [one, other] : {std::pair(&first, &second), std::pair(&second, &first)}) {
+        const Pose& there = other->vehicle.pose();
+        events.push_back(blamed(*one, other->setup.name, between, there.position,
+                                velocity_at(between.place, there, other->vehicle.twist())));
+      }
     }
   }
 }

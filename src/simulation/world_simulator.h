@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/blame.h"
 #include "simulation/contact_watch.h"
 #include "simulation/lidar.h"
 #include "simulation/odometry.h"
@@ -26,7 +27,8 @@ struct SimulatedRobot {
   double next_sweep_s;  ///< when the next sweep begins
   double clearance_m;   ///< true footprint to the nearest static or moving obstacle; infinity in an
                         ///< empty world
-  unsigned contacts = 0;  ///< events so far
+  unsigned contacts = 0;      ///< events so far
+  unsigned own_contacts = 0;  ///< of them, those that are its own
 
   Obstacle body() const { return placed(setup.model.footprint, vehicle.pose()); }
 };
@@ -35,8 +37,9 @@ struct SimulatedRobot {
 struct ContactEvent {
   std::string robot;
   std::string other;  ///< a robot, "static" or "moving"
-  Vector2 place;
   double depth_m;
+  Touch touch;  ///< of `robot`
+  Blame blame;  ///< of `robot`
 };
 
 /// A fleet in a world, in steps. Seeded: the same steps and commands give the same numbers.
@@ -76,6 +79,7 @@ class WorldSimulator {
   std::vector<Obstacle> seen_by(std::size_t robot, double time_s) const;
   Gap static_gap(const Obstacle& body, const Footprint& footprint, const Vector2& centre) const;
   void check_obstacles(SimulatedRobot& robot, std::vector<ContactEvent>& events);
+  void check_movers(SimulatedRobot& robot, std::vector<ContactEvent>& events);
   void check_robots(std::vector<ContactEvent>& events);
   void sweep(std::size_t robot, std::vector<RobotScan>& scans);
 

@@ -34,15 +34,34 @@ Polygon read_polygon(const YamlReader& reader) {
   return polygon;
 }
 
-Mover read_mover(const YamlReader& reader) {
-  reader.allow_keys({"radius", "speed", "loop", "path"});
-  Mover mover;
-  mover.radius_m = reader.at("radius").positive();
-  mover.speed_mps = reader.at("speed").not_negative();
-  mover.loop = reader.has("loop") && reader.at("loop").flag();
-  mover.path = reader.at("path").points();
-  if (mover.path.empty()) reader.at("path").refuse("needs at least one point");
+/// There from the first of its keyframes to the last only.
+Mover read_keyframed(const YamlReader& reader) {
+  for (const char* key : {"speed", "loop", "path"}) {
+    if (reader.has(key)) reader.at(key).refuse("a mover has either a path or keyframes");
+  }
+  const bool repeats = reader.has("repeat") && reader.at("repeat").flag();
+  Mover mover{reader.at("radius").positive(), {},
+              repeats ? AfterLast::kRepeats : AfterLast::kLeaves};
+  const YamlReader keyframes = reader.at("keyframes");
+  for (const YamlReader& item : keyframes.items()) {
+    const auto values = item.items(3, 3);
+    const double time_s = values[0].not_negative();
+    if (!mover.keyframes.empty() && time_s <= mover.keyframes.back().time_s)
+      values[0].refuse("is not later than the keyframe before");
+    mover.keyframes.push_back({time_s, {values[1].number(), values[2].number()}});
+  }
+  if (mover.keyframes.size() < 2) keyframes.refuse("needs at least two");
   return mover;
+}
+
+Mover read_mover(const YamlReader& reader) {
+  reader.allow_keys({"radius", "speed", "loop", "path", "keyframes", "repeat"});
+  if (reader.has("keyframes")) return read_keyframed(reader);
+  if (reader.has("repeat")) reader.at("repeat").refuse("belongs to keyframes; a path has loop");
+  std::vector<Vector2> path = reader.at("path").points();
+  if (path.empty()) reader.at("path").refuse("needs at least one point");
+  return along_path(reader.at("radius").positive(), reader.at("speed").not_negative(),
+                    reader.has("loop") && reader.at("loop").flag(), std::move(path));
 }
 
 std::string read_name(const YamlReader& reader, const std::vector<WorldRobot>& others) {
@@ -141,7 +160,9 @@ void check_start(const YamlReader& start, const World& world, const WorldRobot& 
   }
   for (std::size_t i = 0; i < world.moving.size(); ++i) {
     const Mover& mover = world.moving[i];
-    check_apart(start, body, Circle{mover.path.front(), mover.radius_m}, indexed("moving", i));
+    const auto& [time_s, place] = mover.keyframes.front();
+    if (time_s == 0.0)
+      check_apart(start, body, Circle{place, mover.radius_m}, indexed("moving", i));
   }
   for (const WorldRobot& other : world.robots) {
     check_apart(start, body, placed(other.model.footprint, other.start), "robot " + other.name);
@@ -149,6 +170,18 @@ void check_start(const YamlReader& start, const World& world, const WorldRobot& 
 }
 
 }  // namespace
+
+Mover along_path(double radius_m, double speed_mps, bool loop, std::vector<Vector2> path) {
+  if (loop) path.push_back(path.front());
+  Mover mover{radius_m, {{0.0, path.front()}}, loop ? AfterLast::kRepeats : AfterLast::kStands};
+  for (const Vector2& place : path) {
+    const Keyframe& before = mover.keyframes.back();
+    const double time_s = before.time_s + (place - before.place).norm() / speed_mps;
+    if (time_s > before.time_s && std::isfinite(time_s)) mover.keyframes.push_back({time_s, place});
+  }
+  if (mover.keyframes.size() == 1) mover.after_last = AfterLast::kStands;
+  return mover;
+}
 
 World load_world(const std::string& path, const std::string& config_directory) {
   const YamlReader reader = YamlReader::file(path);

@@ -18,14 +18,30 @@ class WorldError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A disc that travels along a path at constant speed, beginning at the path's first point.
+/// Where a mover is at a time [s] after it set out.
+struct Keyframe {
+  double time_s;
+  Vector2 place;
+};
+
+/// What becomes of a mover after its last keyframe.
+enum class AfterLast {
+  kStands,  ///< there, as it does at the first one before it sets out
+  kLeaves,  ///< it is in the world from its first keyframe to its last only
+  kRepeats  ///< is at its first one again
+};
+
+/// A disc that goes straight on from one keyframe to the next, each at constant speed. There is at
+/// least one, two where it leaves or repeats; their times ascend and none is negative.
 struct Mover {
   double radius_m;
-  double speed_mps;
-  bool loop;  ///< from the last point straight on to the first, and so on (two points: back and
-              ///< forth); else it stops there
-  std::vector<Vector2> path;
+  std::vector<Keyframe> keyframes;
+  AfterLast after_last;
 };
+
+/// Of a mover that travels at a constant speed along a path of at least one point. In a loop, it
+/// goes from the last point straight on to the first, and so on; else it stands at the last.
+Mover along_path(double radius_m, double speed_mps, bool loop, std::vector<Vector2> path);
 
 struct WorldRobot {
   std::string name;

@@ -72,7 +72,7 @@ TEST(WorldSimulator, ADiscTouchesACircleOnce) {
   EXPECT_EQ(through.contacts[0].other, "static");
   EXPECT_GT(through.contacts[0].depth_m, 0.0);
   EXPECT_LT(through.contacts[0].depth_m, 0.03);
-  EXPECT_NEAR((through.contacts[0].place - Vector2(1.5, 0.0)).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((through.contacts[0].touch.place - Vector2(1.5, 0.0)).norm(), 0.0, 1e-6);
   EXPECT_LT(simulator.robots()[0].clearance_m, 0.0);
   run(simulator, 3.0, {{1.0, 0.0}});  // out on the far side
   EXPECT_GT(simulator.robots()[0].clearance_m, 0.1);
@@ -99,17 +99,44 @@ TEST(WorldSimulator, ARectangleTouchesWithItsTrueShape) {
 
 TEST(WorldSimulator, AMovingObstacleRunsIntoAStandingRobot) {
   World world = with_robots({robot("ugv1", {}, Footprint::disc(0.3))});
-  world.moving = {{0.2, 1.0, false, {{3.0, 0.0}, {0.4, 0.0}}}};
+  world.moving = {along_path(0.2, 1.0, false, {{3.0, 0.0}, {0.4, 0.0}})};
   WorldSimulator simulator(world, kStart_s, 1);
   EXPECT_NEAR(simulator.robots()[0].clearance_m, 2.5, 1e-12);
   const Outcome met = run(simulator, 5.0, {});
   ASSERT_EQ(met.contacts.size(), 1u);
   EXPECT_EQ(met.contacts[0].other, "moving");
+  EXPECT_EQ(met.contacts[0].blame, Blame::kStanding);
+  EXPECT_NEAR(met.contacts[0].touch.approach_mps(), 1.0, 1e-9);
+  EXPECT_EQ(simulator.robots()[0].contacts, 1u);
+  EXPECT_EQ(simulator.robots()[0].own_contacts, 0u);
   EXPECT_NEAR(simulator.robots()[0].clearance_m, -0.1, 1e-9);
   EXPECT_NEAR(simulator.moving_discs()[0].centre.x(), 0.4, 1e-9);
 }
 
-TEST(WorldSimulator, TwoRobotsThatMeetShareOneEvent) {
+TEST(WorldSimulator, WhoComesAndGoesIsOnlyThereInBetween) {
+  World world = with_robots({robot("ugv1", {}, Footprint::disc(0.3))});
+  world.moving = {{0.2, {{1.0, {0.4, 0.0}}, {2.0, {3.0, 0.0}}}, AfterLast::kLeaves}};
+  WorldSimulator simulator(world, kStart_s, 1);
+  EXPECT_TRUE(simulator.moving_discs().empty());
+  EXPECT_TRUE(std::isinf(simulator.robots()[0].clearance_m));
+  EXPECT_TRUE(run(simulator, 0.98, {}).contacts.empty());
+  const Outcome appears = run(simulator, 0.04, {});
+  ASSERT_EQ(appears.contacts.size(), 1u);
+  EXPECT_EQ(appears.contacts[0].blame, Blame::kStanding);
+  EXPECT_EQ(simulator.moving_discs().size(), 1u);
+  run(simulator, 1.5, {});
+  EXPECT_TRUE(simulator.moving_discs().empty());
+  EXPECT_TRUE(std::isinf(simulator.robots()[0].clearance_m));
+}
+
+TEST(WorldSimulator, TouchesAgainWhoeverComesBack) {
+  World world = with_robots({robot("ugv1", {}, Footprint::disc(0.3))});
+  world.moving = {{0.2, {{0.0, {3.0, 0.0}}, {2.6, {0.4, 0.0}}}, AfterLast::kRepeats}};
+  WorldSimulator simulator(world, kStart_s, 1);
+  EXPECT_EQ(run(simulator, 8.0, {}).contacts.size(), 3u);
+}
+
+TEST(WorldSimulator, TwoRobotsThatMeetHaveAContactEach) {
   WorldSimulator simulator(
       with_robots({robot("ugv1", {{0.0, 0.0}, 0.0}, Footprint::disc(0.3)),
                    robot("ugv2", {{2.0, 0.0}, M_PI}, Footprint::rectangle(0.6, 0.4))}),
@@ -117,9 +144,15 @@ TEST(WorldSimulator, TwoRobotsThatMeetShareOneEvent) {
   EXPECT_NEAR(simulator.min_separation_m(), 2.0, 1e-12);
   EXPECT_TRUE(std::isinf(simulator.robots()[0].clearance_m));  // robots are no obstacles
   const Outcome met = run(simulator, 2.0, {{1.0, 0.0}, {0.5, 0.0}});
-  ASSERT_EQ(met.contacts.size(), 1u);
+  ASSERT_EQ(met.contacts.size(), 2u);
   EXPECT_EQ(met.contacts[0].robot, "ugv1");
   EXPECT_EQ(met.contacts[0].other, "ugv2");
+  EXPECT_EQ(met.contacts[1].robot, "ugv2");
+  EXPECT_EQ(met.contacts[1].other, "ugv1");
+  for (const ContactEvent& contact : met.contacts) {
+    EXPECT_EQ(contact.blame, Blame::kOwn);
+    EXPECT_NEAR(contact.touch.approach_mps(), 1.5, 0.01);
+  }
   EXPECT_EQ(simulator.robots()[0].contacts, 1u);
   EXPECT_EQ(simulator.robots()[1].contacts, 1u);
 }
@@ -209,23 +242,6 @@ TEST(WorldSimulator, RefusesToStepBackAndCommandsThatAreNotFinite) {
   WorldSimulator simulator(with_robots({robot("ugv1", {}, Footprint::disc(0.3))}), kStart_s, 1);
   EXPECT_THROW(simulator.step_to(kStart_s), std::invalid_argument);
   EXPECT_THROW(simulator.command(0, {NAN, 0.0}), std::invalid_argument);
-}
-
-TEST(MoverPath, StopsAtTheEndOrGoesRound) {
-  Mover mover{0.3, 2.0, false, {{0.0, 0.0}, {4.0, 0.0}, {4.0, 3.0}}};
-  EXPECT_EQ(mover_state(mover, -1.0).centre, Vector2(0.0, 0.0));
-  EXPECT_NEAR((mover_state(mover, 2.5).centre - Vector2(4.0, 1.0)).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((mover_state(mover, 2.5).velocity - Vector2(0.0, 2.0)).norm(), 0.0, 1e-12);
-  EXPECT_EQ(mover_state(mover, 100.0).centre, Vector2(4.0, 3.0));
-  EXPECT_EQ(mover_state(mover, 100.0).velocity, Vector2(0.0, 0.0));
-  mover.loop = true;  // 12 m round: the last side leads back to the start
-  EXPECT_NEAR((mover_state(mover, 4.75).centre - Vector2(2.0, 1.5)).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((mover_state(mover, 62.5).centre - Vector2(4.0, 1.0)).norm(), 0.0, 1e-9);
-  const Mover back_and_forth{0.3, 1.0, true, {{0.0, 0.0}, {2.0, 0.0}}};
-  EXPECT_NEAR(mover_state(back_and_forth, 3.0).centre.x(), 1.0, 1e-12);
-  EXPECT_NEAR(mover_state(back_and_forth, 3.0).velocity.x(), -1.0, 1e-12);
-  const Mover still{0.3, 1.0, true, {{1.0, 2.0}}};
-  EXPECT_EQ(mover_state(still, 3.0).centre, Vector2(1.0, 2.0));
 }
 
 }  // namespace

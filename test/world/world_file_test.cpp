@@ -56,7 +56,8 @@ optimal_time: 7.5
 circles: [[1, 2, 0.5], [-3, 1.5, 0.25]]
 polygons: [[[4, -4], [6, -4], [5, -2]]]
 keep_out: [[[-8, -4], [-7, -4], [-7, -3], [-8, -3], [-8, -4]]]
-moving: [{radius: 0.3, speed: 0.8, loop: true, path: [[0, 3], [3, 3]]}, {radius: 0.2, speed: 0, path: [[8, 0]]}]
+moving: [{radius: 0.3, speed: 0.8, loop: true, path: [[0, 3], [3, 3]]}, {radius: 0.2, speed: 0, path: [[8, 0]]},
+         {radius: 0.5, repeat: true, keyframes: [[0, 1, 4], [0.5, 2, 4]]}, {radius: 0.25, keyframes: [[2, 1, 4], [2.5, 2, 4], [7, 2, 4]]}]
 robots:
   - {name: ugv1, model: rover, start: [0, 0, 1.5], goal: [3, 0, -0.5]}
   - {name: ugv2, model: jackal, start: [-2, 0, 0], goal: [3, -2], radius: 0.4}
@@ -72,10 +73,18 @@ robots:
   EXPECT_EQ(world.polygons[0].corners[2], Vector2(5.0, -2.0));
   ASSERT_EQ(world.keep_out.size(), 1u);
   EXPECT_EQ(world.keep_out[0].corners.size(), 4u);  // closed explicitly
-  ASSERT_EQ(world.moving.size(), 2u);
-  EXPECT_TRUE(world.moving[0].loop);
-  EXPECT_EQ(world.moving[0].speed_mps, 0.8);
-  EXPECT_FALSE(world.moving[1].loop);
+  ASSERT_EQ(world.moving.size(), 4u);
+  EXPECT_EQ(world.moving[0].after_last, AfterLast::kRepeats);
+  ASSERT_EQ(world.moving[0].keyframes.size(), 3u);
+  EXPECT_EQ(world.moving[0].keyframes[1].time_s, 3.0 / 0.8);
+  EXPECT_EQ(world.moving[0].keyframes[2].place, Vector2(0.0, 3.0));
+  EXPECT_EQ(world.moving[1].after_last, AfterLast::kStands);
+  EXPECT_EQ(world.moving[2].after_last, AfterLast::kRepeats);
+  EXPECT_EQ(world.moving[2].radius_m, 0.5);
+  EXPECT_EQ(world.moving[3].after_last, AfterLast::kLeaves);
+  ASSERT_EQ(world.moving[3].keyframes.size(), 3u);
+  EXPECT_EQ(world.moving[3].keyframes[1].time_s, 2.5);
+  EXPECT_EQ(world.moving[3].keyframes[1].place, Vector2(2.0, 4.0));
   ASSERT_EQ(world.robots.size(), 4u);
   EXPECT_EQ(world.robots[0].start.yaw_rad, 1.5);
   EXPECT_EQ(world.robots[0].goal->yaw_rad, -0.5);
@@ -130,6 +139,23 @@ TEST_F(WorldFileTest, SizesThatCannotBe) {
                  {"moving[0].speed = -1"});
   expect_refusal(std::string(kBounds) + "moving: [{radius: 1, speed: 1, path: []}]\n",
                  {"moving[0].path", "at least one"});
+  const auto expect_refused_mover = [this](const std::string& mover,
+                                           const std::vector<std::string>& said) {
+    expect_refusal(std::string(kBounds) + "moving: [{radius: 1, " + mover + "}]\n", said);
+  };
+  expect_refused_mover("keyframes: [[0, 3, 3]]", {"moving[0].keyframes", "at least two"});
+  expect_refused_mover("keyframes: []", {"moving[0].keyframes", "at least two"});
+  expect_refused_mover("keyframes: [[0, 3, 3], [1, 3]]",
+                       {"moving[0].keyframes[1]", "3 values"});
+  expect_refused_mover("keyframes: [[0, 3, 3], [0, 4, 3]]",
+                       {"moving[0].keyframes[1][0] = 0", "not later"});
+  expect_refused_mover("keyframes: [[-1, 3, 3], [0, 4, 3]]", {"moving[0].keyframes[0][0] = -1"});
+  expect_refused_mover("keyframes: [[0, .nan, 3], [1, 4, 3]]", {"moving[0].keyframes[0][1]"});
+  expect_refused_mover("keyframes: [[0, 3, 3], [1, 4, 3]], speed: 1",
+                       {"moving[0].speed = 1", "either a path or keyframes"});
+  expect_refused_mover("keyframes: [[0, 3, 3], [1, 4, 3]], repeat: 3", {"moving[0].repeat = 3"});
+  expect_refused_mover("path: [[3, 3]], speed: 1, repeat: true",
+                       {"moving[0].repeat", "belongs to keyframes"});
   expect_refused_robot("{name: a, model: rover, start: [0, 0, 0], radius: 0}",
                        {"robots[0].radius = 0"});
   expect_refused_robot("{name: a, model: rover, start: [0, 0, 0], footprint: [1, -1]}",

@@ -30,7 +30,20 @@ mocha_ugv::RobotTruth truth_message(const SimulatedRobot& robot) {
   truth.reached = record.reached_at_s().has_value();
   if (truth.reached) truth.reached_at = ros::Time(*record.reached_at_s());
   truth.contacts = robot.contacts;
+  truth.own_contacts = robot.own_contacts;
   return truth;
+}
+
+std::uint8_t to_message(Blame blame) {
+  switch (blame) {
+    case Blame::kOwn:
+      return mocha_ugv::Contact::OWN;
+    case Blame::kStanding:
+      return mocha_ugv::Contact::STANDING;
+    case Blame::kUnseen:
+      return mocha_ugv::Contact::UNSEEN;
+  }
+  return mocha_ugv::Contact::OWN;
 }
 
 }  // namespace
@@ -104,9 +117,12 @@ mocha_ugv::Contact contact_message(const ContactEvent& contact, ros::Time stamp)
   message.header.frame_id = "map";
   message.robot = contact.robot;
   message.other = contact.other;
-  message.place.x = contact.place.x();
-  message.place.y = contact.place.y();
+  message.place.x = contact.touch.place.x();
+  message.place.y = contact.touch.place.y();
   message.depth = contact.depth_m;
+  message.blame = to_message(contact.blame);
+  message.robot_speed = contact.touch.own_velocity.norm();
+  message.approach_speed = contact.touch.approach_mps();
   return message;
 }
 
