@@ -61,8 +61,9 @@ class Progress:
         self._contacts = 0
 
     def __call__(self, watched):
+        from mocha_scripts import referee
         for contact in watched.contacts[self._contacts:]:
-            print(f"  contact: {contact}", flush=True)
+            print(f"  contact: {referee.contact_text(contact)}", flush=True)
             self._contacts += 1
         if time.monotonic() < self._next or not watched.robots:
             return

@@ -8,7 +8,7 @@ from mocha_ugv.msg import Contact, GroundTruth
 from move_base_msgs.msg import MoveBaseActionResult
 
 
-BLAME = {Contact.OWN: "its own contact", Contact.STANDING: "standing", Contact.UNSEEN: "run into unseen"}
+BLAME = {Contact.OWN: "own", Contact.STANDING: "standing", Contact.UNSEEN: "unseen"}
 
 
 class RobotResult:
@@ -60,9 +60,10 @@ class Referee:
 
     def _on_contact(self, contact):
         with self._lock:
-            self.contacts.append(f"{contact.robot} ({BLAME[contact.blame]}) touched {contact.other} at "
-                                 f"({contact.place.x:.2f}, {contact.place.y:.2f}), {contact.depth:.3f} m deep, after "
-                                 f"{contact.header.stamp.to_sec():.2f} s, coming together at {contact.approach_speed:.2f} m/s")
+            self.contacts.append({"time_s": round(contact.header.stamp.to_sec() - (self.started_s or 0.0), 2), "robot": contact.robot,
+                                  "other": contact.other, "x": round(contact.place.x, 2), "y": round(contact.place.y, 2),
+                                  "depth_m": round(contact.depth, 3), "blame": BLAME[contact.blame],
+                                  "robot_mps": round(contact.robot_speed, 2), "approach_mps": round(contact.approach_speed, 2)})
 
     def _on_truth(self, message):
         with self._lock:
@@ -97,7 +98,13 @@ class Referee:
         with self._lock:
             separation = self.min_separation_m
             return {"robots": [robot.as_dict() for _, robot in sorted(self.robots.items())],
+                    "contacts": list(self.contacts),
                     "min_separation_m": round(separation, 4) if math.isfinite(separation) else None}
+
+
+def contact_text(contact):
+    return "after {time_s:.2f} s {robot} touched {other} at ({x:.2f}, {y:.2f}), {depth_m:.3f} m deep, together at {approach_mps:.2f} m/s ({blame})".format(
+        **contact)
 
 
 def succeeded(results):
