@@ -37,7 +37,7 @@ TEST_F(BlameTest, WhoStandsIsNotToBlame) {
 TEST_F(BlameTest, WhatComesFromWhereNobodyLooksIsUnseen) {
   EXPECT_EQ(blame(M_PI, 0.5, 1.0), Blame::kUnseen);
   EXPECT_EQ(blame(0.75 * M_PI, 0.5, 1.0), Blame::kUnseen);
-  EXPECT_EQ(blame(0.4 * M_PI, 0.2, 1.0), Blame::kOwn) << "it could be seen";
+  EXPECT_EQ(blame(0.3 * M_PI, 0.15, 1.0), Blame::kOwn) << "it could be seen";
 }
 
 TEST_F(BlameTest, WhoBacksIntoSomethingIsToBlame) {
