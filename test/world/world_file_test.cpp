@@ -145,8 +145,7 @@ TEST_F(WorldFileTest, SizesThatCannotBe) {
   };
   expect_refused_mover("keyframes: [[0, 3, 3]]", {"moving[0].keyframes", "at least two"});
   expect_refused_mover("keyframes: []", {"moving[0].keyframes", "at least two"});
-  expect_refused_mover("keyframes: [[0, 3, 3], [1, 3]]",
-                       {"moving[0].keyframes[1]", "3 values"});
+  expect_refused_mover("keyframes: [[0, 3, 3], [1, 3]]", {"moving[0].keyframes[1]", "3 values"});
   expect_refused_mover("keyframes: [[0, 3, 3], [0, 4, 3]]",
                        {"moving[0].keyframes[1][0] = 0", "not later"});
   expect_refused_mover("keyframes: [[-1, 3, 3], [0, 4, 3]]", {"moving[0].keyframes[0][0] = -1"});
@@ -245,22 +244,32 @@ TEST(ShippedWorlds, TheCorridorIsThatOfThePaper) {
   EXPECT_EQ(world.robots[1].start.position, Vector2(-1.0, 0.0));
 }
 
-TEST(BarnWorlds, AllLoad) {
-  const char* data = std::getenv("MOCHA_DATA");
-  const fs::path directory = fs::path(data != nullptr ? data : "../shared/data") / "barn";
-  if (!fs::is_directory(directory)) GTEST_SKIP() << directory << " is absent (set MOCHA_DATA)";
-  int count = 0;
-  for (const auto& file : fs::directory_iterator(directory)) {
-    World world;
-    ASSERT_NO_THROW(world = load_world(file.path().string(), "config")) << file.path();
-    EXPECT_GT(world.circles.size(), 100u) << file.path();
-    EXPECT_TRUE(world.optimal_time_s.has_value()) << file.path();
-    ASSERT_EQ(world.robots.size(), 1u) << file.path();
-    EXPECT_TRUE(world.robots[0].goal.has_value()) << file.path();
-    ++count;
+/// The worlds of one kind from elsewhere.
+class GivenWorlds : public ::testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const char* data = std::getenv("MOCHA_DATA");
+    const fs::path directory = fs::path(data != nullptr ? data : "../shared/data") / GetParam();
+    if (!fs::is_directory(directory)) GTEST_SKIP() << directory << " is absent (set MOCHA_DATA)";
+    for (const auto& file : fs::directory_iterator(directory)) paths_.push_back(file.path());
+    ASSERT_FALSE(paths_.empty());
   }
-  EXPECT_GT(count, 0);
+  std::vector<fs::path> paths_;
+};
+
+TEST_P(GivenWorlds, AllLoad) {
+  for (const fs::path& path : paths_) {
+    World world;
+    ASSERT_NO_THROW(world = load_world(path.string(), "config")) << path;
+    ASSERT_GE(world.robots.size(), 1u) << path;
+    EXPECT_TRUE(world.robots[0].goal.has_value()) << path;
+    EXPECT_EQ(world.optimal_time_s.has_value(), path.parent_path().filename() == "barn") << path;
+    EXPECT_GE(world.circles.size() + world.polygons.size() + world.moving.size(), 5u) << path;
+  }
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, GivenWorlds,
+                         ::testing::Values("barn", "dynabarn", "crowds", "mapf"));
 
 }  // namespace
 }  // namespace mocha

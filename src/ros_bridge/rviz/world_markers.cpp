@@ -13,6 +13,7 @@ using visualization_msgs::Marker;
 constexpr double kWallHeight_m = 0.5;
 constexpr double kRobotHeight_m = 0.2;
 constexpr double kLine_m = 0.05;
+constexpr double kMovingLifetime_s = 0.5;  // several times their period
 
 struct Colour {
   float red, green, blue, alpha;
@@ -144,6 +145,9 @@ visualization_msgs::MarkerArray moving_markers(const WorldSimulator& simulator) 
     picture.add_disc("moving", disc, kWallHeight_m, kMover);
   }
   for (const SimulatedRobot& robot : simulator.robots()) add_robot(picture, robot);
+  // Movers come and go.
+  for (visualization_msgs::Marker& marker : picture.array.markers)
+    marker.lifetime = ros::Duration(kMovingLifetime_s);
   return picture.array;
 }
 
