@@ -36,8 +36,8 @@ Vector2 velocity_at(const Vector2& place, const Pose& base, const Twist& twist) 
 
 Blame blame_of(const Touch& touch, const Pose& base, const LidarModel& lidar) {
   if (touch.own_velocity.norm() <= kStanding_mps) return Blame::kStanding;
-  const bool is_run_into = touch.own_velocity.dot(touch.towards) <= kStanding_mps &&
-                           touch.approach_mps() > 0.0;
+  const bool is_run_into =
+      touch.own_velocity.dot(touch.towards) <= kStanding_mps && touch.approach_mps() > 0.0;
   if (is_run_into && !looks_towards(lidar, touch.place, base)) return Blame::kUnseen;
   return Blame::kOwn;
 }

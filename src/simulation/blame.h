@@ -5,7 +5,7 @@
 
 namespace mocha {
 
-/// Whose contact one is, by passive safety: who stands is run into.
+/// Tells whose fault a contact is, by passive safety: never that of a robot that stands.
 enum class Blame {
   kOwn,       ///< the robot's: it moved, faster than 0.1 m/s where it was touched
   kStanding,  ///< it stood

@@ -139,8 +139,8 @@ Gap WorldSimulator::static_gap(const Obstacle& body, const Footprint& footprint,
 }
 
 void WorldSimulator::check_obstacles(SimulatedRobot& robot, std::vector<ContactEvent>& events) {
-  const Gap between = static_gap(robot.body(), robot.setup.model.footprint,
-                                 robot.vehicle.pose().position);
+  const Gap between =
+      static_gap(robot.body(), robot.setup.model.footprint, robot.vehicle.pose().position);
   robot.clearance_m = between.distance_m;
   if (watch_.begins(robot.setup.name, "static", between.distance_m, is_moving(robot)))
     events.push_back(blamed(robot, "static", between, Vector2::Zero(), Vector2::Zero()));

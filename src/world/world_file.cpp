@@ -40,8 +40,8 @@ Mover read_keyframed(const YamlReader& reader) {
     if (reader.has(key)) reader.at(key).refuse("a mover has either a path or keyframes");
   }
   const bool repeats = reader.has("repeat") && reader.at("repeat").flag();
-  Mover mover{reader.at("radius").positive(), {},
-              repeats ? AfterLast::kRepeats : AfterLast::kLeaves};
+  Mover mover{
+      reader.at("radius").positive(), {}, repeats ? AfterLast::kRepeats : AfterLast::kLeaves};
   const YamlReader keyframes = reader.at("keyframes");
   for (const YamlReader& item : keyframes.items()) {
     const auto values = item.items(3, 3);

@@ -4,13 +4,4 @@ A drive counts as reached where the robot stands at its goal before the recordin
 """
 from benchmarks import mover_drives
 
-KIND = "crowd"
-LIMIT_S = 90.0
-
-
-def add_arguments(parser):
-    mover_drives.add_arguments(parser, KIND)
-
-
-def run(options):
-    return mover_drives.run(options, KIND, LIMIT_S)
+add_arguments, run = mover_drives.bench("crowd", limit_s=90.0)

@@ -5,13 +5,4 @@ robot's own where it moves, faster than 0.1 m/s at that place, unless it was run
 """
 from benchmarks import mover_drives
 
-KIND = "dynabarn"
-LIMIT_S = 100.0
-
-
-def add_arguments(parser):
-    mover_drives.add_arguments(parser, KIND)
-
-
-def run(options):
-    return mover_drives.run(options, KIND, LIMIT_S)
+add_arguments, run = mover_drives.bench("dynabarn", limit_s=100.0)

@@ -1,4 +1,5 @@
 """Drives worlds with movers that heed no robot through the whole stack, lidar only, and says whose the contacts are."""
+import functools
 import glob
 import multiprocessing
 import os
@@ -7,12 +8,12 @@ import statistics
 from benchmarks import benchmark
 
 
-def add_arguments(parser, kind):
+def _add_arguments(kind, parser):
     parser.add_argument("directory", metavar="DIR", help=f"with {kind}_*.yaml")
     parser.add_argument("--only", default="", metavar="NAME,...", help=f"worlds, without {kind}_ and .yaml")
     parser.add_argument("--seeds", type=int, default=1, metavar="N", help="drives of each world, seeds from 1 on (default 1)")
     parser.add_argument("--jobs", type=int, default=1, help="drives at the same time (default 1)")
-    parser.add_argument("--record", action="store_true", help="record a rosbag of each drive, and draw it")
+    parser.add_argument("--record", action="store_true", help="record a rosbag of each drive")
     parser.add_argument("--out", default=f"out/{kind}", metavar="DIR", help=f"logs go there (default out/{kind})")
     parser.add_argument("--json", metavar="FILE", help="write the rows and the summary there")
 
@@ -52,8 +53,7 @@ def summarise(rows):
             "median_time_s": round(statistics.median(times), 2) if times else None}
 
 
-def run(options, kind, limit_s):
-    """All worlds of a kind; each drive ends where its goal is reached or given up, or after the limit in simulated time."""
+def _run(kind, limit_s, options):
     worlds = worlds_of(options.directory, kind, options.only)
     if not worlds:
         print(f"bench {kind}: no such {kind}_*.yaml in {options.directory}")
@@ -71,3 +71,9 @@ def run(options, kind, limit_s):
           f" contacts, {summary['drives_with_own_contacts']} with some of the robot's own")
     benchmark.write({"rows": rows, "summary": summary}, options.json)
     return 0
+
+
+def bench(kind, limit_s):
+    """What a bench of all worlds of a kind adds as arguments, and runs. Each drive ends where its goal is reached or given up, or after the limit in
+    simulated time."""
+    return functools.partial(_add_arguments, kind), functools.partial(_run, kind, limit_s)
