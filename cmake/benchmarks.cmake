@@ -43,3 +43,9 @@ endforeach()
 mocha_benchmark(leaving test/benchmarks/leaving_scene.cpp test/benchmarks/leaving_oracle.cpp test/benchmarks/leaving_run.cpp
   test/benchmarks/lidar_robot.cpp test/benchmarks/lidar_perception.cpp)
 target_link_libraries(benchmark_leaving mocha_perception mocha_simulation)
+
+mocha_benchmark(mover_trace test/benchmarks/lidar_robot.cpp test/benchmarks/lidar_perception.cpp)
+target_link_libraries(benchmark_mover_trace mocha_perception mocha_simulation)
+
+mocha_benchmark(prediction test/benchmarks/lidar_perception.cpp)
+target_link_libraries(benchmark_prediction mocha_perception mocha_simulation)

@@ -48,8 +48,8 @@ class LocalReplannerNode {
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
-        predictions_(node, identity_.map_frame,
-                     {values.number("confidence"), values.number("growth_horizon")}),
+        predictions_(node, identity_.map_frame),
+        risk_{values.number("risk"), values.number("growth_horizon"), model_.limits.max_speed},
         local_(node, identity_, model_, values.number("prediction_horizon")),
         proposals_(node.advertise<mocha_ugv::Trajectory>("proposed_trajectory", 10)),
         leases_(node.advertise<mocha_ugv::Lease>("lease", 10)),
@@ -132,8 +132,10 @@ class LocalReplannerNode {
         local_scene(map_.static_map({here}, kMapBorder_m),
                     map_.field(DistanceField::Solid::kOccupiedOrUnknown, {here}, kMapBorder_m));
     scene.peers = peers_.obstacles();
-    scene.confident = predictions_.obstacles();
-    scene.likely = predictions_.expected();
+    const Predictions& predictions = predictions_.newest();
+    confidence_ = confidence_of_each(predictions, here, risk_);
+    scene.confident = confident_discs(predictions, confidence_, risk_.growth_s);
+    scene.likely = likely_discs(predictions);
     scene.predicted_until_s = (now + prediction_horizon_).toSec();
     return scene;
   }
@@ -176,13 +178,14 @@ class LocalReplannerNode {
   void diagnose_detours(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
     const double age_s = predictions_.age_s(now_);
-    const auto things = predictions_.obstacles().size();
+    const auto things = predictions_.newest().things.size();
     const bool known = age_s <= max_prediction_age_s_;
     status.summary(known ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                    known ? "things that move: " + std::to_string(things)
                          : "no usable word on predicted_obstacles");
     const LocalOutputs::Counts& counts = local_.counts();
     status.add("things predicted", things);
+    status.addf("confidence asked of each prediction", "%.3f", confidence_);
     status.addf("age of the predictions", "%.2f s", age_s);
     status.add("predictions refused", predictions_.refused());
     status.add("last refusal of predictions", predictions_.refusal());
@@ -222,6 +225,8 @@ class LocalReplannerNode {
   MapSource map_;
   PeerSource peers_;
   PredictionSource predictions_;
+  RiskOptions risk_;
+  double confidence_ = 0.0;  // that the newest risk asks of each prediction
   LocalOutputs local_;
   ros::Publisher proposals_;
   ros::Publisher leases_;

@@ -167,7 +167,7 @@ class PerceptionNode {
 
   /// Though nothing moves: their age tells that they can be relied on.
   void publish_moving() {
-    moving_.publish(to_message(filter_.moving(stamp_.toSec()), robot_.map_frame, stamp_));
+    moving_.publish(to_message(filter_.moving(stamp_.toSec()), filter_.spread(), robot_.map_frame, stamp_));
   }
 
   void publish_cells() {

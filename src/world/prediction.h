@@ -1,21 +1,85 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "world/moving_obstacle.h"
 
 namespace mocha {
 
-/// How much larger than the thing itself a disc must be that holds it in spite of what is not known
-/// about its place and velocity.
-struct RadiusGrowth {
-  double radius_m;  ///< now
-  double rate;      ///< [m/s] from now on
+/// The deviation of what is predicted at constant velocity, as the covariance of (x, y, vx, vy) [m,
+/// m/s] says it. Linear in time, and never less than what the covariance, propagated, asks for:
+/// sigma_p + sigma_v t bounds its largest standard deviation whatever place and velocity have in
+/// common.
+struct PredictedDeviation {
+  double place_m;
+  double speed;  ///< [m/s]
+
+  /// Throws std::invalid_argument for what is not a covariance.
+  static PredictedDeviation of(const Eigen::Matrix4d& covariance);
+
+  double after(double ahead_s) const { return place_m + speed * ahead_s; }
 };
 
-/// From the covariance of (x, y, vx, vy) [m, m/s], for a disc about the predicted place that holds
-/// the true one with the probability `confidence` in [0, 0.9999] at any one time. Linear, and never
-/// less than what the covariance, propagated at constant velocity, asks for: sigma_p + sigma_v t
-/// bounds its largest standard deviation whatever place and velocity have in common. Throws
-/// std::invalid_argument for a confidence out of range and for what is not a covariance.
-RadiusGrowth growth_of(const Eigen::Matrix4d& covariance, double confidence);
+/// How many predicted deviations things turn out to be off, with a confidence.
+struct PredictionSpread {
+  std::vector<double> ahead_s;      ///< ascending
+  std::vector<double> confidences;  ///< ascending
+  /// A row for each time ahead, a column for each confidence: at that time ...
+  Eigen::MatrixXd at;
+  /// ... and at any time until then.
+  Eigen::MatrixXd throughout;
+
+  /// Of normally distributed errors that are as large as the covariances say.
+  static PredictionSpread normal();
+
+  /// Throws std::invalid_argument, saying what is wrong: nothing there, sizes that do not match,
+  /// values that are not ascending, confidences outside (0, 1), and times or deviations that are
+  /// negative, not finite or above 1000.
+  void check() const;
+
+  /// With a confidence, and before a time: interpolated; of what is outside, the nearest.
+  double deviations_at(double ahead_s, double confidence) const;
+  double deviations_throughout(double ahead_s, double confidence) const;
+};
+
+/// Something that moves and promises nothing, predicted at constant velocity. Map frame.
+struct PredictedThing {
+  std::uint32_t id;
+  Vector2 place;     ///< [m]
+  Vector2 velocity;  ///< [m/s]
+  double radius_m;
+  PredictedDeviation deviation;
+};
+
+/// All that was seen to move.
+struct Predictions {
+  double time_s = 0.0;  ///< of the places
+  std::vector<PredictedThing> things = {};
+  PredictionSpread spread = PredictionSpread::normal();
+};
+
+/// What bounds the risk of motions among predicted things.
+struct RiskOptions {
+  double risk;         ///< that any of the things within reach leaves its disc ...
+  double growth_s;     ///< ... at any time until then; later the discs do not grow
+  double robot_speed;  ///< the robot's highest [m/s]
+};
+
+/// The confidence that each disc has to have: the risk is shared equally among the things that the
+/// robot, which is at `place`, can meet within the time for which the discs grow (Boole's
+/// inequality). At least 1 - risk.
+double confidence_of_each(const Predictions& predictions, const Vector2& place,
+                          const RiskOptions& options);
+
+using Discs = std::vector<std::shared_ptr<const MovingObstacle>>;
+
+/// Discs that hold the things with a confidence each, at any time for as long as they grow.
+Discs confident_discs(const Predictions& predictions, double confidence, double growth_s);
+
+/// The same on their most likely courses, without room for what is not known.
+Discs likely_discs(const Predictions& predictions);
 
 }  // namespace mocha

@@ -14,6 +14,21 @@ Eigen::Isometry3d in_space(const Pose& pose, double height_m) {
 
 }  // namespace
 
+PlanarScan planar_scan(const Scan& scan, const SimulatedRobot& robot) {
+  const LidarModel& model = robot.setup.model.lidar;
+  PlanarScan planar;
+  planar.start_time_s = scan.start_time_s;
+  planar.time_increment_s = robot.lidar.time_increment_s();
+  planar.angle_min_rad = robot.lidar.angle_min_rad();
+  planar.angle_increment_rad = robot.lidar.angle_increment_rad();
+  planar.angle_max_rad =
+      planar.angle_min_rad + planar.angle_increment_rad * (scan.ranges_m.size() - 1.0);
+  planar.range_min_m = model.min_range_m;
+  planar.range_max_m = model.max_range_m;
+  planar.ranges_m = scan.ranges_m;
+  return planar;
+}
+
 LidarPerception::LidarPerception(const RobotModel& robot)
     : robot_(robot),
       map_(OccupancyMapOptions::from(values_, robot.map_resolution_m)),
@@ -32,6 +47,15 @@ void LidarPerception::take(const PlanarScan& scan, const Pose& first, const Pose
   map_.insert_scan(beams);
   map_.clear_body(last, robot_.footprint);
   stamp_s_ = scan.end_time_s();
+}
+
+Predictions LidarPerception::predictions() const {
+  Predictions predictions{stamp_s_, {}, filter_.spread()};
+  for (const TrackedObstacle& thing : moving(stamp_s_)) {
+    predictions.things.push_back({thing.id, thing.position, thing.velocity, thing.radius_m,
+                                  PredictedDeviation::of(thing.covariance)});
+  }
+  return predictions;
 }
 
 std::optional<OccupancyGrid> LidarPerception::publish(double now_s) {

@@ -8,9 +8,13 @@
 #include "perception/mapping/occupancy_map.h"
 #include "perception/sensor/planar_scan.h"
 #include "perception/tracking/moving_object_filter.h"
+#include "simulation/world_simulator.h"
 #include "world/robot_model.h"
 
 namespace mocha {
+
+/// A sweep of the lidar of a simulated robot, as the nodes hear it.
+PlanarScan planar_scan(const Scan& scan, const SimulatedRobot& robot);
 
 /// What the node perception makes of the scans of a robot without team-mates, with the parameters
 /// of config/: maps, as often as it publishes them, and what moves.
@@ -25,6 +29,8 @@ class LidarPerception {
   std::optional<OccupancyGrid> publish(double now_s);
 
   std::vector<TrackedObstacle> moving(double time_s) const { return filter_.moving(time_s); }
+  /// The same as the node publishes it, at the time of the newest scan.
+  Predictions predictions() const;
   /// The most scans a second that enter the map.
   double integration_rate_hz() const { return values_.number("integration_rate"); }
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "topology/static_map/grid_static_map.h"
-#include "world/prediction.h"
 
 namespace mocha {
 namespace {
@@ -50,29 +49,6 @@ World with_needed_scans_only(World world, double rate_hz) {
   return world;
 }
 
-PlanarScan planar_scan(const Scan& scan, const SimulatedRobot& robot) {
-  const LidarModel& model = robot.setup.model.lidar;
-  PlanarScan planar;
-  planar.start_time_s = scan.start_time_s;
-  planar.time_increment_s = robot.lidar.time_increment_s();
-  planar.angle_min_rad = robot.lidar.angle_min_rad();
-  planar.angle_increment_rad = robot.lidar.angle_increment_rad();
-  planar.angle_max_rad =
-      planar.angle_min_rad + planar.angle_increment_rad * (scan.ranges_m.size() - 1.0);
-  planar.range_min_m = model.min_range_m;
-  planar.range_max_m = model.max_range_m;
-  planar.ranges_m = scan.ranges_m;
-  return planar;
-}
-
-std::shared_ptr<const MovingObstacle> predicted(const TrackedObstacle& seen, double confidence,
-                                                double growth_s) {
-  const RadiusGrowth growth = growth_of(seen.covariance, confidence);
-  return std::make_shared<PredictedDisc>("moving thing " + std::to_string(seen.id), seen.time_s,
-                                         seen.position, seen.velocity,
-                                         seen.radius_m + growth.radius_m, growth.rate, growth_s);
-}
-
 /// The same where it holds all places, as the nodes have it.
 OccupancyGrid holding(const OccupancyGrid& grid, const std::vector<Vector2>& places) {
   const Vector2 size = grid.resolution_m * Vector2(grid.width, grid.height);
@@ -105,6 +81,7 @@ void LidarRobot::go_to(const Vector2& goal) {
 
 void LidarRobot::tick() {
   ++ticks_;
+  contacts_.clear();
   if (ticks_ % kFast == 0) simulate();
   if (!static_map_) return;
   if (ticks_ % kFast == 0) stack_.tick(now_s());
@@ -114,7 +91,8 @@ void LidarRobot::tick() {
 }
 
 void LidarRobot::simulate() {
-  const auto result = simulator_.step_to(now_s());
+  auto result = simulator_.step_to(now_s());
+  contacts_ = std::move(result.contacts);
   for (const auto& [robot, scan] : result.scans) perceive(scan);
   if (const auto grid = perception_.publish(now_s())) take_map(*grid);
 }
@@ -123,13 +101,7 @@ void LidarRobot::perceive(const Scan& scan) {
   const PlanarScan planar = planar_scan(scan, truth());
   perception_.take(planar, truth().past.at(planar.start_time_s),
                    truth().past.at(planar.end_time_s()));
-  confident_.clear();
-  likely_.clear();
-  for (const TrackedObstacle& seen : perception_.moving(planar.end_time_s())) {
-    confident_.push_back(predicted(seen, local_values_.number("confidence"),
-                                   local_values_.number("growth_horizon")));
-    likely_.push_back(predicted(seen, 0.0, 0.0));
-  }
+  predictions_ = perception_.predictions();
 }
 
 void LidarRobot::take_map(const OccupancyGrid& grid) {
@@ -160,10 +132,18 @@ void LidarRobot::note() {
 
 void LidarRobot::replan() { stack_.replan(now_s(), measured(), scene()); }
 
+Discs LidarRobot::confident() const {
+  const RiskOptions options{local_values_.number("risk"), local_values_.number("growth_horizon"),
+                            robot_.limits.max_speed};
+  const double confidence =
+      confidence_of_each(predictions_, truth().vehicle.pose().position, options);
+  return confident_discs(predictions_, confidence, options.growth_s);
+}
+
 LocalScene LidarRobot::scene() const {
   LocalScene scene = local_scene(static_map_, unseen_);
-  scene.confident = confident_;
-  scene.likely = likely_;
+  scene.confident = confident();
+  scene.likely = likely_discs(predictions_);
   scene.predicted_until_s = now_s() + local_values_.number("prediction_horizon");
   return scene;
 }

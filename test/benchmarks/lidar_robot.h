@@ -36,6 +36,13 @@ class LidarRobot {
   const std::string& words() const { return words_; }
   double slowest_plan_s() const { return slowest_plan_s_; }  ///< wall time
 
+  const WorldSimulator& simulator() const { return simulator_; }
+  const RobotStack& stack() const { return stack_; }
+  /// Discs that hold what moves around it, as far as it knows.
+  Discs confident() const;
+  /// Contacts that began in the last tick.
+  const std::vector<ContactEvent>& contacts() const { return contacts_; }
+
  private:
   void simulate();
   void perceive(const Scan& scan);
@@ -56,11 +63,11 @@ class LidarRobot {
   TrajectoryTracker tracker_;
 
   int ticks_ = 0;
+  std::vector<ContactEvent> contacts_;
   std::vector<Vector2> places_;  // that the map is to hold: the robot's, and its goal
   std::shared_ptr<const StaticMap> static_map_;
   std::shared_ptr<const DistanceField> unseen_;
-  std::vector<std::shared_ptr<const MovingObstacle>> confident_;
-  std::vector<std::shared_ptr<const MovingObstacle>> likely_;
+  Predictions predictions_;
   MotionId offered_;
   GoalExecutive::Ending ending_ = GoalExecutive::Ending::kNone;
   std::string words_;

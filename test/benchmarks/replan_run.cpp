@@ -23,27 +23,23 @@ constexpr double kSample_s = 0.02;
 constexpr double kFarthest_m = 20.0;  // of clearances
 
 /// What a tracker says of the movers after a second.
-void predict_movers(const ReplanScene& scene, double t, ClosedLoop& loop, double now_s) {
+void predict_movers(const ReplanScene& scene, const RobotModel& robot, double t, ClosedLoop& loop,
+                    double now_s) {
   constexpr double kPlace_m = 0.03;  // standard deviations
   constexpr double kVelocity = 0.05;
   static const auto kValues = ParameterTable::from_schema("config/local_replanner.yaml");
-  static const double kConfidence = kValues.number("confidence");
-  static const double kGrowth_s = kValues.number("growth_horizon");
-  const Eigen::Vector4d variances(kPlace_m * kPlace_m, kPlace_m * kPlace_m, kVelocity * kVelocity,
-                                  kVelocity * kVelocity);
-  const RadiusGrowth growth = growth_of(Eigen::Matrix4d(variances.asDiagonal()), kConfidence);
-  loop.moving.clear();
-  loop.expected.clear();
-  for (std::size_t i = 0; i < scene.movers.size(); ++i) {
-    const SceneMover& mover = scene.movers[i];
+  const RiskOptions options{kValues.number("risk"), kValues.number("growth_horizon"),
+                            robot.limits.max_speed};
+  Predictions predictions{now_s};
+  for (const SceneMover& mover : scene.movers) {
     const MoverTruth now = truth(mover, t);
-    const std::string name = "mover" + std::to_string(i + 1);
-    loop.moving.push_back(std::make_shared<PredictedDisc>(name, now_s, now.centre, now.velocity,
-                                                          mover.radius_m + growth.radius_m,
-                                                          growth.rate, kGrowth_s));
-    loop.expected.push_back(std::make_shared<PredictedDisc>(name, now_s, now.centre, now.velocity,
-                                                            mover.radius_m, 0.0));
+    const auto id = static_cast<std::uint32_t>(predictions.things.size() + 1);
+    predictions.things.push_back(
+        {id, now.centre, now.velocity, mover.radius_m, {kPlace_m, kVelocity}});
   }
+  const double confidence = confidence_of_each(predictions, loop.state().pose.position, options);
+  loop.moving = confident_discs(predictions, confidence, options.growth_s);
+  loop.expected = likely_discs(predictions);
 }
 
 /// Adds up what the stages of local planning take.
@@ -97,6 +93,7 @@ class Run {
  public:
   Run(const ReplanScene& scene, const RobotModel& robot)
       : scene_(scene),
+        robot_(robot),
         walls_(scene.obstacles, 1.0),
         loop_(robot, scene.grid(), Vector2::Zero(), scene.goal, std::ref(clock_)),
         begin_s_(loop_.now_s) {
@@ -106,7 +103,7 @@ class Run {
   ReplanRun until(double longest_s) {
     while (elapsed_s() < longest_s && !run_.reached && !run_.contact) {
       const double next_s = elapsed_s() + ClosedLoop::kStep_s;
-      predict_movers(scene_, next_s, loop_, begin_s_ + next_s);
+      predict_movers(scene_, robot_, next_s, loop_, begin_s_ + next_s);
       loop_.step();
       if (clock_.was_used()) add(replan_of(loop_, elapsed_s()));
       watch();
@@ -152,6 +149,7 @@ class Run {
   }
 
   const ReplanScene& scene_;
+  const RobotModel robot_;
   const PrimitiveField<2> walls_;
   StageClock clock_;
   ClosedLoop loop_;

@@ -109,23 +109,18 @@ class Street {
   void predict_people(double t) {
     constexpr double kPlace_m = 0.03;  // standard deviations that a tracker names
     constexpr double kVelocity = 0.05;
-    const Eigen::Vector4d deviations(std::max(kPlace_m, noise_m), std::max(kPlace_m, noise_m),
-                                     std::max(kVelocity, noise_mps),
-                                     std::max(kVelocity, noise_mps));
-    const RadiusGrowth growth =
-        growth_of(Eigen::Matrix4d(deviations.cwiseAbs2().asDiagonal()), 0.8);
-    loop.moving.clear();
-    loop.expected.clear();
+    Predictions predictions{begin_s_ + t};
     for (const Walker& walker : walkers) {
       if (t < walker.appears_s) continue;
-      const Vector2 place = walker.place(t) + noise(noise_m);
-      const Vector2 velocity = walker.velocity(t) + noise(noise_mps);
-      loop.moving.push_back(std::make_shared<PredictedDisc>("person", begin_s_ + t, place, velocity,
-                                                            walker.radius_m + growth.radius_m,
-                                                            growth.rate, 2.0));
-      loop.expected.push_back(std::make_shared<PredictedDisc>("person", begin_s_ + t, place,
-                                                              velocity, walker.radius_m, 0.0));
+      const auto id = static_cast<std::uint32_t>(predictions.things.size() + 1);
+      predictions.things.push_back({id,
+                                    walker.place(t) + noise(noise_m),
+                                    walker.velocity(t) + noise(noise_mps),
+                                    walker.radius_m,
+                                    {std::max(kPlace_m, noise_m), std::max(kVelocity, noise_mps)}});
     }
+    loop.moving = confident_discs(predictions, 0.8, 2.0);
+    loop.expected = likely_discs(predictions);
   }
   Vector2 noise(double deviation) {
     const double x = normal_(random);

@@ -87,6 +87,7 @@ void MovingObjectFilter::sort(std::vector<Beam>& beams, const OccupancyMap& map)
   std::vector<Detection> detections;
   for (const BeamIndices& cluster : clusters) detections.push_back(sight_disc(beams, cluster));
   const std::vector<bool> moving = tracker_.update(detections, beams, time_s);
+  errors_.update(tracker_.at(time_s));
   moving_hits_ = 0;
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     if (!moving[i]) continue;
@@ -156,6 +157,7 @@ std::vector<BeamIndices> MovingObjectFilter::things(
 
 void MovingObjectFilter::clear() {
   tracker_.clear();
+  errors_.forget();
   moving_hits_ = 0;
 }
 

@@ -5,6 +5,7 @@
 #include "config/parameter_table.h"
 #include "perception/mapping/occupancy_map.h"
 #include "perception/tracking/obstacle_tracker.h"
+#include "perception/tracking/prediction_errors.h"
 
 namespace mocha {
 
@@ -36,6 +37,8 @@ class MovingObjectFilter {
 
   /// The moving things that are known, predicted to a time.
   std::vector<TrackedObstacle> moving(double time_s) const { return tracker_.at(time_s); }
+  /// How far off predictions of these turn out to be.
+  PredictionSpread spread() const { return errors_.spread(); }
   /// How many hits of the newest scan are on moving things.
   int moving_hits() const { return moving_hits_; }
 
@@ -49,6 +52,7 @@ class MovingObjectFilter {
 
   MovingObjectFilterOptions options_;
   ObstacleTracker tracker_;
+  PredictionErrors errors_;
   int moving_hits_ = 0;
 };
 

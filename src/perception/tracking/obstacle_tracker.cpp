@@ -136,6 +136,7 @@ void ObstacleTracker::see(Track& track, const Detection& detection) {
   }
   track.missing = 0;
   track.hidden = false;
+  track.is_seen = true;
   if (++track.detections == options_.confirmation_hits) track.id = ++last_id_;
   const double leeway_m = options_.standing_speed_mps * options_.standing_time_s;
   if ((track.filter.position() - track.stood_at).norm() > leeway_m) {
@@ -146,6 +147,7 @@ void ObstacleTracker::see(Track& track, const Detection& detection) {
 }
 
 void ObstacleTracker::miss(Track& track, const std::vector<Beam>& beams, double time_s) const {
+  track.is_seen = false;
   track.filter.predict(time_s, options_.acceleration_psd);
   const View view = view_of(beams, track.filter.position(), track.radius_m);
   if (view == View::kFree) ++track.missing;
@@ -209,7 +211,7 @@ std::vector<TrackedObstacle> ObstacleTracker::at(double time_s) const {
     ConstantVelocityFilter filter = track.filter;
     filter.predict(time_s, options_.acceleration_psd);
     obstacles.push_back({track.id, time_s, filter.position(), filter.velocity(), track.radius_m,
-                         filter.covariance(), track.standing});
+                         filter.covariance(), track.standing, track.is_seen});
   }
   return obstacles;
 }

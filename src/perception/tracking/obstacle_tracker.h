@@ -29,6 +29,7 @@ struct TrackedObstacle {
   double radius_m;
   Eigen::Matrix4d covariance;  ///< of (x, y, vx, vy)
   bool standing;               ///< it has stood for so long that it belongs into the map
+  bool is_seen;                ///< in the newest scan
 };
 
 /// Follows discs from scan to scan: a Kalman filter each, the best fitting pairs of track and
@@ -63,6 +64,7 @@ class ObstacleTracker {
     double stood_since_s;  ///< ... since then
     bool standing = false;
     bool lost = false;
+    bool is_seen = true;  ///< in the newest scan
   };
 
   std::vector<int> associate(const std::vector<Detection>& detections) const;

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ros_bridge/messages/prediction_conversions.h"
 #include "ros_bridge/runtime/transport.h"
-#include "world/prediction.h"
 
 namespace mocha {
 namespace {
@@ -22,9 +22,7 @@ void require(bool condition, std::uint32_t id, const char* what) {
 
 }  // namespace
 
-std::shared_ptr<const MovingObstacle> from_message(const mocha_ugv::PredictedObstacle& message,
-                                                   ros::Time stamp,
-                                                   const PredictionOptions& options) {
+PredictedThing from_message(const mocha_ugv::PredictedObstacle& message) {
   const Vector2 place(message.position.x, message.position.y);
   const Vector2 velocity(message.velocity.x, message.velocity.y);
   require(place.cwiseAbs().maxCoeff() < kFarthest_m, message.id, "its place is not plausible");
@@ -33,16 +31,13 @@ std::shared_ptr<const MovingObstacle> from_message(const mocha_ugv::PredictedObs
           "its radius is not plausible");
   const Eigen::Matrix4d covariance =
       Eigen::Map<const Eigen::Matrix4d>(message.covariance.data()).transpose();
-  const RadiusGrowth growth = growth_of(covariance, options.confidence);
-  require(growth.radius_m < kLargest_m && growth.rate < kFastest, message.id,
+  const auto deviation = PredictedDeviation::of(covariance);
+  require(deviation.place_m < kLargest_m && deviation.speed < kFastest, message.id,
           "its covariance is not plausible");
-  return std::make_shared<PredictedDisc>(
-      "moving thing " + std::to_string(message.id), stamp.toSec(), place, velocity,
-      message.radius + growth.radius_m, growth.rate, options.growth_s);
+  return {message.id, place, velocity, message.radius, deviation};
 }
 
-NewestPredictions::NewestPredictions(std::string frame, const PredictionOptions& options)
-    : frame_(std::move(frame)), options_(options) {}
+NewestPredictions::NewestPredictions(std::string frame) : frame_(std::move(frame)) {}
 
 double NewestPredictions::age_s(ros::Time now) const {
   return stamp_.isZero() ? std::numeric_limits<double>::infinity() : (now - stamp_).toSec();
@@ -54,14 +49,9 @@ void NewestPredictions::on_predictions(const mocha_ugv::PredictedObstacles& mess
       throw std::invalid_argument("the frame is not " + frame_);
     if (message.obstacles.size() > kMostObstacles)
       throw std::invalid_argument("more than " + std::to_string(kMostObstacles) + " obstacles");
-    std::vector<std::shared_ptr<const MovingObstacle>> obstacles;
-    std::vector<std::shared_ptr<const MovingObstacle>> expected;
-    for (const auto& obstacle : message.obstacles) {
-      obstacles.push_back(from_message(obstacle, message.header.stamp, options_));
-      expected.push_back(from_message(obstacle, message.header.stamp, {0.0, 0.0}));
-    }
-    obstacles_ = std::move(obstacles);
-    expected_ = std::move(expected);
+    Predictions newest{message.header.stamp.toSec(), {}, spread_from(message)};
+    for (const auto& obstacle : message.obstacles) newest.things.push_back(from_message(obstacle));
+    newest_ = std::move(newest);
     stamp_ = message.header.stamp;
   } catch (const std::exception& error) {
     ++refused_;
@@ -70,9 +60,8 @@ void NewestPredictions::on_predictions(const mocha_ugv::PredictedObstacles& mess
   }
 }
 
-PredictionSource::PredictionSource(ros::NodeHandle& node, std::string frame,
-                                   const PredictionOptions& options)
-    : NewestPredictions(std::move(frame), options),
+PredictionSource::PredictionSource(ros::NodeHandle& node, std::string frame)
+    : NewestPredictions(std::move(frame)),
       predictions_(node.subscribe("predicted_obstacles", 5, &NewestPredictions::on_predictions,
                                   static_cast<NewestPredictions*>(this), at_once())) {}
 

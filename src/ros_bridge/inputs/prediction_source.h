@@ -3,26 +3,15 @@
 #include <mocha_ugv/PredictedObstacles.h>
 #include <ros/node_handle.h>
 
-#include <memory>
 #include <string>
-#include <vector>
 
-#include "world/moving_obstacle.h"
+#include "world/prediction.h"
 
 namespace mocha {
 
-/// How far predictions are trusted.
-struct PredictionOptions {
-  double confidence;  ///< with which a disc holds its thing, at any one time
-  double growth_s;    ///< how far ahead its radius grows
-};
-
-/// A prediction as a disc at constant velocity, whose radius grows with the covariance. Throws
-/// std::invalid_argument for values that are not finite or not plausible (faster than 30 m/s,
-/// larger than 20 m, farther than 100 km).
-std::shared_ptr<const MovingObstacle> from_message(const mocha_ugv::PredictedObstacle& message,
-                                                   ros::Time stamp,
-                                                   const PredictionOptions& options);
+/// Throws std::invalid_argument for values that are not finite or not plausible (faster than 30
+/// m/s, larger than 20 m, farther than 100 km, uncertain by more than 20 m or 30 m/s).
+PredictedThing from_message(const mocha_ugv::PredictedObstacle& message);
 
 /// The newest of the messages about what moves around the robot.
 class NewestPredictions {
@@ -30,13 +19,11 @@ class NewestPredictions {
   /// A message in another frame than `frame`, with more than a thousand obstacles, or with one that
   /// from_message() refuses, is refused as a whole and counted: what is left out could be what the
   /// robot runs into, so the former message holds until it is too old.
-  NewestPredictions(std::string frame, const PredictionOptions& options);
+  explicit NewestPredictions(std::string frame);
 
   void on_predictions(const mocha_ugv::PredictedObstacles& message);
 
-  const std::vector<std::shared_ptr<const MovingObstacle>>& obstacles() const { return obstacles_; }
-  /// The same on their most likely course, without room for what is not known.
-  const std::vector<std::shared_ptr<const MovingObstacle>>& expected() const { return expected_; }
+  const Predictions& newest() const { return newest_; }
   /// Since the stamp of the newest message [s]; infinity before the first.
   double age_s(ros::Time now) const;
   int refused() const { return refused_; }
@@ -44,9 +31,7 @@ class NewestPredictions {
 
  private:
   const std::string frame_;
-  const PredictionOptions options_;
-  std::vector<std::shared_ptr<const MovingObstacle>> obstacles_;
-  std::vector<std::shared_ptr<const MovingObstacle>> expected_;
+  Predictions newest_;
   ros::Time stamp_;
   int refused_ = 0;
   std::string refusal_;
@@ -55,7 +40,7 @@ class NewestPredictions {
 /// The newest predictions for this node's robot, from `predicted_obstacles`.
 class PredictionSource : public NewestPredictions {
  public:
-  PredictionSource(ros::NodeHandle& node, std::string frame, const PredictionOptions& options);
+  PredictionSource(ros::NodeHandle& node, std::string frame);
 
  private:
   ros::Subscriber predictions_;

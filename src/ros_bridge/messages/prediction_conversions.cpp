@@ -18,16 +18,48 @@ mocha_ugv::PredictedObstacle to_message(const TrackedObstacle& obstacle) {
   return message;
 }
 
+using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+std::vector<double> row_by_row(const Eigen::MatrixXd& table) {
+  const Table rows = table;
+  return {rows.data(), rows.data() + rows.size()};
+}
+
+/// Empty where the sizes do not match.
+Eigen::MatrixXd table(const std::vector<double>& values, std::size_t rows, std::size_t columns) {
+  if (columns == 0 || values.size() % columns != 0 || values.size() / columns != rows) return {};
+  return Eigen::Map<const Table>(values.data(), static_cast<Eigen::Index>(rows),
+                                 static_cast<Eigen::Index>(columns));
+}
+
 }  // namespace
 
 mocha_ugv::PredictedObstacles to_message(const std::vector<TrackedObstacle>& obstacles,
-                                         const std::string& frame, ros::Time stamp) {
+                                         const PredictionSpread& spread, const std::string& frame,
+                                         ros::Time stamp) {
   mocha_ugv::PredictedObstacles message;
   message.header.stamp = stamp;
   message.header.frame_id = frame;
   for (const TrackedObstacle& obstacle : obstacles)
     message.obstacles.push_back(to_message(obstacle));
+  message.ahead = spread.ahead_s;
+  message.confidences = spread.confidences;
+  message.deviations = row_by_row(spread.at);
+  message.deviations_throughout = row_by_row(spread.throughout);
   return message;
+}
+
+PredictionSpread spread_from(const mocha_ugv::PredictedObstacles& message) {
+  if (message.ahead.empty() && message.confidences.empty() && message.deviations.empty() &&
+      message.deviations_throughout.empty())
+    return PredictionSpread::normal();
+  const std::size_t rows = message.ahead.size();
+  const std::size_t columns = message.confidences.size();
+  PredictionSpread spread{message.ahead, message.confidences,
+                          table(message.deviations, rows, columns),
+                          table(message.deviations_throughout, rows, columns)};
+  spread.check();
+  return spread;
 }
 
 }  // namespace mocha

@@ -9,8 +9,6 @@
 namespace mocha {
 namespace {
 
-constexpr PredictionOptions kOptions{0.8, 2.0};
-
 mocha_ugv::PredictedObstacle walker(std::uint32_t id = 7) {
   mocha_ugv::PredictedObstacle message;
   message.id = id;
@@ -57,18 +55,14 @@ std::vector<std::function<void(mocha_ugv::PredictedObstacle&)>> spoilers() {
   return all;
 }
 
-TEST(FromMessage, IsADiscThatHoldsTheThing) {
-  const auto disc = from_message(walker(), ros::Time(12.5), kOptions);
-  EXPECT_EQ(disc->name(), "moving thing 7");
-  const double deviations = std::sqrt(-2.0 * std::log(0.2));
-  const auto now = disc->at(12.5);
-  EXPECT_EQ(now.centre, Vector2(3.0, -1.0));
-  EXPECT_EQ(now.velocity, Vector2(-0.5, 0.25));
-  EXPECT_NEAR(now.radius_m, 0.3 + 0.01 * deviations, 1e-9);
-  const auto later = disc->at(14.5);
-  EXPECT_LT((later.centre - Vector2(2.0, -0.5)).norm(), 1e-6);
-  EXPECT_NEAR(later.radius_m, 0.3 + 0.05 * deviations, 1e-6);
-  EXPECT_NEAR(disc->at(30.0).radius_m, later.radius_m, 1e-9);  // grows for two seconds only
+TEST(FromMessage, KeepsWhatIsSaid) {
+  const PredictedThing thing = from_message(walker());
+  EXPECT_EQ(thing.id, 7u);
+  EXPECT_EQ(thing.place, Vector2(3.0, -1.0));
+  EXPECT_EQ(thing.velocity, Vector2(-0.5, 0.25));
+  EXPECT_EQ(thing.radius_m, 0.3);
+  EXPECT_NEAR(thing.deviation.place_m, 0.01, 1e-9);
+  EXPECT_NEAR(thing.deviation.speed, 0.02, 1e-9);
 }
 
 TEST(FromMessage, ReadsTheCovarianceRowByRow) {
@@ -77,10 +71,8 @@ TEST(FromMessage, ReadsTheCovarianceRowByRow) {
   message.covariance[0] = 0.04;
   message.covariance[2] = message.covariance[8] = 0.01;  // x and vx
   message.covariance[10] = 0.01;
-  const double deviations = std::sqrt(-2.0 * std::log(0.2));
-  const auto disc = from_message(message, ros::Time(12.5), kOptions);
-  EXPECT_NEAR(disc->at(12.5).radius_m, 0.3 + 0.2 * deviations, 1e-9);
-  EXPECT_NEAR(disc->at(12.5).radius_rate, 0.1 * deviations, 1e-9);
+  EXPECT_NEAR(from_message(message).deviation.place_m, 0.2, 1e-9);
+  EXPECT_NEAR(from_message(message).deviation.speed, 0.1, 1e-9);
 }
 
 TEST(FromMessage, RefusesWhatIsNotPlausibleAndSaysOfWhom) {
@@ -88,12 +80,12 @@ TEST(FromMessage, RefusesWhatIsNotPlausibleAndSaysOfWhom) {
   for (const auto& spoil : spoilers()) {
     mocha_ugv::PredictedObstacle message = walker();
     spoil(message);
-    EXPECT_THROW(from_message(message, ros::Time(1.0), kOptions), std::invalid_argument) << i++;
+    EXPECT_THROW(from_message(message), std::invalid_argument) << i++;
   }
   mocha_ugv::PredictedObstacle message = walker(42);
   message.radius = -1.0;
   try {
-    from_message(message, ros::Time(1.0), kOptions);
+    from_message(message);
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("42"), std::string::npos) << error.what();
@@ -106,29 +98,29 @@ struct NewestPredictionsTest : ::testing::Test {
   void expect_the_first_holds(int refused) const {
     EXPECT_EQ(predictions.refused(), refused);
     EXPECT_FALSE(predictions.refusal().empty());
-    ASSERT_EQ(predictions.obstacles().size(), 2u);
-    EXPECT_EQ(predictions.obstacles()[1]->name(), "moving thing 2");
+    ASSERT_EQ(predictions.newest().things.size(), 2u);
+    EXPECT_EQ(predictions.newest().things[1].id, 2u);
     EXPECT_NEAR(predictions.age_s(ros::Time(11.5)), 1.5, 1e-6);
   }
 
-  NewestPredictions predictions{"map", kOptions};
+  NewestPredictions predictions{"map"};
 };
 
 TEST_F(NewestPredictionsTest, HasNothingAtFirst) {
-  EXPECT_TRUE(predictions.obstacles().empty());
+  EXPECT_TRUE(predictions.newest().things.empty());
   EXPECT_TRUE(std::isinf(predictions.age_s(ros::Time(1.0))));
   EXPECT_EQ(predictions.refused(), 0);
 }
 
 TEST_F(NewestPredictionsTest, TheNewestMessageIsWhatCounts) {
   predictions.on_predictions(seen({walker(1), walker(2)}));
-  EXPECT_EQ(predictions.obstacles().size(), 2u);
+  EXPECT_EQ(predictions.newest().things.size(), 2u);
   predictions.on_predictions(seen({walker(3)}, 11.0));
-  ASSERT_EQ(predictions.obstacles().size(), 1u);
-  EXPECT_EQ(predictions.obstacles()[0]->name(), "moving thing 3");
+  ASSERT_EQ(predictions.newest().things.size(), 1u);
+  EXPECT_EQ(predictions.newest().things[0].id, 3u);
   EXPECT_NEAR(predictions.age_s(ros::Time(11.5)), 0.5, 1e-6);
   predictions.on_predictions(seen({}, 12.0));  // that there is nothing is news, too
-  EXPECT_TRUE(predictions.obstacles().empty());
+  EXPECT_TRUE(predictions.newest().things.empty());
   EXPECT_NEAR(predictions.age_s(ros::Time(12.0)), 0.0, 1e-6);
   EXPECT_EQ(predictions.refused(), 0);
 }
@@ -142,6 +134,20 @@ TEST_F(NewestPredictionsTest, OneThatIsUnusableRefusesAll) {
     predictions.on_predictions(message);
     expect_the_first_holds(++refused);
   }
+}
+
+TEST_F(NewestPredictionsTest, ASpreadThatDoesNotFitRefusesAll) {
+  predictions.on_predictions(seen({walker(1), walker(2)}));
+  auto message = seen({walker(3)}, 11.0);
+  message.confidences = {0.8};
+  predictions.on_predictions(message);
+  expect_the_first_holds(1);
+  message.ahead = {1.0};
+  message.deviations = {1.5};
+  message.deviations_throughout = {2.5};
+  predictions.on_predictions(message);
+  EXPECT_EQ(predictions.newest().spread.deviations_throughout(1.0, 0.8), 2.5);
+  EXPECT_EQ(predictions.newest().time_s, 11.0);
 }
 
 TEST_F(NewestPredictionsTest, AnotherFrameIsRefused) {
@@ -158,7 +164,7 @@ TEST_F(NewestPredictionsTest, MoreThanCanBeIsRefused) {
   predictions.on_predictions(seen(std::vector(1001, walker()), 11.0));
   expect_the_first_holds(2);
   predictions.on_predictions(seen(std::vector(1000, walker()), 11.0));
-  EXPECT_EQ(predictions.obstacles().size(), 1000u);
+  EXPECT_EQ(predictions.newest().things.size(), 1000u);
   EXPECT_EQ(predictions.refused(), 2);
 }
 

@@ -2,13 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace mocha {
 namespace {
 
 TEST(PredictionConversions, KeepEveryNumber) {
-  TrackedObstacle obstacle{7,    12.5, {1.0, -2.0}, {0.5, 0.25}, 0.3, Eigen::Matrix4d::Random(),
-                           false};
-  const auto message = to_message({obstacle, obstacle}, "map", ros::Time(12.5));
+  TrackedObstacle obstacle{7,     12.5, {1.0, -2.0}, {0.5, 0.25}, 0.3, Eigen::Matrix4d::Random(),
+                           false, true};
+  const auto message =
+      to_message({obstacle, obstacle}, PredictionSpread::normal(), "map", ros::Time(12.5));
   EXPECT_EQ(message.header.frame_id, "map");
   EXPECT_EQ(message.header.stamp, ros::Time(12.5));
   ASSERT_EQ(message.obstacles.size(), 2u);
@@ -26,7 +29,40 @@ TEST(PredictionConversions, KeepEveryNumber) {
 }
 
 TEST(PredictionConversions, NothingIsAMessageToo) {
-  EXPECT_TRUE(to_message({}, "map", ros::Time(1.0)).obstacles.empty());
+  EXPECT_TRUE(to_message({}, PredictionSpread::normal(), "map", ros::Time(1.0)).obstacles.empty());
+}
+
+PredictionSpread known_spread() {
+  PredictionSpread spread{{0.5, 1.0}, {0.5, 0.8, 0.9}, Eigen::MatrixXd(2, 3), {}};
+  spread.at << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0;
+  spread.throughout = 2.0 * spread.at;
+  return spread;
+}
+
+TEST(PredictionConversions, TheSpreadComesBackAsItWent) {
+  const PredictionSpread spread = known_spread();
+  const PredictionSpread back = spread_from(to_message({}, spread, "map", ros::Time(1.0)));
+  EXPECT_EQ(back.ahead_s, spread.ahead_s);
+  EXPECT_EQ(back.confidences, spread.confidences);
+  EXPECT_EQ(back.at, spread.at);
+  EXPECT_EQ(back.throughout, spread.throughout);
+}
+
+TEST(PredictionConversions, WithoutSpreadErrorsAreTakenForNormal) {
+  EXPECT_EQ(spread_from({}).at, PredictionSpread::normal().at);
+}
+
+TEST(PredictionConversions, ASpreadThatDoesNotFitIsRefused) {
+  const auto good = to_message({}, known_spread(), "map", ros::Time(1.0));
+  std::vector<mocha_ugv::PredictedObstacles> bad(6, good);
+  bad[0].deviations.pop_back();
+  bad[1].deviations_throughout.clear();
+  bad[2].ahead.clear();
+  bad[3].confidences.clear();
+  bad[4].deviations[4] = std::nan("");
+  bad[5].confidences.push_back(0.95);
+  for (std::size_t i = 0; i < bad.size(); ++i)
+    EXPECT_THROW(spread_from(bad[i]), std::invalid_argument) << i;
 }
 
 }  // namespace
