@@ -49,7 +49,8 @@ class LocalReplannerNode {
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
         predictions_(node, identity_.map_frame),
-        risk_{values.number("risk"), values.number("growth_horizon"), model_.limits.max_speed},
+        risk_{values.number("risk"), values.number("growth_horizon"), model_.moving_clearance_m,
+              model_.limits.max_speed},
         local_(node, identity_, model_, values.number("prediction_horizon")),
         proposals_(node.advertise<mocha_ugv::Trajectory>("proposed_trajectory", 10)),
         leases_(node.advertise<mocha_ugv::Lease>("lease", 10)),
@@ -134,7 +135,7 @@ class LocalReplannerNode {
     scene.peers = peers_.obstacles();
     const Predictions& predictions = predictions_.newest();
     confidence_ = confidence_of_each(predictions, here, risk_);
-    scene.confident = confident_discs(predictions, confidence_, risk_.growth_s);
+    scene.confident = confident_discs(predictions, confidence_, risk_);
     scene.likely = likely_discs(predictions);
     scene.predicted_until_s = (now + prediction_horizon_).toSec();
     return scene;

@@ -97,11 +97,11 @@ double looked_up(const Eigen::MatrixXd& deviations, const PredictionSpread& spre
 }
 
 std::shared_ptr<const MovingObstacle> disc_of(const PredictedThing& thing, double time_s,
-                                              double deviations, double growth_s) {
+                                              double now_m, double then_m, double growth_s) {
+  const double rate = growth_s > 0.0 ? (then_m - now_m) / growth_s : 0.0;
   return std::make_shared<PredictedDisc>("moving thing " + std::to_string(thing.id), time_s,
-                                         thing.place, thing.velocity,
-                                         thing.radius_m + deviations * thing.deviation.place_m,
-                                         deviations * thing.deviation.speed, growth_s);
+                                         thing.place, thing.velocity, thing.radius_m + now_m, rate,
+                                         growth_s);
 }
 
 }  // namespace
@@ -154,18 +154,25 @@ double confidence_of_each(const Predictions& predictions, const Vector2& place,
   return 1.0 - options.risk / static_cast<double>(std::max<std::ptrdiff_t>(1, in_reach));
 }
 
-Discs confident_discs(const Predictions& predictions, double confidence, double growth_s) {
+Discs confident_discs(const Predictions& predictions, double confidence,
+                      const RiskOptions& options) {
+  const double growth_s = options.growth_s;
   const double deviations = predictions.spread.deviations_throughout(growth_s, confidence);
   Discs discs;
-  for (const PredictedThing& thing : predictions.things)
-    discs.push_back(disc_of(thing, predictions.time_s, deviations, growth_s));
+  for (const PredictedThing& thing : predictions.things) {
+    const auto beyond_m = [&](double ahead_s) {
+      return std::max(0.0, deviations * thing.deviation.after(ahead_s) - options.clearance_m);
+    };
+    discs.push_back(
+        disc_of(thing, predictions.time_s, beyond_m(0.0), beyond_m(growth_s), growth_s));
+  }
   return discs;
 }
 
 Discs likely_discs(const Predictions& predictions) {
   Discs discs;
   for (const PredictedThing& thing : predictions.things)
-    discs.push_back(disc_of(thing, predictions.time_s, 0.0, 0.0));
+    discs.push_back(disc_of(thing, predictions.time_s, 0.0, 0.0, 0.0));
   return discs;
 }
 

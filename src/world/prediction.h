@@ -63,8 +63,9 @@ struct Predictions {
 
 /// What bounds the risk of motions among predicted things.
 struct RiskOptions {
-  double risk;         ///< that any of the things within reach leaves its disc ...
+  double risk;         ///< that any of the things within reach comes nearer than planned for ...
   double growth_s;     ///< ... at any time until then; later the discs do not grow
+  double clearance_m;  ///< that motions keep from the discs, and that things may use up
   double robot_speed;  ///< the robot's highest [m/s]
 };
 
@@ -76,8 +77,10 @@ double confidence_of_each(const Predictions& predictions, const Vector2& place,
 
 using Discs = std::vector<std::shared_ptr<const MovingObstacle>>;
 
-/// Discs that hold the things with a confidence each, at any time for as long as they grow.
-Discs confident_discs(const Predictions& predictions, double confidence, double growth_s);
+/// Discs that hold the things with a confidence each, at any time for as long as they grow, but for
+/// what sticks out of them by no more than the clearance.
+Discs confident_discs(const Predictions& predictions, double confidence,
+                      const RiskOptions& options);
 
 /// The same on their most likely courses, without room for what is not known.
 Discs likely_discs(const Predictions& predictions);

@@ -143,9 +143,11 @@ class Measurement {
   int unmatched_ = 0;
 };
 
-Json measure(const World& world, std::uint64_t seed, double longest_s) {
-  WorldSimulator simulator(world, kBegin_s, seed);
+Json measure(World world, std::uint64_t seed, double longest_s) {
   LidarPerception perception(world.robots.at(0).model);
+  LidarModel& lidar = world.robots[0].model.lidar;  // further scans would be dropped
+  lidar.rate_hz = std::min(lidar.rate_hz, perception.integration_rate_hz());
+  WorldSimulator simulator(world, kBegin_s, seed);
   Patrol patrol(world.robots[0]);
   Measurement measurement(world);
   for (int tick = 1; tick * kTick_s < longest_s; ++tick) {

@@ -29,7 +29,7 @@ void predict_movers(const ReplanScene& scene, const RobotModel& robot, double t,
   constexpr double kVelocity = 0.05;
   static const auto kValues = ParameterTable::from_schema("config/local_replanner.yaml");
   const RiskOptions options{kValues.number("risk"), kValues.number("growth_horizon"),
-                            robot.limits.max_speed};
+                            robot.moving_clearance_m, robot.limits.max_speed};
   Predictions predictions{now_s};
   for (const SceneMover& mover : scene.movers) {
     const MoverTruth now = truth(mover, t);
@@ -38,7 +38,7 @@ void predict_movers(const ReplanScene& scene, const RobotModel& robot, double t,
         {id, now.centre, now.velocity, mover.radius_m, {kPlace_m, kVelocity}});
   }
   const double confidence = confidence_of_each(predictions, loop.state().pose.position, options);
-  loop.moving = confident_discs(predictions, confidence, options.growth_s);
+  loop.moving = confident_discs(predictions, confidence, options);
   loop.expected = likely_discs(predictions);
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace mocha {
 namespace {
@@ -14,6 +16,39 @@ Vector2 end_of(const Beam& beam) { return beam.end.head<2>(); }
 int root_of(std::vector<int>& parents, int i) {
   while (parents[i] != i) i = parents[i] = parents[parents[i]];
   return i;
+}
+
+/// The beams in their order round the sensor, from behind the widest gap on: a cluster may lie
+/// across where the sweep begins.
+BeamIndices in_order(const std::vector<Beam>& beams, const BeamIndices& cluster) {
+  const int size = static_cast<int>(beams.size());
+  std::size_t first = 0;
+  int widest = cluster.front() + size - cluster.back();
+  for (std::size_t i = 1; i < cluster.size(); ++i) {
+    if (cluster[i] - cluster[i - 1] <= widest) continue;
+    widest = cluster[i] - cluster[i - 1];
+    first = i;
+  }
+  BeamIndices ordered = cluster;
+  std::rotate(ordered.begin(), ordered.begin() + static_cast<std::ptrdiff_t>(first), ordered.end());
+  return ordered;
+}
+
+/// How deep the ranges are notched before each: how far they jump there, or how far the nearer one
+/// of the two is behind the nearest on either side.
+std::vector<double> notches(const std::vector<double>& ranges_m) {
+  const std::size_t size = ranges_m.size();
+  std::vector<double> after_m(size + 1, std::numeric_limits<double>::infinity());
+  for (std::size_t i = size; i-- > 0;) after_m[i] = std::min(after_m[i + 1], ranges_m[i]);
+  std::vector<double> depths_m(size, 0.0);
+  double before_m = ranges_m.empty() ? 0.0 : ranges_m[0];
+  for (std::size_t i = 1; i < size; ++i) {
+    const double jump_m = std::abs(ranges_m[i] - ranges_m[i - 1]);
+    const double valley_m = std::min(ranges_m[i], ranges_m[i - 1]) - std::max(before_m, after_m[i]);
+    depths_m[i] = std::max(jump_m, valley_m);
+    before_m = std::min(before_m, ranges_m[i]);
+  }
+  return depths_m;
 }
 
 }  // namespace
@@ -53,6 +88,26 @@ std::vector<BeamIndices> part_cluster(const std::vector<Beam>& beams, const Beam
       return (end_of(beams[i]) - a).squaredNorm() < (end_of(beams[i]) - b).squaredNorm();
     };
     parts[std::min_element(centres.begin(), centres.end(), farther) - centres.begin()].push_back(i);
+  }
+  return parts;
+}
+
+std::vector<BeamIndices> part_at_notches(const std::vector<Beam>& beams, const BeamIndices& cluster,
+                                         double notch_m) {
+  if (cluster.empty()) return {};
+  const BeamIndices ordered = in_order(beams, cluster);
+  std::vector<double> ranges_m;
+  for (const int i : ordered) ranges_m.push_back((beams[i].end - beams[i].origin).head<2>().norm());
+  const std::vector<double> depths_m = notches(ranges_m);
+  const auto deepest = std::max_element(depths_m.begin(), depths_m.end());
+  if (*deepest <= notch_m) return {cluster};
+  const auto middle = ordered.begin() + (deepest - depths_m.begin());
+  std::vector<BeamIndices> parts;
+  for (BeamIndices half :
+       {BeamIndices(ordered.begin(), middle), BeamIndices(middle, ordered.end())}) {
+    std::sort(half.begin(), half.end());
+    for (BeamIndices& part : part_at_notches(beams, half, notch_m))
+      parts.push_back(std::move(part));
   }
   return parts;
 }

@@ -6,6 +6,8 @@
 namespace mocha {
 namespace {
 
+constexpr double kNotch_m = 0.15;  // between two things, in the ranges of the beams that hit them
+
 MovingObjectFilterOptions checked(const MovingObjectFilterOptions& o) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(std::string("MovingObjectFilter: ") + what);
@@ -122,37 +124,70 @@ BeamIndices MovingObjectFilter::candidates(const std::vector<Beam>& beams, const
 }
 
 /// Clusters of hits that are small enough to move. Those within reach of a known thing are one, as
-/// the legs of a walking person; one that several known things can reach is parted among them.
+/// the legs of a walking person; one that several known things can reach is parted among them. What
+/// is too large for one thing may be several that are near to each other.
 std::vector<BeamIndices> MovingObjectFilter::things(
     const std::vector<Beam>& beams, const BeamIndices& hits,
     const std::vector<TrackedObstacle>& known) const {
-  std::vector<BeamIndices> groups(known.size());
+  std::vector<BeamIndices> owned(known.size());
+  std::vector<BeamIndices> others;
   for (BeamIndices& cluster : cluster_hits(beams, hits, options_.cluster_gap_m)) {
     std::vector<std::size_t> owners;
     std::vector<Vector2> centres;
     for (std::size_t k = 0; k < known.size(); ++k) {
-      const double reach_m = known[k].radius_m + 0.5 * options_.cluster_gap_m;
-      const bool holds = std::any_of(cluster.begin(), cluster.end(), [&](int i) {
-        return (beams[i].end.head<2>() - known[k].position).norm() <= reach_m;
-      });
+      const bool holds = std::any_of(cluster.begin(), cluster.end(),
+                                     [&](int i) { return is_in_reach(beams[i], known[k]); });
       if (!holds) continue;
       owners.push_back(k);
       centres.push_back(known[k].position);
     }
     if (owners.empty()) {
-      groups.push_back(std::move(cluster));
+      others.push_back(std::move(cluster));
       continue;
     }
     const auto parts = part_cluster(beams, cluster, centres);
     for (std::size_t k = 0; k < owners.size(); ++k)
-      groups[owners[k]].insert(groups[owners[k]].end(), parts[k].begin(), parts[k].end());
+      owned[owners[k]].insert(owned[owners[k]].end(), parts[k].begin(), parts[k].end());
+  }
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    for (BeamIndices& rest : keep_to_reach(beams, known[k], owned[k]))
+      others.push_back(std::move(rest));
+  }
+  for (const BeamIndices& other : others) {
+    if (is_one_thing(beams, other)) {
+      owned.push_back(other);
+      continue;
+    }
+    for (BeamIndices& part : part_at_notches(beams, other, kNotch_m))
+      owned.push_back(std::move(part));
   }
   const auto moves = [&](const BeamIndices& group) {
-    return static_cast<int>(group.size()) >= options_.cluster_points &&
-           extent_m(beams, group) <= options_.cluster_extent_m;
+    return static_cast<int>(group.size()) >= options_.cluster_points && is_one_thing(beams, group);
   };
-  groups.erase(std::stable_partition(groups.begin(), groups.end(), moves), groups.end());
-  return groups;
+  owned.erase(std::stable_partition(owned.begin(), owned.end(), moves), owned.end());
+  return owned;
+}
+
+bool MovingObjectFilter::is_in_reach(const Beam& beam, const TrackedObstacle& thing) const {
+  return (beam.end.head<2>() - thing.position).norm() <=
+         thing.radius_m + 0.5 * options_.cluster_gap_m;
+}
+
+bool MovingObjectFilter::is_one_thing(const std::vector<Beam>& beams,
+                                      const BeamIndices& group) const {
+  return extent_m(beams, group) <= options_.cluster_extent_m;
+}
+
+/// Of a group that is too large, the hits out of the thing's reach are others'.
+std::vector<BeamIndices> MovingObjectFilter::keep_to_reach(const std::vector<Beam>& beams,
+                                                           const TrackedObstacle& thing,
+                                                           BeamIndices& group) const {
+  if (is_one_thing(beams, group)) return {};
+  const auto rest = std::stable_partition(group.begin(), group.end(),
+                                          [&](int i) { return is_in_reach(beams[i], thing); });
+  const BeamIndices others(rest, group.end());
+  group.erase(rest, group.end());
+  return cluster_hits(beams, others, options_.cluster_gap_m);
 }
 
 void MovingObjectFilter::clear() {

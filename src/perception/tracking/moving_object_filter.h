@@ -49,6 +49,10 @@ class MovingObjectFilter {
                          const std::vector<TrackedObstacle>& known) const;
   std::vector<BeamIndices> things(const std::vector<Beam>& beams, const BeamIndices& hits,
                                   const std::vector<TrackedObstacle>& known) const;
+  bool is_in_reach(const Beam& beam, const TrackedObstacle& thing) const;
+  bool is_one_thing(const std::vector<Beam>& beams, const BeamIndices& group) const;
+  std::vector<BeamIndices> keep_to_reach(const std::vector<Beam>& beams,
+                                         const TrackedObstacle& thing, BeamIndices& group) const;
 
   MovingObjectFilterOptions options_;
   ObstacleTracker tracker_;
