@@ -62,6 +62,7 @@ void NewestPredictions::on_predictions(const mocha_ugv::PredictedObstacles& mess
     }
     obstacles_ = std::move(obstacles);
     expected_ = std::move(expected);
+    sensor_fault_ = message.fault;
     stamp_ = message.header.stamp;
   } catch (const std::exception& error) {
     ++refused_;

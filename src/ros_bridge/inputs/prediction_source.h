@@ -37,6 +37,8 @@ class NewestPredictions {
   const std::vector<std::shared_ptr<const MovingObstacle>>& obstacles() const { return obstacles_; }
   /// The same on their most likely course, without room for what is not known.
   const std::vector<std::shared_ptr<const MovingObstacle>>& expected() const { return expected_; }
+  /// Which sensor lies, by the newest message; empty: none.
+  const std::string& sensor_fault() const { return sensor_fault_; }
   /// Since the stamp of the newest message [s]; infinity before the first.
   double age_s(ros::Time now) const;
   int refused() const { return refused_; }
@@ -47,6 +49,7 @@ class NewestPredictions {
   const PredictionOptions options_;
   std::vector<std::shared_ptr<const MovingObstacle>> obstacles_;
   std::vector<std::shared_ptr<const MovingObstacle>> expected_;
+  std::string sensor_fault_;
   ros::Time stamp_;
   int refused_ = 0;
   std::string refusal_;
