@@ -136,12 +136,12 @@ class PerceptionNode {
       if (const auto* scan = std::get_if<PlanarScan>(&measurement.data)) {
         auto beams = to_beams(smoothed(*scan, values_.number("smoothing_reach")), measurement.poses,
                               {values_.number("max_range"), values_.number("max_clearing_range")});
-        sensors_.look(measurement, beams, base, map_, transforms_);
-        // What lies is not to enter the map.
-        if (!sensors_.stop().empty()) return publish_moving(measurement.last);
         if (base && !beams.empty()) map_.see_robot(*base, start_ground_, blind_walls(beams));
         peers_.ignore_peers(beams);
         filter_.sort(beams, map_);
+        sensors_.look(measurement, beams, base, map_, transforms_);
+        // What lies is not to enter the map.
+        if (!sensors_.stop().empty()) return publish_moving(measurement.last);
         map_.insert_scan(beams);
       } else {
         auto beams = to_beams(std::get<1>(measurement.data), measurement.poses.first,

@@ -58,12 +58,14 @@ WorldSimulator::WorldSimulator(World world, double start_time_s, std::uint64_t s
   for (const WorldRobot& setup : world_.robots) {
     const auto index = static_cast<std::uint32_t>(robots_.size());
     const RobotModel& model = setup.model;
-    robots_.push_back({setup, Vehicle(model, setup.start),
-                       Odometry(model.odometry_noise_distance, model.odometry_noise_yaw,
-                                derived_seed(seed, index, 0)),
-                       Lidar(model.lidar, derived_seed(seed, index, 1)),
-                       RunRecord(setup.start, setup.goal, arrival),
-                       PoseHistory(longest_sweep_s + SensorFault::kLongestDelay_s + kSpareHistory_s), start_time_s, kInfinity});
+    robots_.push_back(
+        {setup, Vehicle(model, setup.start),
+         Odometry(model.odometry_noise_distance, model.odometry_noise_yaw,
+                  derived_seed(seed, index, 0)),
+         Lidar(model.lidar, derived_seed(seed, index, 1)),
+         RunRecord(setup.start, setup.goal, arrival),
+         PoseHistory(longest_sweep_s + SensorFault::kLongestDelay_s + kSpareHistory_s),
+         start_time_s, kInfinity});
     robots_.back().past.add(time_s_, setup.start);
   }
   std::vector<ContactEvent> none;

@@ -22,6 +22,7 @@ def add_arguments(parser):
     parser.add_argument("--faults", default=",".join(FAULTS), metavar="NAME,...", help="sensor_fault of fleet_simulator (default: all)")
     parser.add_argument("--after", type=float, default=3.0, metavar="S", help="the lie begins so long after the robot set out (default 3)")
     parser.add_argument("--watch", type=float, default=30.0, metavar="S", help="and is watched for so long (default 30)")
+    parser.add_argument("--map", default="", metavar="FILE", help="robots find out for themselves where they are in this map of the worlds")
     parser.add_argument("--jobs", type=int, default=1, help="drives at the same time (default 1)")
     parser.add_argument("--out", default="out/faults", metavar="DIR", help="worlds and logs go there (default out/faults)")
     parser.add_argument("--json", metavar="FILE", help="write the rows and the summary there")
@@ -84,7 +85,7 @@ class Liar:
 def drive_world(job):
     """A row for one drive."""
     from mocha_scripts import drive  # here: the help needs no packages
-    path, fault, after_s, watch_s, out = job
+    path, fault, after_s, watch_s, out, map_file = job
     name = os.path.splitext(os.path.basename(path))[0]
     liar = []
 
@@ -93,7 +94,8 @@ def drive_world(job):
             liar.append(Liar(fault, after_s, watch_s))
         return liar[0].over(referee)
 
-    results, why = drive.drive(path, ["ugv1"], os.path.join(out, f"{name}_{fault}"), rate=0.0, record=False, limit_s=LIMIT_S, progress=progress)
+    results, why = drive.drive(path, ["ugv1"], os.path.join(out, f"{name}_{fault}"), rate=0.0, record=False, limit_s=LIMIT_S, map_file=map_file,
+                               progress=progress)
     words, noticed_s = liar[0].noticed() if liar else (None, None)
     robot = results["robots"][0] if results["robots"] else {"reached": False}
     standing = bool(liar) and abs(liar[0].speed) < STANDING_MPS
@@ -122,7 +124,7 @@ def worlds_of(options):
 
 
 def run(options):
-    jobs = [(path, fault, options.after, options.watch, options.out) for path in worlds_of(options) for fault in options.faults.split(",")]
+    jobs = [(path, fault, options.after, options.watch, options.out, options.map) for path in worlds_of(options) for fault in options.faults.split(",")]
     rows = []
     # A process a drive: a ROS node cannot change its master.
     with multiprocessing.get_context("spawn").Pool(options.jobs, maxtasksperchild=1) as pool:

@@ -8,13 +8,14 @@ namespace {
 
 constexpr std::size_t kEvery = 3;  // so many beams one is looked at
 constexpr double kFarthest_m = 10.0;
+constexpr double kShare = 0.9;  // of a beam: at the end of its reach a wall may be lost
 constexpr double kStep_m = 0.05;
 constexpr double kWall_m = 0.03;  // about a step
 
 bool passes_wall(const Beam& beam, const OccupancyMap& map) {
   const Vector2 from = beam.origin.head<2>();
   const Vector2 way = (beam.end - beam.origin).head<2>();
-  const double length_m = std::min(way.norm(), kFarthest_m);
+  const double length_m = std::min(kShare * way.norm(), kFarthest_m);
   const Vector2 step = kStep_m * way.normalized();
   for (int i = 1; i * kStep_m < length_m; ++i) {
     if (map.is_occupied_within(from + i * step, kWall_m, false)) return true;

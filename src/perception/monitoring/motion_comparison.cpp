@@ -66,9 +66,8 @@ void MotionComparison::add(double time_s, const Pose& odometry, const std::optio
 }
 
 Pose MotionComparison::odometry_at(double time_s) const {
-  const auto next =
-      std::lower_bound(odometry_.begin(), odometry_.end(), time_s,
-                       [](const auto& entry, double t) { return entry.first < t; });
+  const auto next = std::lower_bound(odometry_.begin(), odometry_.end(), time_s,
+                                     [](const auto& entry, double t) { return entry.first < t; });
   if (next == odometry_.begin()) return odometry_.front().second;
   if (next == odometry_.end()) return odometry_.back().second;
   const auto& [before_s, before] = *(next - 1);
@@ -94,8 +93,7 @@ MotionComparison::Fit MotionComparison::fit(double lag_s) const {
     fit.turn_squares += turn_m * turn_m;
   }
   if (fit.odometry_squares > 0.0) fit.factor = products / fit.odometry_squares;
-  fit.travel_squares =
-      std::max(0.0, scan_squares - std::norm(fit.factor) * fit.odometry_squares);
+  fit.travel_squares = std::max(0.0, scan_squares - std::norm(fit.factor) * fit.odometry_squares);
   return fit;
 }
 

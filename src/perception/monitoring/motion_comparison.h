@@ -9,9 +9,9 @@ namespace mocha {
 
 /// How the motion that scans show differs from that of the odometry.
 struct MotionDifference {
-  double lag_s = 0.0;     ///< by so much the scans are older than they say, where their motion shows
-                          ///< that clearly; else 0
-  double turn_rad = 0.0;  ///< the lidar is mounted so much further to the left than is known
+  double lag_s = 0.0;  ///< by so much the scans are older than they say, where their motion shows
+                       ///< that clearly; else 0
+  double turn_rad = 0.0;        ///< the lidar is mounted so much further to the left than is known
   double turn_error_rad = 0.0;  ///< standard deviation of that
   double slip = 0.0;        ///< share by which the odometry reports more travel than the scans show
   double slip_error = 0.0;  ///< standard deviation of that
@@ -32,8 +32,8 @@ class MotionComparison {
   /// Nothing without enough travel or turning.
   std::optional<MotionDifference> difference() const;
 
-  /// How far the robot has come by the scans, within a second at most, up to now, while the odometry
-  /// stood [m]; a radian of turning counts as 0.5 m.
+  /// How far the robot has come by the scans, within a second at most, up to now, while the
+  /// odometry stood [m]; a radian of turning counts as 0.5 m.
   double unreported_travel_m() const;
 
   void clear() { steps_.clear(); }

@@ -15,10 +15,10 @@ constexpr int kBlindScans = 2;
 constexpr int kFewestShown = 5;
 constexpr double kSameLag_s = 0.06;
 constexpr double kSomeTravel_m = 0.04;  // unreported; what else differs is not to be told then
-constexpr double kNoiseShare = 0.1;    // of the newest scan in the mean of the noise
-constexpr double kEnd = 0.7;           // a lie ends below this share of the value at which it begins
-constexpr double kSure = 3.0;          // standard deviations
-constexpr double kShortHold_s = 1.0;   // after the last sign of what shows in each scan
+constexpr double kNoiseShare = 0.1;     // of the newest scan in the mean of the noise
+constexpr double kEnd = 0.7;          // a lie ends below this share of the value at which it begins
+constexpr double kSure = 3.0;         // standard deviations
+constexpr double kShortHold_s = 1.0;  // after the last sign of what shows in each scan
 constexpr double kDegrees = 180.0 / M_PI;
 
 template <class... Words>
@@ -150,8 +150,7 @@ void SensorMonitor::judge_difference(double now_s) {
   }
   if (is_late) return;
   const double turn = std::abs(found.turn_rad);
-  if (lasts(SensorLie::kScanTurned,
-            turn - kSure * found.turn_error_rad > options_.max_turn_rad)) {
+  if (lasts(SensorLie::kScanTurned, turn - kSure * found.turn_error_rad > options_.max_turn_rad)) {
     begin(SensorLie::kScanTurned, now_s,
           text(1, "the lidar is turned: by the odometry's motion it looks ", kDegrees * turn,
                " degrees to the ", found.turn_rad > 0.0 ? "left" : "right",

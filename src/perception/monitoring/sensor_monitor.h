@@ -15,16 +15,16 @@
 namespace mocha {
 
 struct SensorMonitorOptions {
-  double lidar_noise_m;          ///< what the lidar is said to have
-  double frozen_travel_m;        ///< the scan repeats itself while the robot moves farther
-  double max_blind_rad;          ///< a wider sector without returns is not driven with
-  double max_noise_ratio;        ///< of the lidar's noise to what is said
-  double max_lag_s;              ///< older scans are not driven with
-  double max_turn_rad;           ///< of the lidar against its mount
-  double max_slip;               ///< share of the travel
-  double max_unreported_m;       ///< by the scans, while the odometry stands
-  double comparison_travel_m;    ///< over which scans and odometry are compared
-  double hold_s;                 ///< for so long a robot stands that cannot be driven
+  double lidar_noise_m;        ///< what the lidar is said to have
+  double frozen_travel_m;      ///< the scan repeats itself while the robot moves farther
+  double max_blind_rad;        ///< a wider sector without returns is not driven with
+  double max_noise_ratio;      ///< of the lidar's noise to what is said
+  double max_lag_s;            ///< older scans are not driven with
+  double max_turn_rad;         ///< of the lidar against its mount
+  double max_slip;             ///< share of the travel
+  double max_unreported_m;     ///< by the scans, while the odometry stands
+  double comparison_travel_m;  ///< over which scans and odometry are compared
+  double hold_s;               ///< for so long a robot stands that cannot be driven
 
   /// From the parameters of config/perception.yaml and the model's `lidar_noise`.
   static SensorMonitorOptions from(const ParameterTable& values, double lidar_noise_m);
@@ -48,7 +48,7 @@ bool stops_the_robot(SensorLie lie);
 struct SensorReading {
   const PlanarScan& scan;
   const std::vector<Beam>& beams;  ///< the same in the map frame
-  /// The same as seen from base_link at the time of the last beam, unmoved by the sweep; all hits.
+  /// What stands, as seen from base_link at the time of the last beam; all hits.
   ScanHits hits;
   std::optional<Pose> odometry;  ///< base_link at that time; nothing: is not known
 };

@@ -13,15 +13,16 @@
 
 namespace mocha {
 
-/// Watches a robot's lidar and odometry for lies, and says in diagnostics which of them lies, and by
-/// how much.
+/// Watches a robot's lidar and odometry for lies, and says in diagnostics which of them lies, and
+/// by how much.
 class SensorWatch {
  public:
   SensorWatch(const RobotIdentity& robot, const SensorMonitorOptions& options)
       : robot_(robot), monitor_(options) {}
 
-  /// Takes the next scan, before it enters the map. `beams` and `base`, base_link at the time of
-  /// the last beam, are in the map frame; the odometry comes from tf.
+  /// Takes the next scan, before it enters the map, when hits on what moves have been told from the
+  /// others. `beams` and `base`, base_link at the time of the last beam, are in the map frame; the
+  /// odometry comes from tf.
   void look(const Measurement& measurement, const std::vector<Beam>& beams,
             const std::optional<Pose>& base, const OccupancyMap& map,
             const tf2::BufferCore& transforms);
