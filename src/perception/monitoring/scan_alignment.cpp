@@ -12,7 +12,7 @@ namespace {
 
 // Of a surface: how far its hits are from its middle, how many they are at least, and how straight.
 constexpr double kReach_m = 0.15;
-constexpr double kReachPerRange = 0.06;
+constexpr double kReachPerRange = 0.045;
 constexpr int kMostNeighbours = 10;  // on each side
 constexpr int kFewestHits = 5;
 constexpr double kMostFlat = 0.1;  // variance across over variance along

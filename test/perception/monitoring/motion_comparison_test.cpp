@@ -90,7 +90,7 @@ TEST(ReferenceScan, TellsWhereAScanWasTaken) {
   ASSERT_TRUE(found);
   EXPECT_NEAR((found->pose.position - there.position).norm(), 0.0, 2e-3);
   EXPECT_NEAR(found->pose.yaw_rad, there.yaw_rad, 1e-3);
-  EXPECT_GT(found->inliers, 0.9);
+  EXPECT_GT(found->inliers, 0.7);
 }
 
 TEST(ReferenceScan, SaysNothingInALongCorridor) {

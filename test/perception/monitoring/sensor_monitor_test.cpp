@@ -142,16 +142,16 @@ INSTANTIATE_TEST_SUITE_P(
     EachKind, LyingSensors,
     testing::Values(
         Lie{SensorLie::kScanFrozen, lidar({true, 0.0, 0.0, 1.0, 0.0}), 0.5, "scan is frozen"},
-        Lie{SensorLie::kScanLate, lidar({false, 0.3, 0.0, 1.0, 0.0}), 4.0, "scans are late"},
-        Lie{SensorLie::kScanTurned, lidar({false, 0.0, 0.05236, 1.0, 0.0}), 4.0,
+        Lie{SensorLie::kScanLate, lidar({false, 0.3, 0.0, 1.0, 0.0}), 6.0, "scans are late"},
+        Lie{SensorLie::kScanTurned, lidar({false, 0.0, 0.05236, 1.0, 0.0}), 6.0,
             "degrees to the left"},
-        Lie{SensorLie::kScanTurned, lidar({false, 0.0, -0.05236, 1.0, 0.0}), 4.0,
+        Lie{SensorLie::kScanTurned, lidar({false, 0.0, -0.05236, 1.0, 0.0}), 6.0,
             "degrees to the right"},
         Lie{SensorLie::kScanNoisy, lidar({false, 0.0, 0.0, 3.0, 0.0}), 1.5, "lidar is noisy"},
         Lie{SensorLie::kScanBlind, lidar({false, 0.0, 0.0, 1.0, 1.0472}), 0.5, "lidar is blind"},
         Lie{SensorLie::kOdometryFrozen, odometry({true, 0.0}), 1.0, "odometry is frozen"},
-        Lie{SensorLie::kOdometrySlips, odometry({false, 0.2}), 4.0, "% more travel"},
-        Lie{SensorLie::kOdometrySlips, odometry({false, -0.2}), 4.0, "% less travel"}));
+        Lie{SensorLie::kOdometrySlips, odometry({false, 0.2}), 6.0, "% more travel"},
+        Lie{SensorLie::kOdometrySlips, odometry({false, -0.2}), 6.0, "% less travel"}));
 
 }  // namespace
 }  // namespace mocha
