@@ -1,6 +1,6 @@
 """Drives among people through the whole stack, lidar only, while a sensor begins to lie: one kind of lie a drive, and none to compare.
 
-A lie begins a few seconds after the robot has set out, and stays. Noticed is what diagnostics of perception, or its log, say of it, and how long after.
+A lie begins a few seconds after the robot has set out, and stays. Noticed is what diagnostics or the log say of it, and how long after.
 A drive ends where its goal is reached, or some time after the lie began. Whose a contact is, the ground truth says; see bench dynabarn.
 """
 import multiprocessing
@@ -21,7 +21,7 @@ def add_arguments(parser):
     parser.add_argument("--halls", type=int, default=2, metavar="N", help="of bench crossing, seeds from 1 on (default 2)")
     parser.add_argument("--faults", default=",".join(FAULTS), metavar="NAME,...", help="sensor_fault of fleet_simulator (default: all)")
     parser.add_argument("--after", type=float, default=3.0, metavar="S", help="the lie begins so long after the robot set out (default 3)")
-    parser.add_argument("--watch", type=float, default=30.0, metavar="S", help="and is watched for so long (default 30)")
+    parser.add_argument("--watch", type=float, default=25.0, metavar="S", help="and is watched for so long (default 25)")
     parser.add_argument("--map", default="", metavar="FILE", help="robots find out for themselves where they are in this map of the worlds")
     parser.add_argument("--jobs", type=int, default=1, help="drives at the same time (default 1)")
     parser.add_argument("--out", default="out/faults", metavar="DIR", help="worlds and logs go there (default out/faults)")
@@ -62,11 +62,13 @@ class Liar:
 
     def _on_diagnostics(self, message):
         for status in message.status:
-            if status.name.endswith("perception: sensor faults") and status.level > 0:
+            tells = status.name.endswith("perception: sensor faults") or "odometry stands" in status.message
+            if tells and status.level > 0:
                 self.heard.append((message.header.stamp.to_sec(), status.message))
 
     def _on_log(self, message):
-        if message.name.endswith("/perception") and message.level >= message.WARN and not message.msg.startswith("Refused"):
+        tells = message.name.endswith("/perception") and message.level >= message.WARN and not message.msg.startswith("Refused")
+        if tells or message.name.endswith("/trajectory_tracker") and "odometry stands" in message.msg:
             self.heard.append((message.header.stamp.to_sec(), message.msg.partition(": ")[2]))
 
     def over(self, _):

@@ -54,7 +54,8 @@ SensorMonitorOptions SensorMonitorOptions::from(const ParameterTable& values,
 
 bool stops_the_robot(SensorLie lie) {
   return lie == SensorLie::kScanFrozen || lie == SensorLie::kScanBlind ||
-         lie == SensorLie::kScanLate || lie == SensorLie::kOdometryFrozen;
+         lie == SensorLie::kScanLate || lie == SensorLie::kOdometryFrozen ||
+         lie == SensorLie::kOdometrySlips;
 }
 
 void SensorMonitor::begin(SensorLie lie, double now_s, const std::string& words) {
