@@ -112,6 +112,7 @@ class TrajectoryTrackerNode {
     if (!reading_.state) return;
     odometry_check_.add(reading_.state->stamp_s, reading_.in_odom, command_);
     if (!odometry_check_.is_frozen(now.toSec())) return;
+    ROS_ERROR_THROTTLE(10.0, "%s: %s", robot_.name.c_str(), odometry_check_.words().c_str());
     reading_.state.reset();
     reading_.missing = odometry_check_.words();
   }
@@ -138,7 +139,10 @@ class TrajectoryTrackerNode {
     const bool failed = mode == TrackerMode::kErrorBraking || mode == TrackerMode::kStale ||
                         mode == TrackerMode::kEmergency;
     const bool idle_without_pose = mode == TrackerMode::kIdle && !reading_.state;
-    if (failed) {
+    if (odometry_check_.is_frozen(now_.toSec())) {
+      status.summary(DiagnosticStatus::ERROR,
+                     std::string(to_text(mode)) + ": " + odometry_check_.words());
+    } else if (failed) {
       status.summary(DiagnosticStatus::ERROR, std::string(to_text(mode)) + ": " + why);
     } else if (idle_without_pose) {
       status.summary(DiagnosticStatus::WARN, std::string(to_text(mode)) + "; " + reading_.missing);

@@ -17,8 +17,9 @@ constexpr std::size_t kFewestSteps = 10;
 constexpr double kArm_m = 0.5;  // a turn counts as so much travel per radian
 // A lag is clear where it explains this much of what is unexplained without it, and that is more
 // than the noise of a step.
-constexpr double kExplained = 0.5;
-constexpr double kStepNoise_m = 0.006;
+constexpr double kExplained = 0.65;
+constexpr double kStepNoise_m = 0.006;  // at least
+constexpr double kStepNoisePerRange = 0.6;
 constexpr double kStanding = 0.2;  // share of the scans' motion that counts as standing
 constexpr double kShown_s = 1.0;
 constexpr int kFewestStanding = 3;  // steps
@@ -97,7 +98,7 @@ MotionComparison::Fit MotionComparison::fit(double lag_s) const {
   return fit;
 }
 
-std::optional<MotionDifference> MotionComparison::difference() const {
+std::optional<MotionDifference> MotionComparison::difference(double range_noise_m) const {
   const double count = static_cast<double>(steps_.size());
   if (steps_.size() < kFewestSteps) return std::nullopt;
   double lag_s = 0.0;
@@ -109,9 +110,10 @@ std::optional<MotionDifference> MotionComparison::difference() const {
     best = tried;
     lag_s = tried_s;
   }
+  const double noise_m = std::max(kStepNoise_m, kStepNoisePerRange * range_noise_m);
   const bool is_bounded = lag_s < kMostLag_s - 1.5 * kLagStep_s;
   const bool is_clear = is_bounded && best.unexplained() < (1.0 - kExplained) * at_once &&
-                        at_once > count * kStepNoise_m * kStepNoise_m;
+                        at_once > count * noise_m * noise_m;
   MotionDifference difference;
   if (is_clear) difference.lag_s = lag_s;
   const double scale = std::abs(best.factor);

@@ -29,8 +29,9 @@ class MotionComparison {
   /// before; nothing where the scans do not tell that.
   void add(double time_s, const Pose& odometry, const std::optional<Pose>& step);
 
-  /// Nothing without enough travel or turning.
-  std::optional<MotionDifference> difference() const;
+  /// Nothing without enough travel or turning. `range_noise_m` is the lidar's, with which a step by
+  /// the scans scatters.
+  std::optional<MotionDifference> difference(double range_noise_m) const;
 
   /// How far the robot has come by the scans, within a second at most, up to now, while the
   /// odometry stood [m]; a radian of turning counts as 0.5 m.

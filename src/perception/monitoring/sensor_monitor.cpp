@@ -131,7 +131,7 @@ void SensorMonitor::check_motion(const SensorReading& reading, double now_s) {
                unreported_m, " m"));
     comparison_.clear();
   }
-  difference_ = unreported_m > kSomeTravel_m ? std::nullopt : comparison_.difference();
+  difference_ = unreported_m > kSomeTravel_m ? std::nullopt : comparison_.difference(noise_m_);
   if (difference_) judge_difference(now_s);
 }
 

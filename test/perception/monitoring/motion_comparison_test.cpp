@@ -29,7 +29,7 @@ std::optional<MotionDifference> compared(const std::function<Pose(double)>& step
   MotionComparison comparison(1.5);
   for (double t = 0.0; t < until_s; t += kStep_s)
     comparison.add(t, driven(t), t > 0.0 ? std::optional(step_at(t)) : std::nullopt);
-  return comparison.difference();
+  return comparison.difference(0.01);
 }
 
 Pose true_step(double t) { return relative(driven(t - kStep_s), driven(t)); }
