@@ -136,10 +136,10 @@ TEST_F(NewestPredictionsTest, TheNewestMessageIsWhatCounts) {
 TEST_F(NewestPredictionsTest, TellsWhichSensorLies) {
   auto message = seen({walker()});
   message.fault = "the scan is frozen";
-  predictions_.on_predictions(message);
-  EXPECT_EQ(predictions_.sensor_fault(), "the scan is frozen");
-  predictions_.on_predictions(seen({walker()}, 10.1));
-  EXPECT_EQ(predictions_.sensor_fault(), "");
+  predictions.on_predictions(message);
+  EXPECT_EQ(predictions.sensor_fault(), "the scan is frozen");
+  predictions.on_predictions(seen({walker()}, 10.1));
+  EXPECT_EQ(predictions.sensor_fault(), "");
 }
 
 TEST_F(NewestPredictionsTest, OneThatIsUnusableRefusesAll) {
