@@ -42,6 +42,8 @@ void SensorWatch::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) 
   status.addf("beams without return where the map has walls [degrees]", "%.1f",
               monitor_.blind_rad() * 180.0 / M_PI);
   const auto& found = monitor_.difference();
+  status.add("motion compared",
+             found ? "yes" : "no: not enough of it yet, or of what stands in sight");
   if (!found) return;
   status.addf("scans older than they say [s]", "%.2f", found->lag_s);
   status.addf("lidar turned to the left [degrees]", "%.2f", found->turn_rad * 180.0 / M_PI);
