@@ -40,6 +40,7 @@ ROOMS = {
     "optimization": "How good a motion is: one penalty a file, their sum, and its minimum.",
     "perception/localization": "Where a robot is in a saved map.",
     "perception/mapping": "Beams into an occupancy map; maps as files.",
+    "perception/monitoring": "Which sensor lies, and by how much.",
     "perception/sensor": "What a sensor measures: beams, scans, clouds.",
     "perception/tracking": "What moves: hits told from the map, detections, tracks.",
     "planning/candidates": "The one pipeline of global and local planning: start maneuvers, optimise, certify, select; what candidates keep from.",

@@ -20,7 +20,7 @@ def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, lcm_u
           limit_s=180.0, stop_at_contact=False, progress=lambda referee: None):
     """Drives the fleet of a world file. Returns (results, why): `why` says what ended the drive.
 
-    With a `map_file` the robots localise themselves in it. The limit is in simulated seconds. Logs, and the rosbag `drive.bag`, go
+    `progress` is called now and then, and ends the drive by returning why. With a `map_file` the robots localise themselves in it. The limit is in simulated seconds. Logs, and the rosbag `drive.bag`, go
     to the directory `out`."""
     os.makedirs(out, exist_ok=True)
     arguments = {"world": os.path.abspath(world), "rate": rate, "seed": seed, "rviz": str(rviz).lower(),
@@ -50,7 +50,9 @@ def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, lcm_u
             if stop_at_contact and referee.touched():
                 why = "a robot touched something"
                 break
-            progress(referee)
+            why = progress(referee)
+            if why is not None:
+                break
             time.sleep(0.2)
         results = referee.results()
         if why is None:

@@ -13,6 +13,7 @@
 
 #include "ros_bridge/messages/simulation_messages.h"
 #include "ros_bridge/runtime/footprint_check.h"
+#include "ros_bridge/runtime/live_parameters.h"
 #include "ros_bridge/runtime/lockstep.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/transport.h"
@@ -111,7 +112,8 @@ class Pace {
 class FleetSimulatorNode {
  public:
   FleetSimulatorNode(ros::NodeHandle& node, const ParameterTable& values)
-      : step_(values.number("step")),
+      : values_(values),
+        step_(values.number("step")),
         publish_map_to_odom_(values.flag("publish_map_to_odom")),
         emulated_bases_(values.flag("emulated_bases")),
         has_stacks_(ros::Time::isSimTime() && !values.text("lockstep_nodes").empty()),
@@ -131,7 +133,9 @@ class FleetSimulatorNode {
         moving_markers_(
             node.advertise<visualization_msgs::MarkerArray>("/fleet_simulator/moving_markers", 10)),
         diagnostics_timer_(node.createWallTimer(ros::WallDuration(kDiagnosticsPeriod_s),
-                                                &FleetSimulatorNode::on_diagnostics, this)) {
+                                                &FleetSimulatorNode::on_diagnostics, this)),
+        parameters_(values_, [this](const ParameterTable& v) { lie(v); }) {
+    lie(values_);
     std::vector<geometry_msgs::TransformStamped> mounts;
     for (std::size_t i = 0; i < simulator_.robots().size(); ++i) {
       connect(node, i);
@@ -194,6 +198,10 @@ class FleetSimulatorNode {
                       simulator_.robots()[robot].setup.name.c_str());
   }
 
+  void lie(const ParameterTable& values) {
+    simulator_.set_fault(values.text("fault_robot"), SensorFault::from(values));
+  }
+
   void publish(const WorldSimulator::StepResult& result) {
     std::vector<geometry_msgs::TransformStamped> transforms;
     for (std::size_t i = 0; i < channels_.size(); ++i) {
@@ -241,8 +249,10 @@ class FleetSimulatorNode {
     status.add("real-time factor", pace_.measured(now_));
     status.add("missing nodes", missing);
     status.add("refused commands", refused_commands_);
+    status.add("sensor fault", values_.text("sensor_fault"));
   }
 
+  ParameterTable values_;
   ros::Duration step_;
   bool publish_map_to_odom_;
   bool emulated_bases_;
@@ -261,6 +271,7 @@ class FleetSimulatorNode {
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   diagnostic_updater::Updater diagnostics_;
+  LiveParameters parameters_;
   Due truth_due_{kTruthPeriod_s};
   Due markers_due_{kMarkerPeriod_s};
   long steps_ = 0;

@@ -124,6 +124,7 @@ class LocalReplannerNode {
     known.map_age_s = map_.age_s(now);
     known.fleet_age_s = peers_.age_s(now);
     known.prediction_age_s = predictions_.age_s(now);
+    known.sensor_fault = predictions_.sensor_fault();
     known.scene = [this, now](const Vector2& here) { return scene(now, here); };
     return known;
   }

@@ -24,6 +24,7 @@
 #include "perception/tracking/peer_tracks.h"
 #include "ros_bridge/inputs/peer_motions.h"
 #include "ros_bridge/inputs/scan_queue.h"
+#include "ros_bridge/inputs/sensor_watch.h"
 #include "ros_bridge/messages/map_conversions.h"
 #include "ros_bridge/messages/prediction_conversions.h"
 #include "ros_bridge/messages/sensor_conversions.h"
@@ -52,6 +53,7 @@ class PerceptionNode {
         model_(own_robot_model(values)),
         start_ground_(model_),
         map_(OccupancyMapOptions::from(values, model_.map_resolution_m)),
+        sensors_(robot_, SensorMonitorOptions::from(values, model_.lidar.noise_m)),
         peers_(values.number("peer_margin"), values.number("peer_timeout")),
         filter_(MovingObjectFilterOptions::from(values)),
         timeout_s_(values.number("scan_timeout")),
@@ -75,6 +77,7 @@ class PerceptionNode {
                robot_.name.c_str(), start_ground_.reach_m());
     diagnostics_.setHardwareID(robot_.name);
     diagnostics_.add("sensors", this, &PerceptionNode::diagnose_sensors);
+    diagnostics_.add("sensor faults", &sensors_, &SensorWatch::diagnose);
     diagnostics_.add("map", this, &PerceptionNode::diagnose_map);
     diagnostics_.add("moving things", this, &PerceptionNode::diagnose_moving);
   }
@@ -121,6 +124,7 @@ class PerceptionNode {
     transforms_.clear();
     queue_.clear();
     filter_.clear();
+    sensors_.clear();
     maps_.forget_time();
     started_ = integrated_ = stamp_ = cells_published_ = ros::Time();
   }
@@ -135,6 +139,9 @@ class PerceptionNode {
         if (base && !beams.empty()) map_.see_robot(*base, start_ground_, blind_walls(beams));
         peers_.ignore_peers(beams);
         filter_.sort(beams, map_);
+        sensors_.look(measurement, beams, base, map_, transforms_);
+        // What lies is not to enter the map.
+        if (!sensors_.stop().empty()) return publish_moving(measurement.last);
         map_.insert_scan(beams);
       } else {
         auto beams = to_beams(std::get<1>(measurement.data), measurement.poses.first,
@@ -147,7 +154,7 @@ class PerceptionNode {
       if (base) map_.clear_body(*base, model_.footprint);
       integrated_ = now_;
       stamp_ = std::max(stamp_, measurement.last);
-      publish_moving();
+      publish_moving(stamp_);
     } catch (const std::exception& error) {  // of tf or of the map; neither may stop the node
       refusals_.add(error.what());
     }
@@ -166,8 +173,11 @@ class PerceptionNode {
   }
 
   /// Though nothing moves: their age tells that they can be relied on.
-  void publish_moving() {
-    moving_.publish(to_message(filter_.moving(stamp_.toSec()), filter_.spread(), robot_.map_frame, stamp_));
+  void publish_moving(ros::Time stamp) {
+    auto message =
+        to_message(filter_.moving(stamp.toSec()), filter_.spread(), robot_.map_frame, stamp);
+    message.fault = sensors_.stop();
+    moving_.publish(message);
   }
 
   void publish_cells() {
@@ -222,9 +232,11 @@ class PerceptionNode {
     if (silent_s > timeout_s_) {
       status.summaryf(DiagnosticStatus::ERROR, "no scan on %s for %.1f s",
                       scans_.getTopic().c_str(), silent_s);
-    } else if (blind_s > timeout_s_) {
+    } else if (blind_s > timeout_s_ && sensors_.stop().empty()) {
       status.summaryf(DiagnosticStatus::ERROR, "no scan could enter the map for %.1f s: %s",
                       blind_s, refusals_.newest().c_str());
+    } else if (!sensors_.stop().empty()) {
+      status.summary(DiagnosticStatus::ERROR, "scans do not enter the map: a sensor lies");
     } else {
       status.summary(DiagnosticStatus::OK, "scans enter the map");
     }
@@ -260,6 +272,7 @@ class PerceptionNode {
   const RobotModel model_;
   const StartGround start_ground_;
   OccupancyMap map_;
+  SensorWatch sensors_;
   PeerTracks peers_;
   MovingObjectFilter filter_;
   const double timeout_s_;

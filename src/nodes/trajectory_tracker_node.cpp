@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "control/odometry_check.h"
 #include "control/trajectory_tracker.h"
 #include "ros_bridge/inputs/emergency_stop_listener.h"
 #include "ros_bridge/inputs/pose_source.h"
@@ -33,6 +34,8 @@ class TrajectoryTrackerNode {
         robot_(robot_identity()),
         max_lease_(values.number("max_lease")),
         tracker_(TrackerParameters::from(values), own_robot_model(values)),
+        odometry_check_(values.number("max_unanswered_travel"),
+                        values.number("frozen_odometry_hold")),
         stop_(node),
         pose_(node, robot_, values.number("max_pose_age"), values.number("max_transform_age")),
         commands_(node.advertise<geometry_msgs::Twist>("cmd_vel", 1)),
@@ -89,6 +92,7 @@ class TrajectoryTrackerNode {
 
   void step(ros::Time now) {
     reading_ = pose_.read(now);
+    check_odometry(now);
     const TrackerMode before = tracker_.mode();
     const int refused_before = tracker_.refused();
     tracker_.set_stopped(stop_.stopped(), stop_.reason());
@@ -101,6 +105,16 @@ class TrajectoryTrackerNode {
     }
     if (tracker_.refused() != refused_before) ROS_WARN("%s", tracker_.refusal().c_str());
     diagnostics_.update();
+  }
+
+  /// By what stands though it should move, nothing is driven.
+  void check_odometry(ros::Time now) {
+    if (!reading_.state) return;
+    odometry_check_.add(reading_.state->stamp_s, reading_.in_odom, command_);
+    if (!odometry_check_.is_frozen(now.toSec())) return;
+    ROS_ERROR_THROTTLE(10.0, "%s: %s", robot_.name.c_str(), odometry_check_.words().c_str());
+    reading_.state.reset();
+    reading_.missing = odometry_check_.words();
   }
 
   void publish() {
@@ -125,7 +139,10 @@ class TrajectoryTrackerNode {
     const bool failed = mode == TrackerMode::kErrorBraking || mode == TrackerMode::kStale ||
                         mode == TrackerMode::kEmergency;
     const bool idle_without_pose = mode == TrackerMode::kIdle && !reading_.state;
-    if (failed) {
+    if (odometry_check_.is_frozen(now_.toSec())) {
+      status.summary(DiagnosticStatus::ERROR,
+                     std::string(to_text(mode)) + ": " + odometry_check_.words());
+    } else if (failed) {
       status.summary(DiagnosticStatus::ERROR, std::string(to_text(mode)) + ": " + why);
     } else if (idle_without_pose) {
       status.summary(DiagnosticStatus::WARN, std::string(to_text(mode)) + "; " + reading_.missing);
@@ -159,6 +176,7 @@ class TrajectoryTrackerNode {
   RobotIdentity robot_;
   double max_lease_;
   TrajectoryTracker tracker_;
+  OdometryCheck odometry_check_;
   EmergencyStopListener stop_;
   PoseSource pose_;
   PoseReading reading_;

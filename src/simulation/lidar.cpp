@@ -43,6 +43,12 @@ Lidar::Lidar(const LidarModel& model, std::uint64_t seed)
 }
 
 Scan Lidar::sweep(double start_time_s, const Scene& scene) {
+  if (fault_.frozen && !newest_m_.empty()) return {start_time_s, newest_m_};
+  newest_m_ = measure(start_time_s - fault_.delay_s, scene).ranges_m;
+  return {start_time_s, newest_m_};
+}
+
+Scan Lidar::measure(double start_time_s, const Scene& scene) {
   Scan scan{start_time_s, {}};
   scan.ranges_m.reserve(model_.beams);
   Pose sensor;
@@ -53,7 +59,12 @@ Scan Lidar::sweep(double start_time_s, const Scene& scene) {
       sensor = composed(scene.base_at(time_s), model_.mount);
       moving = scene.moving_at(time_s);
     }
-    const double angle = sensor.yaw_rad + angle_min_ + i * angle_increment_;
+    const double bearing = angle_min_ + i * angle_increment_;
+    if (fault_.blind_rad > 0.0 && std::abs(bearing) <= 0.5 * fault_.blind_rad) {
+      scan.ranges_m.push_back(kNoReturn);
+      continue;
+    }
+    const double angle = sensor.yaw_rad + fault_.turn_rad + bearing;
     const Vector2 direction(std::cos(angle), std::sin(angle));
     const double wall = scene.walls.ray_length(sensor.position, direction, model_.max_range_m);
     scan.ranges_m.push_back(measured(std::min(wall, nearest(moving, sensor.position, direction))));
@@ -63,7 +74,7 @@ Scan Lidar::sweep(double start_time_s, const Scene& scene) {
 
 float Lidar::measured(double length_m) {
   if (chance_(random_) < model_.dropout || length_m > model_.max_range_m) return kNoReturn;
-  const double range = length_m + model_.noise_m * noise_(random_);
+  const double range = length_m + fault_.noise_factor * model_.noise_m * noise_(random_);
   if (range > model_.max_range_m) return kNoReturn;
   return range < model_.min_range_m ? kTooNear : static_cast<float>(range);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulation/ray_grid.h"
+#include "simulation/sensor_fault.h"
 #include "world/robot_model.h"
 
 namespace mocha {
@@ -34,13 +35,19 @@ class Lidar {
   double angle_increment_rad() const { return angle_increment_; }
   double time_increment_s() const { return time_increment_; }
 
+  /// How it lies from the next sweep on.
+  void set_fault(const LidarFault& fault) { fault_ = fault; }
+
   /// The sweep that begins at `start_time_s`.
   Scan sweep(double start_time_s, const Scene& scene);
 
  private:
+  Scan measure(double start_time_s, const Scene& scene);
   float measured(double length_m);
 
   LidarModel model_;
+  LidarFault fault_;
+  std::vector<float> newest_m_;  // ranges of the newest sweep; empty before
   double angle_min_;
   double angle_increment_;
   double time_increment_;

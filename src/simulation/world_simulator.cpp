@@ -14,7 +14,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTimeSlack_s = 1e-9;    // sums of steps are not exact
 constexpr double kMovingSpeed = 1e-3;    // [m/s] and [rad/s]; less is standing
-constexpr double kSpareHistory_s = 1.0;  // beyond the longest sweep; more than any step
+constexpr double kSpareHistory_s = 1.0;  // beyond the longest sweep and delay; more than any step
 
 bool is_moving(const SimulatedRobot& robot) {
   const Twist twist = robot.vehicle.twist();
@@ -58,12 +58,14 @@ WorldSimulator::WorldSimulator(World world, double start_time_s, std::uint64_t s
   for (const WorldRobot& setup : world_.robots) {
     const auto index = static_cast<std::uint32_t>(robots_.size());
     const RobotModel& model = setup.model;
-    robots_.push_back({setup, Vehicle(model, setup.start),
-                       Odometry(model.odometry_noise_distance, model.odometry_noise_yaw,
-                                derived_seed(seed, index, 0)),
-                       Lidar(model.lidar, derived_seed(seed, index, 1)),
-                       RunRecord(setup.start, setup.goal, arrival),
-                       PoseHistory(longest_sweep_s + kSpareHistory_s), start_time_s, kInfinity});
+    robots_.push_back(
+        {setup, Vehicle(model, setup.start),
+         Odometry(model.odometry_noise_distance, model.odometry_noise_yaw,
+                  derived_seed(seed, index, 0)),
+         Lidar(model.lidar, derived_seed(seed, index, 1)),
+         RunRecord(setup.start, setup.goal, arrival),
+         PoseHistory(longest_sweep_s + SensorFault::kLongestDelay_s + kSpareHistory_s),
+         start_time_s, kInfinity});
     robots_.back().past.add(time_s_, setup.start);
   }
   std::vector<ContactEvent> none;
@@ -74,13 +76,24 @@ void WorldSimulator::command(int robot, const Twist& twist) {
   robots_.at(robot).vehicle.command(time_s_, twist);
 }
 
+void WorldSimulator::set_fault(const std::string& robot, const SensorFault& fault) {
+  bool found = robot.empty();
+  for (const SimulatedRobot& one : robots_) found |= one.setup.name == robot;
+  if (!found) throw std::invalid_argument("WorldSimulator: there is no robot " + robot);
+  for (SimulatedRobot& one : robots_) {
+    const bool lies = robot.empty() || one.setup.name == robot;
+    one.lidar.set_fault(lies ? fault.lidar : LidarFault());
+    one.odometry.set_fault(lies ? fault.odometry : OdometryFault());
+  }
+}
+
 WorldSimulator::StepResult WorldSimulator::step_to(double time_s) {
   const double dt_s = time_s - time_s_;
   if (!(dt_s > 0.0))
     throw std::invalid_argument("WorldSimulator: a step must lead forward in time");
   for (SimulatedRobot& robot : robots_) {
     const Arc arc = robot.vehicle.step(time_s_, dt_s);
-    robot.odometry.add(arc);
+    robot.odometry.add(arc, robot.vehicle.twist());
     robot.past.add(time_s, robot.vehicle.pose());
     robot.record.update(time_s, robot.vehicle.pose(), robot.vehicle.twist(), arc);
   }

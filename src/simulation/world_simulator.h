@@ -65,6 +65,11 @@ class WorldSimulator {
   /// Commands a robot from now on. Throws std::invalid_argument unless the values are finite.
   void command(int robot, const Twist& twist);
 
+  /// How the sensors of that robot, or with an empty name of all robots, lie from now on; those of
+  /// others do not. Throws std::invalid_argument, and changes nothing, for a robot that is not
+  /// there.
+  void set_fault(const std::string& robot, const SensorFault& fault);
+
   /// Moves everything on to `time_s`, which must be later than now, in one step. Absolute times, so
   /// that no rounding adds up.
   StepResult step_to(double time_s);

@@ -80,6 +80,7 @@ std::optional<LocalReplanning::Missing> LocalReplanning::what_is_missing(
   add(known.prediction_age_s > options_.max_prediction_age_s, PlanReason::kBraking,
       "people: no usable word from perception on " + names_.predictions + " for more than " +
           seconds(options_.max_prediction_age_s));
+  add(!known.sensor_fault.empty(), PlanReason::kBraking, "sensors: " + known.sensor_fault);
   return missing;
 }
 

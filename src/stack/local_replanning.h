@@ -44,6 +44,7 @@ struct LocalKnowledge {
   double map_age_s = kNever_s;
   double fleet_age_s = kNever_s;
   double prediction_age_s = kNever_s;
+  std::string sensor_fault;  ///< which sensor lies, so that nothing can be certified; empty: none
   /// What is around the robot, which is at that place (map frame). Asked for where all data are
   /// fresh.
   std::function<LocalScene(const Vector2&)> scene;

@@ -39,10 +39,17 @@ inline Twist towards(const Pose& pose, const Vector2& goal, const MotionLimits& 
           yaw_rate};
 }
 
+/// Sensors that begin to lie during a drive.
+struct DriveFault {
+  SensorFault fault;
+  double from_s = 0.0;
+};
+
 /// The sweeps of the world's first robot on its way through `waypoints`; walls do not stop it.
 inline std::vector<DriveScan> drive_through(const World& world,
                                             const std::vector<Vector2>& waypoints,
-                                            std::uint64_t seed, double longest_s = 120.0) {
+                                            std::uint64_t seed, double longest_s = 120.0,
+                                            const DriveFault& lie = {}) {
   constexpr double kStep_s = 0.02;
   constexpr double kNear_m = 0.2;
   WorldSimulator simulator(world, 0.0, seed);
@@ -54,6 +61,8 @@ inline std::vector<DriveScan> drive_through(const World& world,
   std::size_t next = 0;
   for (int step = 1; step * kStep_s < longest_s && next < waypoints.size(); ++step) {
     simulator.command(0, towards(robot.vehicle.pose(), waypoints[next], robot.setup.model.limits));
+    const bool begins = simulator.time_s() < lie.from_s && step * kStep_s >= lie.from_s;
+    if (begins) simulator.set_fault("", lie.fault);
     const auto result = simulator.step_to(step * kStep_s);
     believed.add(simulator.time_s(), robot.odometry.pose());
     for (const auto& sweep : result.scans) {

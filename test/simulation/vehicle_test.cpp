@@ -132,7 +132,7 @@ TEST(Odometry, WithoutNoiseItIsTheTruth) {
   Odometry odometry(0.0, 0.0, 1);
   for (int i = 0; i < 300; ++i) {
     vehicle.command(i * kStep_s, {0.8, std::sin(0.1 * i)});
-    odometry.add(vehicle.step(i * kStep_s, kStep_s));
+    odometry.add(vehicle.step(i * kStep_s, kStep_s), vehicle.twist());
   }
   EXPECT_NEAR((odometry.pose().position - vehicle.pose().position).norm(), 0.0, 1e-9);
   EXPECT_NEAR(odometry.pose().yaw_rad, vehicle.pose().yaw_rad, 1e-9);
@@ -147,8 +147,8 @@ TEST(Odometry, DriftsAsARandomWalkWhateverTheStep) {
     for (int run = 0; run < kRuns; ++run) {
       Odometry straight(0.02, 0.01, 17 + run);
       Odometry turning(0.02, 0.01, 17 + run);
-      for (int i = 0; i < steps; ++i) straight.add({4.0 / steps, 0.0});
-      for (int i = 0; i < steps; ++i) turning.add({0.0, -2.25 / steps});
+      for (int i = 0; i < steps; ++i) straight.add({4.0 / steps, 0.0}, {});
+      for (int i = 0; i < steps; ++i) turning.add({0.0, -2.25 / steps}, {});
       along_sum += straight.pose().position.x() - 4.0;
       along_squared += std::pow(straight.pose().position.x() - 4.0, 2);
       turn_squared += std::pow(turning.pose().yaw_rad + 2.25, 2);
@@ -163,10 +163,10 @@ TEST(Odometry, StandsStillWithTheRobotAndRepeatsWithItsSeed) {
   Odometry first(0.02, 0.01, 5);
   Odometry second(0.02, 0.01, 5);
   Odometry other(0.02, 0.01, 6);
-  for (int i = 0; i < 100; ++i) first.add({0.0, 0.0});
+  for (int i = 0; i < 100; ++i) first.add({0.0, 0.0}, {});
   EXPECT_EQ(first.pose().position, Vector2(0.0, 0.0));
-  for (int i = 0; i < 100; ++i) second.add({0.0, 0.0});
-  for (Odometry* odometry : {&first, &second, &other}) odometry->add({1.0, 0.3});
+  for (int i = 0; i < 100; ++i) second.add({0.0, 0.0}, {});
+  for (Odometry* odometry : {&first, &second, &other}) odometry->add({1.0, 0.3}, {});
   EXPECT_EQ(first.pose().position, second.pose().position);
   EXPECT_NE(first.pose().position, other.pose().position);
 }

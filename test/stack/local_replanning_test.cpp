@@ -95,6 +95,12 @@ TEST_F(LocalReplanningTest, StopsWithoutPredictions) {
                     "than 0.50 s");
 }
 
+TEST_F(LocalReplanningTest, StopsWhereASensorLies) {
+  LocalKnowledge known = all_known();
+  known.sensor_fault = "the scan is frozen";
+  expect_blind_stop(known, PlanReason::kBraking, "sensors: the scan is frozen");
+}
+
 TEST_F(LocalReplanningTest, AnEmergencyStopComesFirst) {
   LocalKnowledge known = all_known();
   known.stop = "the button";

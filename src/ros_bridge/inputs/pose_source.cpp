@@ -79,6 +79,7 @@ PoseReading OdometryPose::read(const tf2::BufferCore& transforms, double now_s) 
   odom_origin.position.y = map_to_odom.transform.translation.y;
   odom_origin.orientation = map_to_odom.transform.rotation;
   reading.state = in_odom_;
+  reading.in_odom = in_odom_.pose;
   reading.state->pose = composed(from_message(odom_origin), in_odom_.pose);
   return reading;
 }

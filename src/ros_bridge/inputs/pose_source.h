@@ -18,7 +18,8 @@ namespace mocha {
 /// What is known about where the robot is at one time.
 struct PoseReading {
   std::optional<RobotState>
-      state;  ///< in the map frame, as of its stamp; nothing where something is missing
+      state;     ///< in the map frame, as of its stamp; nothing where something is missing
+  Pose in_odom;  ///< the same in the odometry's own frame
   double odometry_age_s = std::numeric_limits<double>::infinity();
   double transform_age_s =
       std::numeric_limits<double>::infinity();  ///< of map -> odom; 0 for a static one

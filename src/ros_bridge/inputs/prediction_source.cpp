@@ -52,6 +52,7 @@ void NewestPredictions::on_predictions(const mocha_ugv::PredictedObstacles& mess
     Predictions newest{message.header.stamp.toSec(), {}, spread_from(message)};
     for (const auto& obstacle : message.obstacles) newest.things.push_back(from_message(obstacle));
     newest_ = std::move(newest);
+    sensor_fault_ = message.fault;
     stamp_ = message.header.stamp;
   } catch (const std::exception& error) {
     ++refused_;

@@ -24,6 +24,8 @@ class NewestPredictions {
   void on_predictions(const mocha_ugv::PredictedObstacles& message);
 
   const Predictions& newest() const { return newest_; }
+  /// Which sensor lies, by the newest message; empty: none.
+  const std::string& sensor_fault() const { return sensor_fault_; }
   /// Since the stamp of the newest message [s]; infinity before the first.
   double age_s(ros::Time now) const;
   int refused() const { return refused_; }
@@ -32,6 +34,7 @@ class NewestPredictions {
  private:
   const std::string frame_;
   Predictions newest_;
+  std::string sensor_fault_;
   ros::Time stamp_;
   int refused_ = 0;
   std::string refusal_;

@@ -54,8 +54,8 @@ nav_msgs::Odometry odometry_message(const SimulatedRobot& robot, ros::Time stamp
   message.header.frame_id = robot.setup.name + "/odom";
   message.child_frame_id = robot.setup.name + "/base_link";
   message.pose.pose = to_message(robot.odometry.pose());
-  message.twist.twist.linear.x = robot.vehicle.twist().speed;
-  message.twist.twist.angular.z = robot.vehicle.twist().yaw_rate;
+  message.twist.twist.linear.x = robot.odometry.twist().speed;
+  message.twist.twist.angular.z = robot.odometry.twist().yaw_rate;
   return message;
 }
 
@@ -83,7 +83,7 @@ geometry_msgs::TransformStamped odom_to_base(const SimulatedRobot& robot, ros::T
 
 geometry_msgs::TransformStamped map_to_odom(const SimulatedRobot& robot, ros::Time stamp) {
   return transform_message(stamp, "map", robot.setup.name + "/odom",
-                           frame_between(robot.vehicle.pose(), robot.odometry.pose()));
+                           frame_between(robot.vehicle.pose(), robot.odometry.honest_pose()));
 }
 
 geometry_msgs::TransformStamped map_to_odom(const SimulatedRobot& robot,

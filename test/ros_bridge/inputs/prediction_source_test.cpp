@@ -125,6 +125,15 @@ TEST_F(NewestPredictionsTest, TheNewestMessageIsWhatCounts) {
   EXPECT_EQ(predictions.refused(), 0);
 }
 
+TEST_F(NewestPredictionsTest, TellsWhichSensorLies) {
+  auto message = seen({walker()});
+  message.fault = "the scan is frozen";
+  predictions.on_predictions(message);
+  EXPECT_EQ(predictions.sensor_fault(), "the scan is frozen");
+  predictions.on_predictions(seen({walker()}, 10.1));
+  EXPECT_EQ(predictions.sensor_fault(), "");
+}
+
 TEST_F(NewestPredictionsTest, OneThatIsUnusableRefusesAll) {
   predictions.on_predictions(seen({walker(1), walker(2)}));
   int refused = 0;
