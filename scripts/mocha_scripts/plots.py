@@ -70,6 +70,16 @@ def add_tracks(what):
     return tracks
 
 
+def add_contacts(what):
+    contacts = what.add_parser("contacts", help="what led to the contacts in a world with movers",
+                               description="Drives the first robot of a world through its whole stack, lidar only and without ROS. Writes a "
+                               "picture for each contact: what was there, seen, predicted and promised before it, and what the robot did.")
+    contacts.add_argument("world", help="world file with movers")
+    contacts.add_argument("--seed", type=int, default=1, metavar="N", help="of the lidar's noise (default 1)")
+    contacts.set_defaults(draw=draw_contacts)
+    return contacts
+
+
 def add_replan(what):
     replan = what.add_parser("replan", help="a drive around what moves, as in the paper's Figs. 10 and 11",
                              description="Drives one scene of scripts/bench replan in closed loop. Writes replan.png: the plan, the drive and "
@@ -141,6 +151,11 @@ def draw_tracks(options):
     tracks_plots.draw_tracks(options.bag, options.mount, options.out)
 
 
+def draw_contacts(options):
+    from benchmarks import contacts_plots
+    contacts_plots.draw_contacts(options.world, options.seed, options.out)
+
+
 def draw_replan(options):
     from benchmarks import replan_plots
     replan_plots.draw_replan(options.scene, options.out)
@@ -164,7 +179,7 @@ def draw_architecture(options):
 def main(arguments):
     parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
     what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
-    for plots in (add_drive(what), add_table1(what), add_table2(what), add_table3(what), add_classes(what), add_tracks(what),
+    for plots in (add_drive(what), add_table1(what), add_table2(what), add_table3(what), add_classes(what), add_tracks(what), add_contacts(what),
                   add_replan(what), add_detour(what), add_costs(what), add_architecture(what)):
         plots.add_argument("--out", default=".", metavar="DIR", help="files go there (default: here)")
     options = parser.parse_args(arguments)
