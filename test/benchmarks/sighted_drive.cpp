@@ -43,18 +43,26 @@ std::vector<Rung> ladder(const RobotModel& model, double growth_mps) {
           {{0.02, 0.0, 0.0}, hard, true}};
 }
 
+/// Forward only where the lidar does not look back.
+SolverOptions options_on_sight(const World& world, double begin_s, double limit_s) {
+  SolverOptions options = solver_options(world, begin_s, limit_s);
+  if (!world.robots.front().model.lidar.sees_all_round()) options.can_reverse = false;
+  return options;
+}
+
 class Drive {
  public:
-  Drive(const World& world, double begin_s, double limit_s, double growth_mps)
+  Drive(const World& world, double begin_s, double limit_s, const SightOptions& sight)
       : world_(world),
         model_(world.robots.front().model),
         limit_s_(limit_s),
-        solver_(problem_of(world, begin_s), solver_options(world, begin_s, limit_s)),
+        replan_steps_(std::max(1, static_cast<int>(std::lround(sight.replan_s / kStep_s)))),
+        solver_(problem_of(world, begin_s), options_on_sight(world, begin_s, limit_s)),
         sightings_(world),
-        rungs_(ladder(model_, growth_mps)),
+        rungs_(ladder(model_, sight.growth_mps)),
         state_(solver_.start()),
         pose_(world.robots.front().start) {
-    for (double t = 0.0; t < begin_s; t += kStep_s) sightings_.look(t, pose_);
+    for (double t = 0.0; t <= begin_s; t += kStep_s) sightings_.look(t, pose_);
   }
 
   SightedDrive run() {
@@ -63,14 +71,14 @@ class Drive {
         drive_.arrival_s = solver_.lattice().time_s(state_);
         break;
       }
-      sightings_.look(solver_.lattice().time_s(state_), pose_);
-      drive_to(next());
+      for (const LatticeState& to : next()) drive_to(to);
     }
     return drive_;
   }
 
  private:
-  LatticeState next() const {
+  /// The states up to the next search.
+  std::vector<LatticeState> next() const {
     const Vector2 place = solver_.lattice().place(state_);
     const double radius_m = model_.footprint.circumscribed_radius_m();
     for (const Rung& rung : rungs_) {
@@ -79,29 +87,38 @@ class Drive {
                                 rung.may_be_touched_standing, kMostExpansions};
       const auto way =
           solver_.way(state_, sightings_.predicted(rung.margin, place, radius_m), limits);
-      if (way.size() > 1) return way[1];
+      if (way.empty()) continue;
+      const auto steps = std::min(replan_steps_, static_cast<int>(way.size()) - 1);
+      return {way.begin() + 1, way.begin() + 1 + steps};
     }
     return braked();
   }
 
-  LatticeState braked() const {
+  std::vector<LatticeState> braked() const {
+    std::vector<LatticeState> states{state_};
+    for (int i = 0; i < replan_steps_; ++i) states.push_back(braked(states.back()));
+    return {states.begin() + 1, states.end()};
+  }
+
+  LatticeState braked(const LatticeState& from) const {
     const double push = solver_.lattice().units().push;
     const int most = static_cast<int>(model_.emergency_acceleration / push);
-    LatticeState slowest = solver_.lattice().pushed(state_, 0, 0);
+    LatticeState slowest = solver_.lattice().pushed(from, 0, 0);
     const auto speed2 = [](const LatticeState& state) {
       return state.vx * state.vx + state.vy * state.vy;
     };
     for (int ax = -most; ax <= most; ++ax) {
       for (int ay = -most; ay <= most; ++ay) {
         if (push * std::hypot(ax, ay) > model_.emergency_acceleration) continue;
-        const LatticeState to = solver_.lattice().pushed(state_, ax, ay);
-        if (speed2(to) < speed2(slowest) && solver_.lattice().turns(state_, to)) slowest = to;
+        const LatticeState to = solver_.lattice().pushed(from, ax, ay);
+        if (speed2(to) < speed2(slowest) && solver_.lattice().turns(from, to)) slowest = to;
       }
     }
     return slowest;
   }
 
   void drive_to(const LatticeState& to) {
+    if (drive_.has_own_contact) return;
     const SpaceTimeLattice& lattice = solver_.lattice();
     const Vector2 velocity = lattice.velocity(state_);
     const Vector2 acceleration = (lattice.velocity(to) - velocity) / kStep_s;
@@ -116,6 +133,7 @@ class Drive {
     }
     drive_.poses.push_back(pose_);
     state_ = to;
+    sightings_.look(lattice.time_s(state_), pose_);
     if (state_.stands()) {
       state_.heading = static_cast<std::int8_t>(lattice.heading_of(pose_.yaw_rad));
     }
@@ -153,6 +171,7 @@ class Drive {
   const World& world_;
   const RobotModel& model_;
   const double limit_s_;
+  const int replan_steps_;
   const SpaceTimeSolver solver_;
   MoverSightings sightings_;
   const std::vector<Rung> rungs_;
@@ -199,8 +218,8 @@ SolverOptions solver_options(const World& world, double begin_s, double limit_s)
   return options;
 }
 
-SightedDrive drive_on_sight(const World& world, double begin_s, double limit_s, double growth_mps) {
-  return Drive(world, begin_s, limit_s, growth_mps).run();
+SightedDrive drive_on_sight(const World& world, double begin_s, double limit_s, const SightOptions& sight) {
+  return Drive(world, begin_s, limit_s, sight).run();
 }
 
 }  // namespace mocha

@@ -16,6 +16,11 @@ SpaceTimeProblem problem_of(const World& world, double begin_s);
 /// As that robot drives, up to `limit_s` in the time of the movers.
 SolverOptions solver_options(const World& world, double begin_s, double limit_s);
 
+struct SightOptions {
+  double growth_mps = 0.2;  ///< by so much more is kept for each second of prediction
+  double replan_s = 0.5;    ///< from one search to the next
+};
+
 /// A contact of a drive.
 struct DriveContact {
   double time_s;
@@ -37,6 +42,7 @@ struct SightedDrive {
 /// more the farther ahead, by `growth_mps` for each second. Where no such way goes on for
 /// 5 s, searches keep less, then use the emergency acceleration, then also stand where they
 /// will be touched; where none of these is found, the robot brakes as hard as it can.
-SightedDrive drive_on_sight(const World& world, double begin_s, double limit_s, double growth_mps);
+SightedDrive drive_on_sight(const World& world, double begin_s, double limit_s,
+                            const SightOptions& sight);
 
 }  // namespace mocha
