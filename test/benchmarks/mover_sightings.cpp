@@ -38,8 +38,7 @@ std::vector<MoverSightings::Beam> MoverSightings::sweep(double time_s, const Pos
   const double apart_rad = field_rad / (lidar_.sees_all_round() ? lidar_.beams : lidar_.beams - 1);
   std::vector<Beam> beams;
   for (int i = 0; i < lidar_.beams; ++i) {
-    const double angle_rad =
-        base.yaw_rad + lidar_.mount.yaw_rad - 0.5 * field_rad + i * apart_rad;
+    const double angle_rad = base.yaw_rad + lidar_.mount.yaw_rad - 0.5 * field_rad + i * apart_rad;
     const Vector2 direction(std::cos(angle_rad), std::sin(angle_rad));
     double nearest_m =
         std::min(lidar_.max_range_m, walls_.ray_length(sensor, direction, lidar_.max_range_m));

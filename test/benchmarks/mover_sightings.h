@@ -11,8 +11,8 @@ namespace mocha {
 
 /// What is kept from a mover beyond its true disc, on top of what the solver keeps.
 struct PredictionMargin {
-  double now_m;         ///< from where it is seen
-  double growth_mps;    ///< by so much more with each second since then
+  double now_m;       ///< from where it is seen
+  double growth_mps;  ///< by so much more with each second since then
   double most_growth_m;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "benchmarks/mover_sightings.h"
 #include "simulation/blame.h"
@@ -23,8 +24,8 @@ LatticeUnits units_of(const MotionLimits& limits) {
   const double speeds = std::sqrt(2.0) * limits.max_speed / (limits.max_acceleration * kStep_s);
   LatticeUnits units;
   units.step_s = kStep_s;
-  units.push = limits.max_speed / std::max(kLeastSpeeds, static_cast<int>(std::ceil(speeds))) /
-               units.step_s;
+  units.push =
+      limits.max_speed / std::max(kLeastSpeeds, static_cast<int>(std::ceil(speeds))) / units.step_s;
   return units;
 }
 
@@ -131,7 +132,6 @@ class Drive {
                                   velocity + t * acceleration, kStep_s / checks);
       check_contacts(begin_s + t, twist);
     }
-    drive_.poses.push_back(pose_);
     state_ = to;
     sightings_.look(lattice.time_s(state_), pose_);
     if (state_.stands()) {
@@ -218,7 +218,8 @@ SolverOptions solver_options(const World& world, double begin_s, double limit_s)
   return options;
 }
 
-SightedDrive drive_on_sight(const World& world, double begin_s, double limit_s, const SightOptions& sight) {
+SightedDrive drive_on_sight(const World& world, double begin_s, double limit_s,
+                            const SightOptions& sight) {
   return Drive(world, begin_s, limit_s, sight).run();
 }
 

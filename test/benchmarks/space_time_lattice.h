@@ -10,8 +10,8 @@ namespace mocha {
 /// The units of a lattice of a double integrator.
 struct LatticeUnits {
   double step_s = 0.5;
-  double push = 0.5;      ///< [m/s^2] along each axis; pushes are whole multiples of it
-  double merged_m = 0.25; ///< states this near at one velocity and time are one
+  double push = 0.5;       ///< [m/s^2] along each axis; pushes are whole multiples of it
+  double merged_m = 0.25;  ///< states this near at one velocity and time are one
 
   double length_m() const { return 0.5 * push * step_s * step_s; }
   double speed() const { return push * step_s; }  ///< [m/s]

@@ -103,8 +103,8 @@ class SpaceTimeSearch {
 
   /// Least time to stand at the goal, if nothing were in the way and the speed pointed there.
   double to_go_s(const LatticeState& state) const {
-    const double far_m = std::max(
-        0.0, (lattice_.place(state) - solver_.goal_).norm() - options_.goal_tolerance_m);
+    const double far_m =
+        std::max(0.0, (lattice_.place(state) - solver_.goal_).norm() - options_.goal_tolerance_m);
     const double speed = lattice_.velocity(state).norm();
     const double brake_m = 0.5 * speed * speed / push_;
     if (far_m <= brake_m) return speed / push_;
@@ -136,8 +136,8 @@ class SpaceTimeSearch {
   }
 
   bool clear(const LatticeState& from, const Push& push) const {
-    const bool heeds_movers = !(limits_.may_be_touched_standing && from.stands() && push.ax == 0 &&
-                                push.ay == 0);
+    const bool heeds_movers =
+        !(limits_.may_be_touched_standing && from.stands() && push.ax == 0 && push.ay == 0);
     const Vector2 start = lattice_.place(from);
     const Vector2 velocity = lattice_.velocity(from);
     const Vector2 acceleration = lattice_.push(push.ax, push.ay);
