@@ -82,7 +82,7 @@ TEST(SpaceTimeSolver, WaitsForAGapThatOpens) {
   EXPECT_LT(*found_s, kOpens_s + 10.0);
 }
 
-/// 8 m along the diagonal, in a corridor of its own from its middle on.
+/// 8 m along the diagonal, in a corridor without ends.
 SpaceTimeProblem turned_corridor() {
   SpaceTimeProblem problem;
   problem.ground = {{-5.0, -5.0}, {15.0, 15.0}, {}};
@@ -90,9 +90,9 @@ SpaceTimeProblem turned_corridor() {
   const Vector2 across(-along.y(), along.x());
   for (const double side : {-1.5, 1.5}) {
     const Vector2 middle = Vector2(2.0, 2.0) + side * across;
-    problem.ground.obstacles.push_back(Polygon{{middle - 4.0 * along, middle + 12.0 * along,
-                                                middle + 12.0 * along + 0.3 * side * across,
-                                                middle - 4.0 * along + 0.3 * side * across}});
+    problem.ground.obstacles.push_back(Polygon{{middle - 20.0 * along, middle + 20.0 * along,
+                                                middle + 20.0 * along + 0.3 * side * across,
+                                                middle - 20.0 * along + 0.3 * side * across}});
   }
   problem.start = {{2.0, 2.0}, 0.25 * M_PI};
   problem.start_time_s = 100.0;
