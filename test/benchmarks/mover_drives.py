@@ -2,8 +2,8 @@
 what can be solved.
 
 `knowing` is when a search in space and time that knows the future can stand at the goal. `seeing` is the same for drives of such searches that know
-of each mover only what the robot's lidar has seen so far, search again each half second, and expect all that they know to go on as it does; of
-several, each more careful than the last, the first to arrive without a contact of its own counts. They have no noise, no delay and the robot's
+of each mover only what the robot's lidar has seen so far, search again each half or quarter second, and expect all that they know to go on as it
+does; of several, more or less careful, the first to arrive without a contact of its own counts. They have no noise, no delay and the robot's
 emergency acceleration. That one arrives proves that it can be done; that none does proves nothing. Times count from the start of the world.
 """
 import functools
