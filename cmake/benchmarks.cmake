@@ -33,7 +33,11 @@ if(ompl_FOUND)
   target_link_libraries(benchmark_maps ${OMPL_LIBRARIES})
 endif()
 
-mocha_benchmark(replan test/benchmarks/replan_scene.cpp test/benchmarks/replan_run.cpp test/benchmarks/space_time_solver.cpp)
+set(space_time_solver test/benchmarks/space_time_solver.cpp test/benchmarks/space_time_lattice.cpp test/benchmarks/static_clearance.cpp)
+mocha_benchmark(replan test/benchmarks/replan_scene.cpp test/benchmarks/replan_problem.cpp test/benchmarks/replan_run.cpp ${space_time_solver})
+
+mocha_benchmark(movers test/benchmarks/sighted_drive.cpp test/benchmarks/mover_sightings.cpp ${space_time_solver})
+target_link_libraries(benchmark_movers mocha_simulation)
 
 foreach(name table3 fleet_delay fleet_scale deadlock)
   mocha_benchmark(${name} test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp

@@ -14,8 +14,13 @@ foreach(folder config trajectory world camouflage safety perception fleet contro
 endforeach()
 
 # The scenes and the judge of scripts/bench replan; the planners' closed loop is made of the stack.
-target_sources(test_planning PRIVATE test/benchmarks/replan_scene.cpp test/benchmarks/space_time_solver.cpp)
+target_sources(test_planning PRIVATE test/benchmarks/replan_scene.cpp test/benchmarks/replan_problem.cpp test/benchmarks/space_time_solver.cpp
+  test/benchmarks/space_time_lattice.cpp test/benchmarks/static_clearance.cpp)
 target_link_libraries(test_planning mocha_stack)
+
+# The judge of scripts/bench dynabarn and crowds.
+target_sources(test_simulation PRIVATE test/benchmarks/sighted_drive.cpp test/benchmarks/mover_sightings.cpp test/benchmarks/space_time_solver.cpp
+  test/benchmarks/space_time_lattice.cpp test/benchmarks/static_clearance.cpp)
 
 # The fleet of scripts/bench table3, fleet_delay and fleet_scale.
 target_sources(test_stack PRIVATE test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp

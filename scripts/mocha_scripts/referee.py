@@ -20,6 +20,7 @@ class RobotResult:
         self.contacts = 0
         self.own_contacts = 0
         self.time_s = None
+        self.reached_at_s = None  # [ROS time]
         self.path_m = 0.0
         self.min_clearance_m = math.inf
         self.max_speed_mps = 0.0
@@ -35,12 +36,14 @@ class RobotResult:
         self.path_m = truth.path_length
         self.reached = truth.reached
         if truth.reached:
+            self.reached_at_s = truth.reached_at.to_sec()
             self.time_s = (truth.reached_at - truth.moved_at).to_sec() if truth.moved else 0.0
 
-    def as_dict(self):
+    def as_dict(self, started_s):
+        arrival_s = None if self.reached_at_s is None else self.reached_at_s - started_s
         rounded = lambda value: None if value is None or not math.isfinite(value) else round(value, 4)
         return {"name": self.name, "reached": self.reached, "gave_up": self.gave_up, "contacts": self.contacts,
-                "own_contacts": self.own_contacts, "time_s": rounded(self.time_s),
+                "own_contacts": self.own_contacts, "time_s": rounded(self.time_s), "arrival_s": rounded(arrival_s),
                 "path_m": rounded(self.path_m), "min_clearance_m": rounded(self.min_clearance_m),
                 "max_speed_mps": rounded(self.max_speed_mps)}
 
@@ -97,7 +100,7 @@ class Referee:
     def results(self):
         with self._lock:
             separation = self.min_separation_m
-            return {"robots": [robot.as_dict() for _, robot in sorted(self.robots.items())],
+            return {"robots": [robot.as_dict(self.started_s) for _, robot in sorted(self.robots.items())],
                     "contacts": list(self.contacts),
                     "min_separation_m": round(separation, 4) if math.isfinite(separation) else None}
 

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "benchmarks/curve_json.h"
+#include "benchmarks/replan_problem.h"
 #include "benchmarks/replan_run.h"
-#include "benchmarks/space_time_solver.h"
 #include "planning/worlds.h"
 #include "world/margin_budget.h"
 
@@ -61,7 +61,8 @@ void print_number(const char* key, double value, bool known) {
 
 void print_row(int number) {
   const Case found(number);
-  const auto solved_s = arrival_time_s(found.scene, solver_options(found.undisturbed.time_s));
+  const auto solved_s =
+      arrival_time_s(problem_of(found.scene), solver_options(found.undisturbed.time_s));
   double worst_s = 0.0;
   for (const Replan& replan : found.run.replans) worst_s = std::max(worst_s, replan.t_plan_s);
   std::printf("\n  {\"scene\": %d, \"group\": \"%s\", \"solvable\": %s, \"contact\": %s", number,

@@ -1,11 +1,11 @@
-#include "benchmarks/space_time_solver.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "benchmarks/replan_problem.h"
 
 namespace mocha {
 namespace {
@@ -33,7 +33,7 @@ void add_row(ReplanScene& scene, double x, double speed, std::vector<MoverLeg> l
 }
 
 TEST(SpaceTimeSolver, DrivesFreelyInTheKinematicTime) {
-  const auto found_s = arrival_time_s(corridor(), {});
+  const auto found_s = arrival_time_s(problem_of(corridor()), {});
   ASSERT_TRUE(found_s);
   // 1 m/s and 0.5 m/s^2 along an axis, up to the tolerance about the goal.
   const double kinematic_s = (10.0 - 0.15) / 1.0 + 1.0 / 0.5;
@@ -43,18 +43,18 @@ TEST(SpaceTimeSolver, DrivesFreelyInTheKinematicTime) {
 
 TEST(SpaceTimeSolver, IsSoonerWhenAlreadyMoving) {
   ReplanScene scene = corridor();
-  const double from_rest_s = arrival_time_s(scene, {}).value();
+  const double from_rest_s = arrival_time_s(problem_of(scene), {}).value();
   scene.start_speed = 0.75;
-  EXPECT_LT(arrival_time_s(scene, {}).value(), from_rest_s - 0.4);
+  EXPECT_LT(arrival_time_s(problem_of(scene), {}).value(), from_rest_s - 0.4);
 }
 
 TEST(SpaceTimeSolver, DoesNotPassAWallOfMovers) {
   ReplanScene standing = corridor();
   add_row(standing, 5.0, 0.0, {});
-  EXPECT_FALSE(arrival_time_s(standing, {}));
+  EXPECT_FALSE(arrival_time_s(problem_of(standing), {}));
   ReplanScene coming = corridor();
   add_row(coming, 8.0, -0.5, {});
-  EXPECT_FALSE(arrival_time_s(coming, {}));
+  EXPECT_FALSE(arrival_time_s(problem_of(coming), {}));
 }
 
 TEST(SpaceTimeSolver, PassesWhereTheClearanceAllowsIt) {
@@ -63,9 +63,9 @@ TEST(SpaceTimeSolver, PassesWhereTheClearanceAllowsIt) {
       {0.4, {5.0, -0.5}, 0.0, 0.0, {}});  // leaves 0.9 m to a robot along the wall
   SolverOptions options;
   options.to_movers_m = 0.75;
-  EXPECT_TRUE(arrival_time_s(scene, options));
+  EXPECT_TRUE(arrival_time_s(problem_of(scene), options));
   options.to_movers_m = 0.95;
-  EXPECT_FALSE(arrival_time_s(scene, options));
+  EXPECT_FALSE(arrival_time_s(problem_of(scene), options));
 }
 
 TEST(SpaceTimeSolver, WaitsForAGapThatOpens) {
@@ -76,10 +76,47 @@ TEST(SpaceTimeSolver, WaitsForAGapThatOpens) {
     mover.heading_rad = M_PI / 2.0;
     mover.legs = {{kOpens_s, 0.0, 0.0}, {2.0, 1.0, 0.0}};
   }
-  const auto found_s = arrival_time_s(scene, {});
+  const auto found_s = arrival_time_s(problem_of(scene), {});
   ASSERT_TRUE(found_s);
   EXPECT_GT(*found_s, kOpens_s + 4.0);  // half the way is still to be driven
   EXPECT_LT(*found_s, kOpens_s + 10.0);
+}
+
+/// 8 m along the diagonal, in a corridor without ends.
+SpaceTimeProblem turned_corridor() {
+  SpaceTimeProblem problem;
+  problem.ground = {{-5.0, -5.0}, {15.0, 15.0}, {}};
+  const Vector2 along = Vector2(1.0, 1.0).normalized();
+  const Vector2 across(-along.y(), along.x());
+  for (const double side : {-1.5, 1.5}) {
+    const Vector2 middle = Vector2(2.0, 2.0) + side * across;
+    problem.ground.obstacles.push_back(Polygon{{middle - 20.0 * along, middle + 20.0 * along,
+                                                middle + 20.0 * along + 0.3 * side * across,
+                                                middle - 20.0 * along + 0.3 * side * across}});
+  }
+  problem.start = {{2.0, 2.0}, 0.25 * M_PI};
+  problem.start_time_s = 100.0;
+  problem.goal = Vector2(2.0, 2.0) + 8.0 * along;
+  return problem;
+}
+
+TEST(SpaceTimeSolver, TellsTheArrivalInTheTimeOfTheMovers) {
+  const double kinematic_s = (8.0 - 0.15) / 1.0 + 1.0 / 0.5;
+  const double found_s = arrival_time_s(turned_corridor(), {}).value();
+  EXPECT_GE(found_s, 100.0 + kinematic_s - 0.01);
+  EXPECT_LE(found_s, 100.0 + kinematic_s + 1.0);
+}
+
+TEST(SpaceTimeSolver, WaitsUntilWhatIsInTheWayHasLeft) {
+  SpaceTimeProblem problem = turned_corridor();
+  const Circle plug{0.5 * (problem.start.position + problem.goal), 1.2};
+  problem.movers = {
+      [&](double time_s) { return time_s < 115.0 ? std::optional<Circle>(plug) : std::nullopt; }};
+  const double found_s = arrival_time_s(problem, {}).value();
+  EXPECT_GT(found_s, 115.0 + 4.0);
+  EXPECT_LT(found_s, 115.0 + 10.0);
+  problem.movers = {[&](double) { return std::optional<Circle>(plug); }};
+  EXPECT_FALSE(arrival_time_s(problem, {}));
 }
 
 TEST(ReplanScenes, AreFairAndMeetTheRobot) {
