@@ -40,11 +40,12 @@ DrivePhase straight(const Pose& from, double direction, double length_m,
 }
 
 /// Turns by the smaller angle, so that either the front or the back points to the place; always the
-/// front, where the robot cannot drive backward.
-std::vector<Phase> step_to(const Pose& from, const Vector2& place, const MotionLimits& limits) {
+/// front, where the robot must not drive backward.
+std::vector<Phase> step_to(const Pose& from, const Vector2& place, const MotionLimits& limits,
+                           bool may_back) {
   const Vector2 path = place - from.position;
   const double ahead = wrap_angle(std::atan2(path.y(), path.x()) - from.yaw_rad);
-  const double direction = std::abs(ahead) <= 0.5 * M_PI || !limits.can_reverse ? 1.0 : -1.0;
+  const double direction = std::abs(ahead) <= 0.5 * M_PI || !may_back ? 1.0 : -1.0;
   const double change = direction > 0.0 ? ahead : wrap_angle(ahead + M_PI);
   Pose faced = from;
   std::vector<Phase> phases;
@@ -93,6 +94,8 @@ std::vector<Step> steps(const ManeuverStart& start, double join_s, const std::ve
   const Pose stop = Motion(join_s, brake).end_pose();
   const double until_s = join_s + kForeseen_s;
   const double brake_m = (start.committed.position(join_s) - stop.position).norm();
+  // Where its lidar does not look, somebody may come.
+  const bool may_back = limits.can_reverse && start.robot.lidar.sees_all_round();
   const std::vector<MovingThing> near =
       within_reach(exposed_to(start, join_s), stop.position, brake_m, join_s, until_s);
   std::vector<Step> steps;
@@ -102,7 +105,7 @@ std::vector<Step> steps(const ManeuverStart& start, double join_s, const std::ve
       const Vector2 place = stop.position + distance_m * Vector2(std::cos(angle), std::sin(angle));
       if (!stands_free(stop.position, place, start)) continue;
       std::vector<Phase> phases = brake;
-      for (const Phase& phase : step_to(stop, place, limits)) phases.push_back(phase);
+      for (const Phase& phase : step_to(stop, place, limits, may_back)) phases.push_back(phase);
       Motion motion(join_s, std::move(phases));
       const double room_m = least_room_m(motion, near, join_s, until_s);
       steps.push_back({std::min(room_m, kEnough_m), std::move(motion)});

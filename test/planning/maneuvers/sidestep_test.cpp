@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "planning/candidates/exposure.h"
 #include "planning/maneuver_test.h"
 #include "trajectory/random_motion.h"
@@ -128,6 +130,7 @@ TEST_P(SidestepTest, OfTwoWithEnoughRoomTheSoonerDoneComesFirst) {
 
 TEST_P(SidestepTest, GoesBackwardWhereThatIsTheWay) {
   // What comes is ahead, and walls are on both sides.
+  robot_.lidar.field_of_view_rad = 2.0 * M_PI;
   OccupancyGrid corridor = open_;
   fill_box(corridor, {-6.0, required_m_ + 0.1}, {6.0, 6.0});
   fill_box(corridor, {-6.0, -6.0}, {6.0, -required_m_ - 0.1});
@@ -142,10 +145,14 @@ TEST_P(SidestepTest, GoesBackwardWhereThatIsTheWay) {
     EXPECT_FALSE(check_clearance(motion, robot_.footprint, *walls.obstacles, 0.0, kNow_s));
 }
 
-TEST_P(SidestepTest, OfARobotThatCannotReverseAllTurnAndGoForward) {
+TEST_P(SidestepTest, OfARobotThatMustNotReverseAllTurnAndGoForward) {
   const LocalScene scene = with(open_, {1.2, 0.0}, {-0.1, 0.0});
-  robot_.limits.can_reverse = false;
-  for (const bool hard : {false, true}) {
+  for (const auto& [can_reverse, sees_back, hard] : {std::tuple{false, true, false},
+                                                     {false, true, true},
+                                                     {true, false, false},
+                                                     {true, false, true}}) {
+    robot_.limits.can_reverse = can_reverse;
+    robot_.lidar.field_of_view_rad = sees_back ? 2.0 * M_PI : 1.5 * M_PI;
     const ManeuverStart start = start_of(stands_, scene, kNow_s);
     const Maneuvers found = hard ? hard_sidesteps(start) : sidesteps(start);
     ASSERT_FALSE(found.empty());
@@ -153,6 +160,7 @@ TEST_P(SidestepTest, OfARobotThatCannotReverseAllTurnAndGoForward) {
     for (const Maneuver& each : found) {
       const Violation violation = check_limits(each.motion, robot_.emergency_limits(), kNow_s);
       EXPECT_FALSE(violation) << describe(violation);
+      EXPECT_EQ(std::get<DrivePhase>(each.motion.phases().back()).direction, 1);
       least_x = std::min(least_x, each.motion.end_pose().position.x());
     }
     EXPECT_LT(least_x, -0.1) << "also to where the robot had its back";
