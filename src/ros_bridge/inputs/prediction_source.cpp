@@ -25,7 +25,8 @@ void require(bool condition, std::uint32_t id, const char* what) {
 PredictedThing from_message(const mocha_ugv::PredictedObstacle& message) {
   const Vector2 place(message.position.x, message.position.y);
   const Vector2 velocity(message.velocity.x, message.velocity.y);
-  require(place.cwiseAbs().maxCoeff() < kFarthest_m, message.id, "its place is not plausible");
+  require(place.allFinite() && place.cwiseAbs().maxCoeff() < kFarthest_m, message.id,
+          "its place is not plausible");
   require(velocity.norm() < kFastest, message.id, "its velocity is not plausible");
   require(message.radius >= 0.0 && message.radius < kLargest_m, message.id,
           "its radius is not plausible");

@@ -51,7 +51,7 @@ std::vector<std::function<void(mocha_ugv::PredictedObstacle&)>> spoilers() {
   all.push_back([](Message& m) { m.covariance[1] = m.covariance[4] = 2e-4; });    // more than both
   all.push_back([](Message& m) { m.covariance[2] = m.covariance[8] = 2.1e-4; });  // x with vx
   all.push_back([](Message& m) { m.covariance[0] = 500.0; });                     // anywhere
-  all.push_back([](Message& m) { m.covariance[15] = 500.0; });
+  all.push_back([](Message& m) { m.covariance[15] = 1000.0; });
   return all;
 }
 
