@@ -211,7 +211,7 @@ std::vector<TrackedObstacle> ObstacleTracker::at(double time_s) const {
     ConstantVelocityFilter filter = track.filter;
     filter.predict(time_s, options_.acceleration_psd);
     obstacles.push_back({track.id, time_s, filter.position(), filter.velocity(), track.radius_m,
-                         filter.covariance(), track.standing, track.is_seen});
+                         filter.covariance(), track.standing, track.is_seen, track.seen_at});
   }
   return obstacles;
 }

@@ -29,7 +29,8 @@ struct TrackedObstacle {
   double radius_m;
   Eigen::Matrix4d covariance;  ///< of (x, y, vx, vy)
   bool standing;               ///< it has stood for so long that it belongs into the map
-  bool is_seen;                ///< in the newest scan
+  bool is_seen;                ///< in the newest scan ...
+  Vector2 seen_at;             ///< ... or in the last that saw it, where that scan showed it
 };
 
 /// Follows discs from scan to scan: a Kalman filter each, the best fitting pairs of track and

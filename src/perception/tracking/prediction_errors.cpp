@@ -42,7 +42,7 @@ void PredictionErrors::update(const std::vector<TrackedObstacle>& things) {
 void PredictionErrors::compare(Prediction& prediction, const TrackedObstacle& seen) {
   const TrackedObstacle& then = prediction.thing;
   const double ahead_s = seen.time_s - then.time_s;
-  const double off_m = (seen.position - then.position - ahead_s * then.velocity).norm();
+  const double off_m = (seen.seen_at - then.position - ahead_s * then.velocity).norm();
   const double off = off_m / prediction.deviation.after(ahead_s);
   const double since_s = ahead_s - prediction.ahead_s;
   for (; prediction.next < std::size(kAhead_s) && ahead_s >= kAhead_s[prediction.next];

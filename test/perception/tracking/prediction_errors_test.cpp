@@ -26,7 +26,8 @@ class Walkers {
                     0.3,
                     Eigen::Vector4d(4e-4, 4e-4, 0.01, 0.01).asDiagonal(),
                     false,
-                    true};
+                    true,
+                    {3.0 * i, 0.0}};
     }
   }
 
@@ -37,6 +38,7 @@ class Walkers {
     for (TrackedObstacle& thing : things_) {
       thing.time_s += kScan_s;
       thing.position += kScan_s * thing.velocity;
+      thing.seen_at = thing.position;
       thing.velocity +=
           restlessness_ * std::sqrt(kScan_s) * Vector2(normal(random_), normal(random_));
     }
@@ -133,7 +135,7 @@ TEST(PredictionErrors, WhatIsNotSeenTeachesNothing) {
   for (int i = 0; i < 100; ++i) {
     for (TrackedObstacle& thing : things) {
       thing.time_s += kScan_s;
-      thing.position.x() += 1.0;  // far from where it was going
+      thing.seen_at.x() += 1.0;  // far from where it was going
       thing.is_seen = i == 0;
     }
     errors.update(things);

@@ -9,7 +9,7 @@ namespace {
 
 TEST(PredictionConversions, KeepEveryNumber) {
   TrackedObstacle obstacle{7,     12.5, {1.0, -2.0}, {0.5, 0.25}, 0.3, Eigen::Matrix4d::Random(),
-                           false, true};
+                           false, true, {1.0, -2.0}};
   const auto message =
       to_message({obstacle, obstacle}, PredictionSpread::normal(), "map", ros::Time(12.5));
   EXPECT_EQ(message.header.frame_id, "map");
