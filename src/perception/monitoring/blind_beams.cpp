@@ -1,7 +1,8 @@
 #include "perception/monitoring/blind_beams.h"
 
+#include <algorithm>
 #include <cmath>
-#include <complex>
+#include <optional>
 
 namespace mocha {
 namespace {
@@ -11,36 +12,59 @@ constexpr double kFarthest_m = 10.0;
 constexpr double kShare = 0.9;  // of a beam: at the end of its reach a wall may be lost
 constexpr double kStep_m = 0.05;
 constexpr double kWall_m = 0.03;  // about a step
+constexpr double kWide_m = 1.2;   // what is smaller may have left
 
-bool passes_wall(const Beam& beam, const OccupancyMap& map) {
+/// Where a beam without return passes what stands on the map.
+std::optional<Vector2> wall_passed(const Beam& beam, const OccupancyMap& map) {
+  if (beam.kind != BeamEnd::kMiss || !is_usable(beam)) return std::nullopt;
   const Vector2 from = beam.origin.head<2>();
   const Vector2 way = (beam.end - beam.origin).head<2>();
   const double length_m = std::min(kShare * way.norm(), kFarthest_m);
   const Vector2 step = kStep_m * way.normalized();
   for (int i = 1; i * kStep_m < length_m; ++i) {
-    if (map.is_occupied_within(from + i * step, kWall_m, false)) return true;
+    if (map.is_occupied_within(from + i * step, kWall_m, false)) return Vector2(from + i * step);
   }
-  return false;
+  return std::nullopt;
 }
+
+/// Neighbouring beams that pass what stands.
+struct Run {
+  int beams = 0;
+  Vector2 first;
+  Vector2 last;
+  Vector2 ways = Vector2::Zero();  // their sum
+
+  bool is_wide() const { return beams > 0 && (last - first).norm() > kWide_m; }
+};
 
 }  // namespace
 
 BlindBeams blind_beams(const std::vector<Beam>& beams, double increment_rad,
                        const OccupancyMap& map) {
-  BlindBeams blind;
-  std::complex<double> sum = 0.0;
   int count = 0;
+  Vector2 ways = Vector2::Zero();
+  Run run;
+  const auto finish = [&] {
+    if (run.is_wide()) {
+      count += run.beams;
+      ways += run.ways;
+    }
+    run = Run();
+  };
   for (std::size_t i = 0; i < beams.size(); i += kEvery) {
-    const Beam& beam = beams[i];
-    if (beam.kind != BeamEnd::kMiss || !is_usable(beam) || !passes_wall(beam, map)) continue;
-    const Vector2 way = (beam.end - beam.origin).head<2>().normalized();
-    sum += std::complex<double>(way.x(), way.y());
-    ++count;
+    const auto place = wall_passed(beams[i], map);
+    if (!place) {
+      finish();
+      continue;
+    }
+    if (run.beams++ == 0) run.first = *place;
+    run.last = *place;
+    run.ways += (beams[i].end - beams[i].origin).head<2>().normalized();
   }
-  if (count == 0) return blind;
-  blind.width_rad = std::abs(increment_rad) * static_cast<double>(kEvery * count);
-  blind.middle_rad = std::arg(sum);
-  return blind;
+  finish();
+  if (count == 0) return {};
+  return {std::abs(increment_rad) * static_cast<double>(kEvery * count),
+          std::atan2(ways.y(), ways.x())};
 }
 
 }  // namespace mocha

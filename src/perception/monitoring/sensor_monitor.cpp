@@ -9,6 +9,7 @@
 namespace mocha {
 namespace {
 
+constexpr double kSettling_s = 3.0;  // of the map, before it shows what is blind
 constexpr int kFewestRepeats = 2;
 constexpr int kBlindScans = 2;
 // A wheel that begins to slip looks like a lag that grows from scan to scan.
@@ -91,6 +92,9 @@ void SensorMonitor::check_frozen(const SensorReading& reading, double now_s) {
 
 void SensorMonitor::check_blind(const SensorReading& reading, const OccupancyMap& map,
                                 double now_s) {
+  // At first all is mapped that is there, also who is just walking by.
+  if (!begun_s_) begun_s_ = now_s;
+  if (now_s - *begun_s_ < kSettling_s) return;
   const BlindBeams blind = blind_beams(reading.beams, reading.scan.angle_increment_rad, map);
   blind_rad_ = blind.width_rad;
   blind_scans_ = blind_rad_ > options_.max_blind_rad ? blind_scans_ + 1 : 0;

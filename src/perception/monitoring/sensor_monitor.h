@@ -99,6 +99,7 @@ class SensorMonitor {
   std::optional<MotionDifference> difference_;
   double noise_m_ = 0.0;
   double blind_rad_ = 0.0;
+  std::optional<double> begun_s_;  // the first scan's time
   int blind_scans_ = 0;
   std::map<SensorLie, int> shown_;  // in a row of scans, by the comparison
   double newest_lag_s_ = 0.0;
