@@ -7,11 +7,11 @@
 namespace mocha {
 namespace {
 
-constexpr std::size_t kEvery = 3;  // so many beams one is looked at
+constexpr std::size_t kEvery = 6;  // so many beams one is looked at
 constexpr double kFarthest_m = 10.0;
 constexpr double kShare = 0.9;  // of a beam: at the end of its reach a wall may be lost
-constexpr double kStep_m = 0.05;
-constexpr double kWall_m = 0.03;  // about a step
+constexpr double kStep_m = 0.1;
+constexpr double kWall_m = 0.06;  // about a step
 constexpr double kWide_m = 1.2;   // what is smaller may have left
 
 /// Where a beam without return passes what stands on the map.
