@@ -10,7 +10,8 @@ namespace mocha {
 namespace {
 
 constexpr double kRounding = 1e-6;  // of a filter's arithmetic, relative
-constexpr double kMost = 1000.0;    // of times ahead [s] and of deviations
+constexpr double kNearlySure = 0.9999;
+constexpr double kMost = 1000.0;  // of times ahead [s] and of deviations
 
 void require_covariance(const Eigen::Matrix4d& covariance) {
   const double largest = covariance.cwiseAbs().maxCoeff();
@@ -140,12 +141,18 @@ double PredictionSpread::deviations_throughout(double ahead, double confidence) 
   return looked_up(throughout, *this, ahead, confidence);
 }
 
+RiskOptions RiskOptions::from(const ParameterTable& values, const RobotModel& robot) {
+  return {values.number("risk"), values.number("growth_horizon"), robot.moving_clearance_m,
+          robot.limits.max_speed, robot.footprint.circumscribed_radius_m()};
+}
+
 double confidence_of_each(const Predictions& predictions, const Vector2& place,
                           const RiskOptions& options) {
   const double growth_s = options.growth_s;
   const auto is_in_reach = [&](const PredictedThing& thing) {
-    const double most = predictions.spread.deviations_throughout(growth_s, 1.0 - kRounding);
+    const double most = predictions.spread.deviations_throughout(growth_s, kNearlySure);
     const double reach_m = thing.radius_m + most * thing.deviation.after(growth_s) +
+                           options.robot_radius_m + options.clearance_m +
                            growth_s * (options.robot_speed + thing.velocity.norm());
     return (thing.place - place).norm() <= reach_m;
   };

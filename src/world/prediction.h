@@ -5,7 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "config/parameter_table.h"
 #include "world/moving_obstacle.h"
+#include "world/robot_model.h"
 
 namespace mocha {
 
@@ -67,6 +69,10 @@ struct RiskOptions {
   double growth_s;     ///< ... at any time until then; later the discs do not grow
   double clearance_m;  ///< that motions keep from the discs, and that things may use up
   double robot_speed;  ///< the robot's highest [m/s]
+  double robot_radius_m;
+
+  /// From `risk` and `growth_horizon` of config/local_replanner.yaml.
+  static RiskOptions from(const ParameterTable& values, const RobotModel& robot);
 };
 
 /// The confidence that each disc has to have: the risk is shared equally among the things that the

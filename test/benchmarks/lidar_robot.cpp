@@ -133,8 +133,7 @@ void LidarRobot::note() {
 void LidarRobot::replan() { stack_.replan(now_s(), measured(), scene()); }
 
 Discs LidarRobot::confident() const {
-  const RiskOptions options{local_values_.number("risk"), local_values_.number("growth_horizon"),
-                            robot_.moving_clearance_m, robot_.limits.max_speed};
+  const RiskOptions options = RiskOptions::from(local_values_, robot_);
   const double confidence =
       confidence_of_each(predictions_, truth().vehicle.pose().position, options);
   return confident_discs(predictions_, confidence, options);

@@ -16,10 +16,10 @@ struct PredictionMargin {
   double most_growth_m;
 };
 
-/// What the lidar of a world's first robot has seen of the movers so far, and nothing else. Who is
-/// met by a beam is known at once with its true place, radius and velocity. Who is out of view is
-/// taken to go on at the velocity last seen, until the lidar sees that it is not there, or for
-/// 3 s.
+/// What the lidar of a world's first robot has seen of the movers so far, and nothing else. A
+/// mover that a beam meets is known at once with its true place, radius and velocity. One that is
+/// out of view is taken to go on at the velocity last seen, until the lidar sees that it is not
+/// there, or for 3 s.
 class MoverSightings {
  public:
   explicit MoverSightings(const World& world);

@@ -3,13 +3,11 @@
 // file, a seed, and the longest time [s].
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "benchmarks/lidar_robot.h"
+#include "benchmarks/world_program.h"
 
 namespace mocha {
 namespace {
@@ -20,8 +18,6 @@ constexpr double kListening_s = 1.0;  // before the goal is given
 constexpr int kTicksPerRow = 10;
 constexpr double kAhead_s = 4.0;  // of the promise that is shown
 constexpr double kStep_s = 0.25;
-
-double rounded(double value) { return std::round(1e3 * value) / 1e3; }
 
 Json row_of(const LidarRobot& robot, double begin_s) {
   const double now_s = robot.now_s();
@@ -90,16 +86,4 @@ Json trace(const World& world, std::uint64_t seed, double longest_s) {
 }  // namespace
 }  // namespace mocha
 
-int main(int argc, char** argv) {
-  try {
-    if (argc != 4) throw std::runtime_error("usage: WORLD SEED LONGEST_S");
-    const mocha::World world = mocha::load_world(argv[1], "config");
-    std::printf("%s\n", mocha::trace(world, std::strtoull(argv[2], nullptr, 10), std::atof(argv[3]))
-                            .dump()
-                            .c_str());
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  return 0;
-}
+int main(int argc, char** argv) { return mocha::run_on_world(argc, argv, mocha::trace); }

@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "benchmarks/lidar_perception.h"
+#include "benchmarks/world_program.h"
 #include "simulation/mover_path.h"
 #include "trajectory/frame_change.h"
 
@@ -28,8 +26,6 @@ constexpr double kSameMover_m = 0.75;
 constexpr double kAhead_s[] = {0.5, 1.0, 2.0};
 constexpr double kConfidences[] = {0.5, 0.8, 0.9, 0.95};
 constexpr double kBaseline_s = 0.4;  // between the two places of plain constant velocity
-
-double rounded(double value) { return std::round(1e4 * value) / 1e4; }
 
 /// Drives to and fro between the robot's start and its goal, and turns in place there.
 class Patrol {
@@ -166,17 +162,4 @@ Json measure(World world, std::uint64_t seed, double longest_s) {
 }  // namespace
 }  // namespace mocha
 
-int main(int argc, char** argv) {
-  try {
-    if (argc != 4) throw std::runtime_error("usage: WORLD SEED SECONDS");
-    const mocha::World world = mocha::load_world(argv[1], "config");
-    std::printf("%s\n",
-                mocha::measure(world, std::strtoull(argv[2], nullptr, 10), std::atof(argv[3]))
-                    .dump()
-                    .c_str());
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  return 0;
-}
+int main(int argc, char** argv) { return mocha::run_on_world(argc, argv, mocha::measure); }

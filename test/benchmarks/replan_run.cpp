@@ -28,8 +28,7 @@ void predict_movers(const ReplanScene& scene, const RobotModel& robot, double t,
   constexpr double kPlace_m = 0.03;  // standard deviations
   constexpr double kVelocity = 0.05;
   static const auto kValues = ParameterTable::from_schema("config/local_replanner.yaml");
-  const RiskOptions options{kValues.number("risk"), kValues.number("growth_horizon"),
-                            robot.moving_clearance_m, robot.limits.max_speed};
+  const RiskOptions options = RiskOptions::from(kValues, robot);
   Predictions predictions{now_s};
   for (const SceneMover& mover : scene.movers) {
     const MoverTruth now = truth(mover, t);

@@ -119,7 +119,7 @@ class Street {
                                     walker.radius_m,
                                     {std::max(kPlace_m, noise_m), std::max(kVelocity, noise_mps)}});
     }
-    loop.moving = confident_discs(predictions, 0.8, {0.2, 2.0, 0.0, 1.0});
+    loop.moving = confident_discs(predictions, 0.8, {0.2, 2.0, 0.0, 1.0, 0.3});
     loop.expected = likely_discs(predictions);
   }
   Vector2 noise(double deviation) {

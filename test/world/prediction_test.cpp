@@ -165,7 +165,7 @@ PredictedThing thing_at(const Vector2& place, const Vector2& velocity = Vector2:
 }
 
 TEST(ConfidenceOfEach, SharesTheRiskAmongThoseWithinReach) {
-  const RiskOptions options{0.2, 1.0, 0.0, 1.0};
+  const RiskOptions options{0.2, 1.0, 0.0, 1.0, 0.0};
   Predictions predictions{5.0};
   EXPECT_NEAR(confidence_of_each(predictions, Vector2::Zero(), options), 0.8, 1e-12);
   predictions.things = {thing_at({1.0, 0.0})};
@@ -175,11 +175,21 @@ TEST(ConfidenceOfEach, SharesTheRiskAmongThoseWithinReach) {
   EXPECT_NEAR(confidence_of_each(predictions, Vector2::Zero(), options), 0.95, 1e-12);
   predictions.things.push_back(thing_at({2.0, 0.0}));  // too far and slow to be met
   EXPECT_NEAR(confidence_of_each(predictions, Vector2::Zero(), options), 0.95, 1e-12);
+  RiskOptions larger = options;  // but by a larger robot
+  larger.robot_radius_m = 1.0;
+  EXPECT_NEAR(confidence_of_each(predictions, Vector2::Zero(), larger), 0.96, 1e-12);
+}
+
+TEST(ConfidentDiscs, LeaveOutWhatTheClearanceHolds) {
+  const Predictions predictions{5.0, {thing_at({1.0, 2.0})}, known_spread()};
+  const Discs confident = confident_discs(predictions, 0.9, {0.1, 1.0, 0.05, 1.0, 0.0});
+  EXPECT_NEAR(confident[0]->at(5.0).radius_m, 0.3, 1e-12);  // 4 * 0.01 is within the clearance
+  EXPECT_NEAR(confident[0]->at(6.0).radius_m, 0.3 + 4.0 * 0.03 - 0.05, 1e-12);
 }
 
 TEST(ConfidentDiscs, GrowAsTheSpreadSays) {
   Predictions predictions{5.0, {thing_at({1.0, 2.0}, {0.5, 0.0})}, known_spread()};
-  const Discs confident = confident_discs(predictions, 0.9, {0.1, 1.0, 0.0, 1.0});
+  const Discs confident = confident_discs(predictions, 0.9, {0.1, 1.0, 0.0, 1.0, 0.0});
   ASSERT_EQ(confident.size(), 1u);
   EXPECT_EQ(confident[0]->name(), "moving thing 7");
   EXPECT_NEAR(confident[0]->at(5.0).radius_m, 0.3 + 4.0 * 0.01, 1e-12);

@@ -14,8 +14,8 @@ struct BlindBeams {
 };
 
 /// The beams of one scan (map frame), `increment_rad` apart, without return that pass a wall of the
-/// map within a few metres. Now and then one is lost, and people and the like, who were mapped as
-/// they stood there, have left: what counts is more than 1.2 m wide.
+/// map within a few metres. Single beams are lost now and then, and a person
+/// that was mapped standing may have left: what counts is more than 1.2 m wide.
 BlindBeams blind_beams(const std::vector<Beam>& beams, double increment_rad,
                        const OccupancyMap& map);
 

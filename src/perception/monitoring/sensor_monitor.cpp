@@ -5,6 +5,7 @@
 
 #include "perception/monitoring/blind_beams.h"
 #include "perception/monitoring/range_noise.h"
+#include "perception/monitoring/wide_hits.h"
 
 namespace mocha {
 namespace {
@@ -92,7 +93,7 @@ void SensorMonitor::check_frozen(const SensorReading& reading, double now_s) {
 
 void SensorMonitor::check_blind(const SensorReading& reading, const OccupancyMap& map,
                                 double now_s) {
-  // At first all is mapped that is there, also who is just walking by.
+  // The first scans map everything, people who walk by included.
   if (!begun_s_) begun_s_ = now_s;
   if (now_s - *begun_s_ < kSettling_s) return;
   const BlindBeams blind = blind_beams(reading.beams, reading.scan.angle_increment_rad, map);
@@ -127,7 +128,8 @@ void SensorMonitor::check_motion(const SensorReading& reading, double now_s) {
     comparison_.clear();
     return;
   }
-  comparison_.add(now_s, *reading.odometry, motion_.add(reading.hits, *reading.odometry));
+  const ScanHits standing = hits_of(with_wide_hits_only(reading.beams), reading.base, 0.0);
+  comparison_.add(now_s, *reading.odometry, motion_.add(standing, *reading.odometry));
   const double unreported_m = comparison_.unreported_travel_m();
   if (unreported_m > options_.max_unreported_m) {
     begin(SensorLie::kOdometryFrozen, now_s,

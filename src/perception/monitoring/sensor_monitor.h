@@ -48,9 +48,8 @@ bool stops_the_robot(SensorLie lie);
 struct SensorReading {
   const PlanarScan& scan;
   const std::vector<Beam>& beams;  ///< the same in the map frame
-  /// What stands, as seen from base_link at the time of the last beam; all hits.
-  ScanHits hits;
-  std::optional<Pose> odometry;  ///< base_link at that time; nothing: is not known
+  Pose base;                       ///< base_link in the map frame at the time of the last beam
+  std::optional<Pose> odometry;    ///< the same in the odometry's; nothing: is not known
 };
 
 /// Notices which sensor of a robot lies, from what scans, odometry and the map say of each other,

@@ -8,8 +8,7 @@ namespace {
 
 constexpr double kAhead_s[] = {0.5, 1.0, 2.0};
 constexpr double kConfidences[] = {0.5, 0.8, 0.9, 0.95, 0.98, 0.99};
-// Errors: fewer follow faster, more are steadier. With 300, the discs held what they should of each
-// of 14 crowds, to 0.03.
+// Errors: fewer follow faster, more are steadier.
 constexpr double kMemory = 300.0;
 constexpr double kLongest_s = 0.25;  // between two scans
 // Of errors in 14 recorded crowds (ETH, UCY).

@@ -1,7 +1,6 @@
 #include "planning/maneuvers/escape_search.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <queue>

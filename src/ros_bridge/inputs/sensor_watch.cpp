@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "perception/monitoring/wide_hits.h"
 #include "ros_bridge/messages/sensor_conversions.h"
 
 namespace mocha {
@@ -20,8 +19,7 @@ void SensorWatch::look(const Measurement& measurement, const std::vector<Beam>& 
         transforms.lookupTransform(robot_.odom_frame, robot_.base_frame, measurement.last)
             .transform);
   }
-  const ScanHits standing = hits_of(with_wide_hits_only(beams), *base, 0.0);
-  monitor_.add({*scan, beams, standing, odometry}, map);
+  monitor_.add({*scan, beams, *base, odometry}, map);
   if (monitor_.lies().size() > lies_) {
     for (const auto& [lie, words] : monitor_.lies())
       ROS_WARN("%s: %s%s", robot_.name.c_str(), words.c_str(),

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "perception/lidar_drive.h"
-#include "perception/monitoring/wide_hits.h"
 #include "perception/sensor/range_smoothing.h"
 #include "perception/shipped_options.h"
 
@@ -41,9 +40,7 @@ Heard listen(const std::vector<DriveScan>& drive, const RobotModel& model) {
     smooth.scan = smoothed(sweep.scan, shipped_smoothing_m());
     auto beams = beams_of(smooth, sweep.odometry_first, sweep.odometry, model.lidar);
     filter.sort(beams, map);
-    monitor.add({sweep.scan, beams, hits_of(with_wide_hits_only(beams), sweep.odometry, 0.0),
-                 sweep.odometry},
-                map);
+    monitor.add({sweep.scan, beams, sweep.odometry, sweep.odometry}, map);
     for (const auto& [lie, words] : monitor.lies()) {
       if (heard.first_s.emplace(lie, sweep.scan.end_time_s()).second) heard.words[lie] = words;
     }

@@ -13,7 +13,7 @@ constexpr double kScan_s = 0.1;
 constexpr int kScansAhead = 10;  // a second
 constexpr double kAhead_s = kScan_s * kScansAhead;
 
-/// People who now and then turn to somewhere else, by a normally distributed change of velocity.
+/// People whose velocity changes at random, by a normally distributed step from scan to scan.
 class Walkers {
  public:
   Walkers(int count, double restlessness, int seed)
@@ -141,7 +141,7 @@ TEST(PredictionErrors, WhatIsNotSeenTeachesNothing) {
     errors.update(things);
   }
   EXPECT_EQ(errors.spread().at, before.at);
-  // Nor what comes back long after the time that was predicted.
+  // A thing that comes back long after the predicted time teaches nothing either.
   for (TrackedObstacle& thing : things) thing.is_seen = true;
   errors.update(things);
   EXPECT_EQ(errors.spread().at, before.at);

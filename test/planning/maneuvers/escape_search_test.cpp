@@ -97,7 +97,9 @@ TEST_P(EscapeSearchTest, KeepsFromWalls) {
   LocalScene scene = scene_of(corridor);
   scene.confident = {person(kNow_s, here + Vector2(3.0, -0.4), {-0.6, 0.0})};
   scene.predicted_until_s = kNow_s + 5.0;
-  for (const Maneuver& maneuver : escape_searches(start_of(ahead_, scene, kNow_s))) {
+  const Maneuvers found = escape_searches(start_of(ahead_, scene, kNow_s));
+  ASSERT_FALSE(found.empty());
+  for (const Maneuver& maneuver : found) {
     const Motion& motion = maneuver.motion;
     for (double t = motion.start_time(); t < motion.end_time(); t += 0.05) {
       EXPECT_GT(scene.obstacles->distance_bound(motion.position(t)),
