@@ -44,5 +44,30 @@ TEST(MovingObjectFilter, WhatComesOutBesideAKnownThingIsSeen) {
   EXPECT_LE(scans_untracked({{{3.0, 0.0}, {4.1, 0.9}}, {{0.0, -0.4}, {0.0, 0.7}}}, 2.5), 2);
 }
 
+TEST(MovingObjectFilter, WhatIsSuddenlyBesideAKnownThingTakesNothingFromIt) {
+  Watch watch{{{-10.0, -10.0}, {10.0, 10.0}, {}}};
+  watch.look_for(1.0);
+  const double begun_s = watch.time_s;
+  const auto known = [=](double t) { return Vector2(3.0, -1.0 + 0.6 * (t - begun_s)); };
+  const auto newcomer = [=](double t) {
+    return t < begun_s + 1.0 ? Vector2(30.0, 30.0) : Vector2(known(t) + Vector2(0.3, 1.05));
+  };
+  watch.walkers = {{0.5, known}, {0.5, newcomer}};
+  watch.look_for(1.0);
+  ASSERT_EQ(watch.tracks().size(), 1u);
+  const auto id = watch.tracks()[0].id;
+  for (int scan = 0; scan < 10; ++scan) {
+    watch.look();
+    const double seen_s = watch.time_s - 0.1;
+    const auto tracks = watch.tracks();
+    ASSERT_FALSE(tracks.empty()) << scan;
+    EXPECT_EQ(tracks[0].id, id);
+    EXPECT_LT((tracks[0].position - known(seen_s)).norm(), 0.15) << scan;
+    if (scan < 3) continue;
+    ASSERT_EQ(tracks.size(), 2u) << scan;
+    EXPECT_LT((tracks[1].position - newcomer(seen_s)).norm(), 0.25) << scan;
+  }
+}
+
 }  // namespace
 }  // namespace mocha

@@ -128,6 +128,23 @@ TEST(PredictionErrors, SaysMoreOfLongerTimesAndHigherConfidences) {
   }
 }
 
+TEST(PredictionErrors, AThingThatSwervesAndComesBackIsOffUntilThen) {
+  PredictionErrors errors;
+  std::vector<TrackedObstacle> things = Walkers(3, 0.0, 1).step();
+  for (int i = 1; i < 600; ++i) {
+    for (TrackedObstacle& thing : things) {
+      thing.time_s += kScan_s;
+      thing.position += kScan_s * thing.velocity;
+      // Once in half a second, so that it is as far aside then as before.
+      thing.seen_at = thing.position + Vector2(0.0, 0.3 * std::sin(4.0 * M_PI * thing.time_s));
+    }
+    errors.update(things);
+  }
+  const PredictionSpread spread = errors.spread();
+  EXPECT_GT(spread.deviations_throughout(kAhead_s, 0.5), 2.0);
+  EXPECT_GE(spread.deviations_throughout(kAhead_s, 0.5), 1.3 * spread.deviations_at(kAhead_s, 0.5));
+}
+
 TEST(PredictionErrors, WhatIsNotSeenTeachesNothing) {
   PredictionErrors errors;
   const PredictionSpread before = errors.spread();
