@@ -9,17 +9,14 @@ namespace {
 using Matrix2 = Eigen::Matrix2d;
 using Matrix4 = Eigen::Matrix4d;
 
-Matrix2 innovation(const Matrix4& covariance, double sigma_m) {
-  return covariance.topLeftCorner<2, 2>() + sigma_m * sigma_m * Matrix2::Identity();
-}
-
 }  // namespace
 
 ConstantVelocityFilter::ConstantVelocityFilter(double time_s, const Vector2& position,
-                                               double position_sigma_m, double speed_sigma_mps)
+                                               const Matrix2& noise,
+                                               double speed_sigma_mps)
     : time_s_(time_s), covariance_(Matrix4::Zero()) {
   state_ << position, 0.0, 0.0;
-  covariance_.diagonal().head<2>().setConstant(position_sigma_m * position_sigma_m);
+  covariance_.topLeftCorner<2, 2>() = noise;
   covariance_.diagonal().tail<2>().setConstant(speed_sigma_mps * speed_sigma_mps);
 }
 
@@ -39,20 +36,20 @@ void ConstantVelocityFilter::predict(double time_s, double acceleration_psd) {
 }
 
 ConstantVelocityFilter::Mismatch ConstantVelocityFilter::mismatch(const Vector2& position,
-                                                                  double sigma_m) const {
-  const Matrix2 S = innovation(covariance_, sigma_m);
+                                                                  const Matrix2& noise) const {
+  const Matrix2 S = covariance_.topLeftCorner<2, 2>() + noise;
   const Vector2 off = position - state_.head<2>();
   return {off.dot(S.inverse() * off), std::log(S.determinant())};
 }
 
-void ConstantVelocityFilter::update(const Vector2& position, double sigma_m) {
+void ConstantVelocityFilter::update(const Vector2& position, const Matrix2& noise) {
   const Eigen::Matrix<double, 4, 2> gain =
-      covariance_.leftCols<2>() * innovation(covariance_, sigma_m).inverse();
+      covariance_.leftCols<2>() * (covariance_.topLeftCorner<2, 2>() + noise).inverse();
   state_ += gain * (position - state_.head<2>());
   Matrix4 kept = Matrix4::Identity();  // Joseph's form: stays symmetric and positive
   kept.leftCols<2>() -= gain;
   covariance_ =
-      (kept * covariance_ * kept.transpose()).eval() + sigma_m * sigma_m * gain * gain.transpose();
+      (kept * covariance_ * kept.transpose()).eval() + gain * noise * gain.transpose();
 }
 
 }  // namespace mocha

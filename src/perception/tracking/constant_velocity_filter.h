@@ -9,9 +9,9 @@ namespace mocha {
 /// Kalman filter of a point at nearly constant velocity: state (x, y, vx, vy), white acceleration.
 class ConstantVelocityFilter {
  public:
-  /// Begins at a measured position with an error of `position_sigma_m`, and a velocity of zero with
-  /// an error of `speed_sigma_mps`; all deviations are those of one axis.
-  ConstantVelocityFilter(double time_s, const Vector2& position, double position_sigma_m,
+  /// Begins at a measured position, with the covariance of its error [m^2], and a velocity of zero
+  /// with an error of `speed_sigma_mps` along each axis.
+  ConstantVelocityFilter(double time_s, const Vector2& position, const Eigen::Matrix2d& noise,
                          double speed_sigma_mps);
 
   /// Moves to another time, also backward: whichever way, the uncertainty grows.
@@ -23,10 +23,10 @@ class ConstantVelocityFilter {
     double squared;  ///< Mahalanobis distance, squared: chi-squared with two degrees of freedom
     double log_determinant;  ///< of the innovation's covariance
   };
-  Mismatch mismatch(const Vector2& position, double sigma_m) const;
+  Mismatch mismatch(const Vector2& position, const Eigen::Matrix2d& noise) const;
 
-  /// A position measured at the time of the state, with an error of `sigma_m` along each axis.
-  void update(const Vector2& position, double sigma_m);
+  /// A position measured at the time of the state; `noise` is the covariance of its error [m^2].
+  void update(const Vector2& position, const Eigen::Matrix2d& noise);
 
   double time_s() const { return time_s_; }
   Vector2 position() const { return state_.head<2>(); }

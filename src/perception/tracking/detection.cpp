@@ -74,6 +74,7 @@ Detection sight_disc(const std::vector<Beam>& beams, const BeamIndices& cluster)
     if (angle_rad > left.angle_rad) left = {i, angle_rad};
     detection.nearest_m = std::min(detection.nearest_m, ray(beams[i]).norm());
     detection.time_s += beams[i].time_s / static_cast<double>(cluster.size());
+    detection.hits.push_back(beams[i].end.head<2>());
   }
   const double spacing_rad = spacing_of(beams, cluster);
   const double bearing_rad = std::atan2(middle.y(), middle.x());

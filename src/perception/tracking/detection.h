@@ -15,6 +15,7 @@ struct Detection {
   bool left_hidden;
   double nearest_m;
   double radius_m;  ///< of the disc that fills the sector; of a hidden one, at most its radius
+  std::vector<Vector2> hits;
 
   bool is_hidden() const { return right_hidden || left_hidden; }
 

@@ -9,15 +9,19 @@
 namespace mocha {
 namespace {
 
+constexpr double kFarthest_m = 2.0;      // from where a track is expected
 constexpr double kGate = 9.21;           // chi-squared, two degrees of freedom, 99 %
 constexpr double kFirstSpeed_mps = 1.0;  // standard deviation of an unknown velocity, one axis
 constexpr double kFastest_mps = 2.0;     // of a thing that turns
 constexpr double kTurn_s = 0.25;         // since it was last seen, at most
-constexpr double kHiddenNoise = 3.0;     // times the noise, if only a part is seen
 constexpr double kPartNoise = 0.7;       // times the difference of the radii, for a part
 constexpr double kGrowth = 0.5;          // of the radius, share of the difference per detection
 constexpr double kShrinkage = 0.05;
 constexpr int kMissingScans = 2;  // that see a known track's place free end it
+
+Eigen::Matrix2d square(double sigma_m) {
+  return sigma_m * sigma_m * Eigen::Matrix2d::Identity();
+}
 
 void require(bool holds, const std::string& name, double value, const std::string& range) {
   if (holds) return;
@@ -77,8 +81,10 @@ std::vector<int> ObstacleTracker::associate(const std::vector<Detection>& detect
     for (std::size_t j = 0; j < detections.size(); ++j) {
       ConstantVelocityFilter filter = tracks_[i].filter;
       filter.predict(detections[j].time_s, options_.acceleration_psd);
-      const auto mismatch = filter.mismatch(centre_of(detections[j], tracks_[i].radius_m),
-                                            noise_of(detections[j], tracks_[i].radius_m));
+      if ((detections[j].centre(tracks_[i].radius_m) - filter.position()).norm() > kFarthest_m)
+        continue;
+      const DiscFit seen = fit(detections[j], tracks_[i].radius_m);
+      const auto mismatch = filter.mismatch(seen.centre, seen.covariance);
       if (mismatch.squared < kGate) {
         pairs.push_back({mismatch.squared + mismatch.log_determinant, static_cast<int>(i),
                          static_cast<int>(j)});
@@ -111,28 +117,30 @@ void ObstacleTracker::follow_turns(const std::vector<Detection>& detections,
     double nearest_m = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < detections.size(); ++j) {
       const double since_s = detections[j].time_s - track.seen_s;
-      const double off_m = (centre_of(detections[j], track.radius_m) - track.seen_at).norm();
-      const double reach_m = kFastest_mps * since_s + 2.0 * noise_of(detections[j], track.radius_m);
-      if (taken[j] || since_s <= 0.0 || since_s > kTurn_s || off_m > std::min(reach_m, nearest_m))
-        continue;
+      if (taken[j] || since_s <= 0.0 || since_s > kTurn_s) continue;
+      const DiscFit seen = fit(detections[j], track.radius_m);
+      const double off_m = (seen.centre - track.seen_at).norm();
+      const double reach_m = kFastest_mps * since_s + 2.0 * std::sqrt(seen.covariance.trace() / 2.0);
+      if (off_m > std::min(reach_m, nearest_m)) continue;
       nearest_m = off_m;
       partners[i] = static_cast<int>(j);
     }
     if (partners[i] < 0) continue;
     taken[partners[i]] = true;
-    track.filter = {track.seen_s, track.seen_at, options_.measurement_noise_m, kFirstSpeed_mps};
+    track.filter = {track.seen_s, track.seen_at, square(options_.measurement_noise_m), kFirstSpeed_mps};
   }
 }
 
 void ObstacleTracker::see(Track& track, const Detection& detection) {
   track.filter.predict(detection.time_s, options_.acceleration_psd);
-  track.filter.update(centre_of(detection, track.radius_m), noise_of(detection, track.radius_m));
+  const DiscFit seen = fit(detection, track.radius_m);
+  track.filter.update(seen.centre, seen.covariance);
   const double growth_m = clamped_radius(detection) - track.radius_m;
   if (growth_m > 0.0) track.radius_m += kGrowth * growth_m;
   if (growth_m < 0.0 && !detection.is_hidden()) track.radius_m += kShrinkage * growth_m;
   if (detection.time_s >= track.seen_s) {
     track.seen_s = detection.time_s;
-    track.seen_at = centre_of(detection, track.radius_m);
+    track.seen_at = seen.centre;
   }
   track.missing = 0;
   track.hidden = false;
@@ -161,32 +169,29 @@ void ObstacleTracker::miss(Track& track, const std::vector<Beam>& beams, double 
 
 void ObstacleTracker::begin(const Detection& detection) {
   const double radius_m = clamped_radius(detection);
-  const Vector2 centre = detection.centre(radius_m);
+  const DiscFit seen = fit(detection, radius_m);
   Track track{0,
-              {detection.time_s, centre, noise_of(detection, radius_m), kFirstSpeed_mps},
+              {detection.time_s, seen.centre, seen.covariance, kFirstSpeed_mps},
               radius_m,
               1,
               detection.time_s,
-              centre,
+              seen.centre,
               0,
               false,
-              centre,
+              seen.centre,
               detection.time_s};
   if (options_.confirmation_hits == 1) track.id = ++last_id_;
   tracks_.push_back(track);
 }
 
-/// Of a disc that is known to have this radius; of the part that is seen, if that is smaller.
-Vector2 ObstacleTracker::centre_of(const Detection& detection, double radius_m) const {
-  return detection.centre(detection.is_hidden() ? radius_m
-                                                : std::min(radius_m, clamped_radius(detection)));
-}
-
-/// A part, such as one leg, may be anywhere in the disc.
-double ObstacleTracker::noise_of(const Detection& detection, double radius_m) const {
-  const double whole_m =
-      (detection.is_hidden() ? kHiddenNoise : 1.0) * options_.measurement_noise_m;
-  return std::hypot(whole_m, kPartNoise * std::max(0.0, radius_m - clamped_radius(detection)));
+/// Of a disc that is known to have this radius; of the part that is seen, if that is smaller: a
+/// part, such as one leg, may be anywhere in the disc.
+DiscFit ObstacleTracker::fit(const Detection& detection, double radius_m) const {
+  if (detection.is_hidden()) return fit_disc(detection, radius_m, options_.measurement_noise_m);
+  const double part_m = std::min(radius_m, clamped_radius(detection));
+  DiscFit seen = fit_disc(detection, part_m, options_.measurement_noise_m);
+  seen.covariance += square(kPartNoise * (radius_m - part_m));
+  return seen;
 }
 
 /// Of things that cannot be apart, such as legs, the younger belongs to the older.

@@ -5,6 +5,7 @@
 
 #include "perception/tracking/constant_velocity_filter.h"
 #include "perception/tracking/detection.h"
+#include "perception/tracking/disc_fit.h"
 
 namespace mocha {
 
@@ -74,8 +75,7 @@ class ObstacleTracker {
   void miss(Track& track, const std::vector<Beam>& beams, double time_s) const;
   void begin(const Detection& detection);
   void join();
-  Vector2 centre_of(const Detection& detection, double radius_m) const;
-  double noise_of(const Detection& detection, double radius_m) const;
+  DiscFit fit(const Detection& detection, double radius_m) const;
   double clamped_radius(const Detection& detection) const;
 
   TrackerOptions options_;
