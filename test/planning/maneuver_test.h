@@ -32,7 +32,8 @@ class ManeuverTest : public ::testing::Test {
             committed,
             now_s,
             committed.switch_time(now_s + kEmergency_s),
-            committed.switch_time(now_s + kSettle_s)};
+            committed.switch_time(now_s + kSettle_s),
+            committed.end_pose().position};
   }
 
   Violation violation_of(const Motion& motion, const LocalScene& scene, RequirementName required,

@@ -20,6 +20,7 @@ struct ManeuverStart {
   double now_s;
   double emergency_s;  ///< as an emergency, which binds at once
   double settled_s;    ///< after settling with the peers
+  Vector2 target;      ///< on the plan, which the robot is to get to
 };
 
 /// What a maneuver is until it brakes.

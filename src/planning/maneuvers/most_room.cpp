@@ -6,8 +6,8 @@
 
 #include "planning/candidates/exposure.h"
 #include "planning/maneuvers/emergency_swerve.h"
-#include "planning/maneuvers/escape_search.h"
 #include "planning/maneuvers/sidestep.h"
+#include "planning/maneuvers/weave.h"
 #include "trajectory/splice.h"
 #include "trajectory/stopping.h"
 #include "world/margin_budget.h"
@@ -62,7 +62,7 @@ Maneuvers most_room(const ManeuverStart& start) {
   const Room room(start);
   Maneuvers all = hard_sidesteps(start);
   for (Maneuver& each : emergency_swerves(start)) all.push_back(std::move(each));
-  for (Maneuver& each : escape_searches(start)) all.push_back(std::move(each));
+  for (Maneuver& each : ways_out(start)) all.push_back(std::move(each));
   std::vector<Escape> escapes;
   for (Maneuver& each : all) {
     const auto onward = splice(start.committed, start.now_s, each.join_s, each.motion);

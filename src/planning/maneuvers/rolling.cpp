@@ -11,6 +11,8 @@ namespace {
 constexpr double kKnot_s = 0.2;
 constexpr double kJerk = 8.0;            // [m/s^3] along the path
 constexpr double kShareOfLimits = 0.85;  // for the curve between the knots
+constexpr double kShareOfYawRate = 0.75;
+constexpr double kTightest_m = 0.2;  // radius; tighter, the curve between knots turns too fast
 constexpr double kRest_mps = 1e-3;
 
 Vector2 direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
@@ -25,13 +27,19 @@ Rolling Rolling::from(const MotionState& state) {
           state.yaw_rate, state.acceleration.dot(state.velocity.normalized())};
 }
 
+Rolling Rolling::setting_off(const Pose& from, double turn_rad, const MotionLimits& limits) {
+  return {from.position, from.yaw_rad + turn_rad, 0.0, 0.0,
+          kShareOfLimits * limits.max_acceleration};
+}
+
 Vector2 Rolling::along() const { return direction(course_rad); }
 
 void Rolling::step(double duration_s, double yaw_rate_wanted, double acceleration_wanted,
                    const MotionLimits& limits) {
   const double most = kShareOfLimits * limits.max_acceleration;
   const double change = limits.max_yaw_acceleration * duration_s;
-  const double tightest = std::min(kShareOfLimits * limits.max_yaw_rate, most / speed);
+  const double tightest =
+      std::min({kShareOfYawRate * limits.max_yaw_rate, most / speed, speed / kTightest_m});
   yaw_rate += std::clamp(yaw_rate_wanted - yaw_rate, -change, change);
   yaw_rate = std::clamp(yaw_rate, -tightest, tightest);
   const double left = std::sqrt(std::max(0.0, most * most - std::pow(speed * yaw_rate, 2)));

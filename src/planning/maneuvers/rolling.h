@@ -17,6 +17,8 @@ struct Rolling {
   double acceleration;  ///< [m/s^2] along the course
 
   static Rolling from(const MotionState& state);
+  /// From rest, after a turn in place, with all its acceleration: as drive_through() begins.
+  static Rolling setting_off(const Pose& from, double turn_rad, const MotionLimits& limits);
 
   Vector2 along() const;
   /// For a while, towards a yaw rate and an acceleration, as far as the limits allow both together.

@@ -10,6 +10,7 @@ using R = RequirementName;
 constexpr Rung kRejoinSooner{Row::kRejoinSooner, K::kRejoinSooner, R::kPromise, false};
 constexpr Rung kFollow{Row::kFollow, K::kFollow, R::kPromise, false};
 constexpr Rung kDetour{Row::kDetour, K::kDetour, R::kPromise, false};
+constexpr Rung kWeave{Row::kWeave, K::kWeave, R::kPromiseLikely, false};
 constexpr Rung kDetourLikely{Row::kDetourLikely, K::kDetour, R::kPromiseLikely, false};
 constexpr Rung kStop{Row::kStop, K::kStop, R::kRenewal, true};
 constexpr Rung kBrakeSoon{Row::kBrakeSoon, K::kBrakeSoon, R::kPromise, true};
@@ -33,10 +34,11 @@ constexpr Rung kBrakeAnyway{Row::kLastResort, K::kBrakeHard, R::kNone, true};
 
 const std::vector<Rung>& ladder_of(Situation situation) {
   static const std::vector<Rung> kHolds = {kRejoinSooner, kFollow, kDetour, kDetourLikely};
-  static const std::vector<Rung> kPlanMeets = {kDetour, kDetourLikely, kFollow};
+  static const std::vector<Rung> kPlanMeets = {kDetour, kDetourLikely, kWeave, kFollow};
   static const std::vector<Rung> kThreatened = {kFollow,
                                                 kDetour,
                                                 kDetourLikely,
+                                                kWeave,
                                                 kBrakeSoon,
                                                 kBrakeInTime,
                                                 kBrakeInTimeAtOnce,
@@ -61,9 +63,9 @@ const std::vector<Rung>& ladder_of(Situation situation) {
                                              kBrakeHard,
                                              kEmergencyDetour,
                                              kBrakeAnyway};
-  static const std::vector<Rung> kInTheWay = {kFollow,   kDetour,         kDetourLikely,
-                                              kSidestep, kSidestepLikely, kEmergencyDetour,
-                                              kMostRoom, kLastResort};
+  static const std::vector<Rung> kInTheWay = {kFollow,          kDetour,   kDetourLikely,
+                                              kWeave,    kSidestep, kSidestepLikely,
+                                              kEmergencyDetour, kMostRoom, kLastResort};
   static const std::vector<Rung> kNoGoal = {kStop};
   switch (situation) {
     case Situation::kHolds:
@@ -102,6 +104,8 @@ const char* to_text(Row row) {
       return "shortens its detour";
     case Row::kDetour:
       return "detour";
+    case Row::kWeave:
+      return "weaves through";
     case Row::kDetourLikely:
       return "detour past the likely course";
     case Row::kStop:

@@ -27,20 +27,21 @@ enum class Row {
   kFollow = 6,         ///< promises more of the plan
   kRejoinSooner = 7,   ///< a shorter detour than the one that is driven
   kDetour = 8,
-  kDetourLikely = 9,  ///< past the likely course of what moves
-  kStop = 10,         ///< at once, as there is nothing to drive to
-  kBrakeSoon = 11,
-  kBrakeInTime = 12,
-  kBrakeInTimeAtOnce = 13,
-  kBrakeLikely = 14,
-  kBrakeInTimeLikely = 15,
-  kBrakeInTimeAtOnceLikely = 16,
-  kSidestep = 17,
-  kSidestepLikely = 18,
-  kBrakeHard = 19,
-  kEmergencyDetour = 20,
-  kMostRoom = 21,    ///< keeps clear of all but the predictions, and as far as possible of these
-  kLastResort = 22,  ///< nothing is certified
+  kWeave = 9,          ///< on between what moves, off the plan
+  kDetourLikely = 10,  ///< past the likely course of what moves
+  kStop = 11,          ///< at once, as there is nothing to drive to
+  kBrakeSoon = 12,
+  kBrakeInTime = 13,
+  kBrakeInTimeAtOnce = 14,
+  kBrakeLikely = 15,
+  kBrakeInTimeLikely = 16,
+  kBrakeInTimeAtOnceLikely = 17,
+  kSidestep = 18,
+  kSidestepLikely = 19,
+  kBrakeHard = 20,
+  kEmergencyDetour = 21,
+  kMostRoom = 22,    ///< keeps clear of all but the predictions, and as far as possible of these
+  kLastResort = 23,  ///< nothing is certified
 };
 
 /// What generates the motions of a row.
@@ -48,6 +49,7 @@ enum class ManeuverKind {
   kFollow,
   kRejoinSooner,
   kDetour,
+  kWeave,
   kStop,
   kBrakeSoon,
   kBrakeInTime,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planning/candidates/exposure.h"
+#include "planning/local/rejoining.h"
 #include "safety/certifier.h"
 #include "trajectory/splice.h"
 
@@ -11,6 +12,8 @@ namespace mocha {
 namespace {
 
 constexpr double kSamePlace_m = 0.5;  // of two plans' ends
+constexpr double kTarget_s = 6.0;     // along the plan; farther than a maneuver gets
+constexpr double kOffPlan_m = 3.0;    // farther from the plan, its end is where to get to
 
 bool is_likely(RequirementName promise) { return promise != RequirementName::kPromise; }
 
@@ -81,7 +84,17 @@ ManeuverStart LocalReplanner::start_at(double now_s, const LocalScene& scene) co
           committed_,
           now_s,
           committed_.switch_time(now_s + options_.emergency_s),
-          committed_.switch_time(now_s + options_.settle_s)};
+          committed_.switch_time(now_s + options_.settle_s),
+          target_at(now_s)};
+}
+
+/// Where the plan leads within some seconds.
+Vector2 LocalReplanner::target_at(double now_s) const {
+  if (plan_.empty()) return committed_.end_pose().position;
+  if (follows_plan_at(now_s)) return plan_.position(now_s + kTarget_s);
+  const auto progress_s =
+      progress_on(plan_, committed_.position(now_s), plan_.start_time(), kOffPlan_m);
+  return plan_.position(progress_s ? *progress_s + kTarget_s : plan_.end_time());
 }
 
 void LocalReplanner::take_offer(double now_s, const LocalScene& scene, Output& output) {

@@ -76,6 +76,7 @@ class LocalReplanner {
   Output decide(double now_s, const RobotState& measured, const LocalScene& scene);
   Output counted(Output output);
   ManeuverStart start_at(double now_s, const LocalScene& scene) const;
+  Vector2 target_at(double now_s) const;
   void take_offer(double now_s, const LocalScene& scene, Output& output);
   void replace_plan(Motion plan);
   /// The plan leads farther than what is in force.

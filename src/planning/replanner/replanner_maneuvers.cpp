@@ -5,6 +5,7 @@
 #include "planning/maneuvers/brake.h"
 #include "planning/maneuvers/most_room.h"
 #include "planning/maneuvers/sidestep.h"
+#include "planning/maneuvers/weave.h"
 #include "planning/replanner/local_replanner.h"
 #include "trajectory/splice.h"
 
@@ -34,6 +35,8 @@ Maneuvers LocalReplanner::maneuvers(const Rung& rung, Step& step) {
       return rejoining_sooner(step);
     case ManeuverKind::kDetour:
       return detours(rung, step);
+    case ManeuverKind::kWeave:
+      return weaves(step.start);
     case ManeuverKind::kStop:
       return stops(step);
     case ManeuverKind::kBrakeSoon:
@@ -63,8 +66,8 @@ Maneuvers LocalReplanner::stops(const Step& step) const {
 }
 
 std::optional<Maneuver> LocalReplanner::following(Step& step) {
-  const auto& [robot, requirements, scene, course, committed, now_s, emergency_s, settled_s] =
-      step.start;
+  const auto& [robot, requirements, scene, course, committed, now_s, emergency_s, settled_s,
+               target] = step.start;
   const bool same_plan = committed_source_.plan == plan_id_;
   if (!same_plan) plan_ = postponed(committed, plan_, now_s, settled_s);
   if (plan_.empty() || plan_.end_time() <= now_s + options_.settle_s) return std::nullopt;

@@ -9,6 +9,8 @@
 namespace mocha {
 namespace {
 
+Eigen::Matrix2d square(double sigma_m) { return sigma_m * sigma_m * Eigen::Matrix2d::Identity(); }
+
 TEST(ConstantVelocityFilter, KnowsHowFarItIsOff) {
   constexpr double kSigma_m = 0.08;
   constexpr double kDensity = 0.5;
@@ -21,7 +23,7 @@ TEST(ConstantVelocityFilter, KnowsHowFarItIsOff) {
     const auto measured = [&] {
       return Vector2(truth.head<2>() + kSigma_m * Vector2(normal(random), normal(random)));
     };
-    ConstantVelocityFilter filter(0.0, measured(), kSigma_m, 1.0);
+    ConstantVelocityFilter filter(0.0, measured(), square(kSigma_m), 1.0);
     for (int scan = 1; scan <= 30; ++scan) {
       constexpr int kSubsteps = 20;
       constexpr double kStep_s = 0.1 / kSubsteps;
@@ -30,7 +32,7 @@ TEST(ConstantVelocityFilter, KnowsHowFarItIsOff) {
         truth.tail<2>() += std::sqrt(kDensity * kStep_s) * Vector2(normal(random), normal(random));
       }
       filter.predict(0.1 * scan, kDensity);
-      filter.update(measured(), kSigma_m);
+      filter.update(measured(), square(kSigma_m));
       Eigen::Vector4d error;
       error << filter.position() - truth.head<2>(), filter.velocity() - truth.tail<2>();
       sum += error.dot(filter.covariance().ldlt().solve(error));
@@ -41,9 +43,9 @@ TEST(ConstantVelocityFilter, KnowsHowFarItIsOff) {
 }
 
 TEST(ConstantVelocityFilter, GoesBackAndForthButNeverGetsSurer) {
-  ConstantVelocityFilter filter(0.0, {1.0, 2.0}, 0.1, 1.0);
+  ConstantVelocityFilter filter(0.0, {1.0, 2.0}, square(0.1), 1.0);
   filter.predict(0.1, 1.0);
-  filter.update({1.1, 2.0}, 0.1);
+  filter.update({1.1, 2.0}, square(0.1));
   const ConstantVelocityFilter before = filter;
   filter.predict(0.05, 1.0);
   EXPECT_LT((filter.position() - before.position() + 0.05 * before.velocity()).norm(), 1e-12);
@@ -53,9 +55,11 @@ TEST(ConstantVelocityFilter, GoesBackAndForthButNeverGetsSurer) {
 }
 
 TEST(ConstantVelocityFilter, MismatchIsMeasuredInDeviations) {
-  const ConstantVelocityFilter filter(0.0, {0.0, 0.0}, 0.3, 1.0);
-  EXPECT_NEAR(filter.mismatch({1.0, 0.0}, 0.4).squared, 4.0, 1e-12);  // sqrt(0.3^2 + 0.4^2) = 0.5
-  EXPECT_NEAR(filter.mismatch({1.0, 0.0}, 0.4).log_determinant, std::log(0.25 * 0.25), 1e-12);
+  const ConstantVelocityFilter filter(0.0, {0.0, 0.0}, square(0.3), 1.0);
+  // sqrt(0.3^2 + 0.4^2) = 0.5
+  EXPECT_NEAR(filter.mismatch({1.0, 0.0}, square(0.4)).squared, 4.0, 1e-12);
+  EXPECT_NEAR(filter.mismatch({1.0, 0.0}, square(0.4)).log_determinant, std::log(0.25 * 0.25),
+              1e-12);
 }
 
 }  // namespace

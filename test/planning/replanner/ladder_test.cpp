@@ -49,9 +49,9 @@ TEST(Ladder, RowsAreInTheirOrder) {
   using R = Row;
   const std::map<Situation, std::vector<Row>> expected = {
       {Situation::kHolds, {R::kRejoinSooner, R::kFollow, R::kDetour, R::kDetourLikely}},
-      {Situation::kPlanMeets, {R::kDetour, R::kDetourLikely, R::kFollow}},
+      {Situation::kPlanMeets, {R::kDetour, R::kWeave, R::kDetourLikely, R::kFollow}},
       {Situation::kThreatened,
-       {R::kFollow, R::kDetour, R::kDetourLikely, R::kBrakeSoon, R::kBrakeInTime,
+       {R::kFollow, R::kDetour, R::kWeave, R::kDetourLikely, R::kBrakeSoon, R::kBrakeInTime,
         R::kBrakeInTimeAtOnce, R::kBrakeLikely, R::kBrakeInTimeLikely, R::kBrakeInTimeAtOnceLikely,
         R::kSidestep, R::kSidestepLikely, R::kBrakeHard, R::kEmergencyDetour, R::kMostRoom,
         R::kLastResort}},
@@ -60,7 +60,7 @@ TEST(Ladder, RowsAreInTheirOrder) {
         R::kBrakeInTimeLikely, R::kBrakeInTimeAtOnceLikely, R::kSidestep, R::kSidestepLikely,
         R::kBrakeHard, R::kEmergencyDetour, R::kLastResort}},
       {Situation::kInTheWay,
-       {R::kFollow, R::kDetour, R::kDetourLikely, R::kSidestep, R::kSidestepLikely,
+       {R::kFollow, R::kDetour, R::kWeave, R::kDetourLikely, R::kSidestep, R::kSidestepLikely,
         R::kEmergencyDetour, R::kMostRoom, R::kLastResort}},
       {Situation::kNoGoal, {R::kStop}}};
   for (const Situation situation : kSituations)

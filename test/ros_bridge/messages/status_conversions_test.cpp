@@ -97,6 +97,7 @@ TEST(StatusConversions, EveryRowHasItsOwnNumberAndWords) {
       {Row::kFollow, Status::FOLLOW},
       {Row::kRejoinSooner, Status::REJOIN_SOONER},
       {Row::kDetour, Status::DETOUR},
+      {Row::kWeave, Status::WEAVE},
       {Row::kDetourLikely, Status::DETOUR_LIKELY},
       {Row::kStop, Status::STOP},
       {Row::kBrakeSoon, Status::BRAKE_SOON},

@@ -1,8 +1,9 @@
-#include "planning/maneuvers/escape_search.h"
+#include "planning/maneuvers/rolling_search.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <queue>
 #include <unordered_set>
 #include <utility>
@@ -17,26 +18,73 @@ namespace {
 
 constexpr double kStep_s = 0.05;
 constexpr int kStepsPerEdge = 6;
-constexpr int kEdges = 8;  // the way is 2.4 s long, and then brakes
-constexpr int kMostExpansions = 1500;
+constexpr int kMostExpansions = 3000;
+constexpr std::size_t kMostWays = 6;  // that a curve may turn out to break the limits along
 constexpr double kYawRates[] = {-1.0, -0.5, 0.0, 0.5, 1.0};  // shares of the highest
 constexpr double kAccelerations[] = {1.0, 0.0, -1.0};        // the same
 constexpr int kHeadings = 12;                                // from rest
 constexpr double kRest_mps = 0.05;
 constexpr double kBehind_mps = 0.01;
-constexpr double kHaste = 0.5;  // what lasts longer is looked at sooner, and some way found
+constexpr double kPast = 0.4;      // weight of the time so far, against the time to go
+constexpr double kGrowth_s = 1.0;  // for which what is kept grows
+constexpr double kStands_s = 1.5;  // so long after a way nobody may come
+constexpr double kNearer_m = 0.01;
+constexpr double kReaction_m = 2.0;  // beyond what the robot can reach, nothing is looked at
 // States as near to each other as this are one.
 constexpr double kSame_m = 0.15;
 constexpr double kSame_rad = 0.26;
 constexpr double kSame_mps = 0.4;
 
-/// What is kept from what moves.
-struct Keeping {
-  double share;   ///< of the clearance
-  double growth;  ///< [m/s] more and more of it, for a second
+/// A disc to keep from at one step.
+struct Disc {
+  Vector2 centre;
+  double keep_m;  ///< of the robot's centre from the disc's, with all of the clearance
+  double most_m;  ///< that can be kept
 };
-constexpr Keeping kKeepings[] = {{1.0, 0.2}, {0.5, 0.06}, {0.0, 0.0}};
-constexpr double kGrowth_s = 1.0;
+
+/// What moves, step by step.
+class MovingDiscs {
+ public:
+  MovingDiscs(const ManeuverStart& start, const Vector2& from, const RollingSearchOptions& options)
+      : steps_(1 + static_cast<int>((options.duration_s + kLongest_s) / kStep_s)),
+        clearance_m_(start.robot.moving_clearance_m) {
+    for (const MovingThing& thing : exposed_to(start, options.join_s)) {
+      const double here_m = room_m(thing, from, options.join_s);
+      const double most_m = here_m < 0.0 ? here_m + keep_m(thing, options.join_s) - kNearer_m
+                                         : std::numeric_limits<double>::infinity();
+      for (int step = 0; step < static_cast<int>(steps_.size()); ++step) {
+        const double ahead_s = step * kStep_s;
+        const double t = options.join_s + ahead_s;
+        if (t > thing.until_s) break;
+        if (room_m(thing, from, t) > ahead_s * options.limits.max_speed + kReaction_m) continue;
+        steps_[step].push_back({thing.obstacle->at(t).centre, keep_m(thing, t), most_m});
+      }
+    }
+  }
+
+  bool is_clear(const Vector2& place, int step, const Keeping& keeping) const {
+    if (step >= static_cast<int>(steps_.size())) return true;
+    const double more_m =
+        keeping.growth * std::min(step * kStep_s, kGrowth_s) - (1.0 - keeping.share) * clearance_m_;
+    return std::none_of(steps_[step].begin(), steps_[step].end(), [&](const Disc& disc) {
+      const double kept_m = std::min(disc.most_m, disc.keep_m + more_m);
+      return (place - disc.centre).squaredNorm() < kept_m * kept_m;
+    });
+  }
+
+ private:
+  static constexpr double kLongest_s = 5.0;  // to turn before a way, to brake and to stand after it
+
+  static double keep_m(const MovingThing& thing, double t) {
+    return thing.keep_m + thing.obstacle->at(t).radius_m;
+  }
+  static double room_m(const MovingThing& thing, const Vector2& place, double t) {
+    return (thing.obstacle->at(t).centre - place).norm() - keep_m(thing, t);
+  }
+
+  std::vector<std::vector<Disc>> steps_;
+  const double clearance_m_;
+};
 
 struct Node {
   Rolling rolling;
@@ -54,36 +102,37 @@ struct Entry {
 
 class Search {
  public:
-  Search(const ManeuverStart& start, const std::vector<MovingThing>& things,
-         const MotionLimits& limits)
+  Search(const ManeuverStart& start, const RollingSearchOptions& options)
       : start_(start),
-        things_(things),
-        limits_(limits),
-        join_s_(start.emergency_s),
+        limits_(options.limits),
+        join_s_(options.join_s),
         state_(start.committed.at(join_s_)),
-        target_(start.committed.end_pose().position),
+        steps_(kStepsPerEdge *
+               static_cast<int>(std::lround(options.duration_s / (kStepsPerEdge * kStep_s)))),
         clear_m_(start.robot.footprint.circumscribed_radius_m() +
-                 MarginBudget::of(start.robot).static_margin_m()) {}
+                 MarginBudget::of(start.robot).static_margin_m()),
+        discs_(start, state_.pose.position, options) {}
 
-  std::optional<Motion> way(const Keeping& keeping) {
+  std::vector<Motion> ways(const Keeping& keeping) {
     keeping_ = keeping;
     nodes_.clear();
     open_ = {};
     seen_.clear();
     begin();
-    for (int count = 0; !open_.empty() && count < kMostExpansions; ++count) {
+    std::vector<Motion> ways;
+    for (int count = 0; !open_.empty() && count < kMostExpansions && ways.size() < kMostWays;
+         ++count) {
       const int index = open_.top().node;
       open_.pop();
-      const Node node = nodes_[index];
-      if (node.step >= first_step(index) + kEdges * kStepsPerEdge) {
-        if (auto motion = motion_to(index)) return motion;
+      if (nodes_[index].step >= root_of(index).step + steps_) {
+        if (auto motion = motion_to(index)) ways.push_back(std::move(*motion));
         continue;
       }
       for (const double yaw_rate : kYawRates) {
         for (const double acceleration : kAccelerations) expand(index, yaw_rate, acceleration);
       }
     }
-    return std::nullopt;
+    return ways;
   }
 
  private:
@@ -94,13 +143,10 @@ class Search {
       return;
     }
     for (int i = 0; i < kHeadings; ++i) {
-      Rolling rolling = Rolling::from(state_);
       const double change = wrap_angle(2.0 * M_PI * i / kHeadings);
-      rolling.course_rad += change;
       const int steps = static_cast<int>(std::ceil(turn_s(change) / kStep_s));
-      bool clear = true;
-      for (int step = 1; step <= steps && clear; ++step) clear = is_clear(rolling.position, step);
-      if (clear) add({rolling, steps, -1, 0.0, 0.0});
+      if (stays_clear(state_.pose.position, 1, steps))
+        add({Rolling::setting_off(state_.pose, change, limits_), steps, -1, 0.0, 0.0});
     }
   }
 
@@ -110,24 +156,24 @@ class Search {
                : turn_duration_s(change_rad, limits_.max_yaw_rate, limits_.max_yaw_acceleration);
   }
 
-  int root(int index) const {
+  const Node& root_of(int index) const {
     while (nodes_[index].from >= 0) index = nodes_[index].from;
-    return index;
+    return nodes_[index];
   }
-  int first_step(int index) const { return nodes_[root(index)].step; }
 
   bool is_clear(const Vector2& place, int step) const {
-    const double ahead_s = step * kStep_s;
-    const double t = join_s_ + ahead_s;
-    for (const MovingThing& thing : things_) {
-      if (t > thing.until_s) continue;
-      const MovingObstacle::Disc disc = thing.obstacle->at(t);
-      const double keep_m = thing.keep_m + disc.radius_m -
-                            (1.0 - keeping_.share) * start_.robot.moving_clearance_m +
-                            keeping_.growth * std::min(ahead_s, kGrowth_s);
-      if ((place - disc.centre).squaredNorm() < keep_m * keep_m) return false;
+    const auto& unseen = start_.scene.unseen;
+    return discs_.is_clear(place, step, keeping_) &&
+           start_.scene.obstacles->distance_bound(place) >= clear_m_ &&
+           (!unseen || unseen->distance_bound(place) >= clear_m_);
+  }
+
+  /// From one step to another.
+  bool stays_clear(const Vector2& place, int first, int last) const {
+    for (int step = first; step <= last; ++step) {
+      if (!is_clear(place, step)) return false;
     }
-    return start_.scene.obstacles->distance_bound(place) >= clear_m_;
+    return true;
   }
 
   void add(const Node& node) {
@@ -143,8 +189,8 @@ class Search {
     key = key << 12 | static_cast<std::uint64_t>(node.step);
     if (!seen_.insert(key).second) return;
     nodes_.push_back(node);
-    const double to_go_s = (rolling.position - target_).norm() / limits_.max_speed;
-    open_.push({to_go_s - kHaste * node.step * kStep_s, static_cast<int>(nodes_.size()) - 1});
+    const double to_go_s = (rolling.position - start_.target).norm() / limits_.max_speed;
+    open_.push({to_go_s + kPast * node.step * kStep_s, static_cast<int>(nodes_.size()) - 1});
   }
 
   void expand(int index, double yaw_rate, double acceleration) {
@@ -165,7 +211,7 @@ class Search {
   std::optional<Motion> motion_to(int index) const {
     std::vector<int> edges;
     for (int i = index; nodes_[i].from >= 0; i = nodes_[i].from) edges.push_back(i);
-    const Node& first = nodes_[root(index)];
+    const Node& first = root_of(index);
     Rolling rolling = first.rolling;
     int step = first.step;
     std::vector<Vector2> places = {rolling.position};
@@ -182,7 +228,8 @@ class Search {
       roll(0.0, -limits_.max_acceleration);
       if (!is_clear(rolling.position, step)) return std::nullopt;
     }
-    if (places.size() < 4) return std::nullopt;
+    const int stands = step + static_cast<int>(kStands_s / kStep_s);
+    if (places.size() < 4 || !stays_clear(rolling.position, step, stands)) return std::nullopt;
     return assembled(first, places, rolling.course_rad);
   }
 
@@ -202,13 +249,13 @@ class Search {
   }
 
   const ManeuverStart& start_;
-  const std::vector<MovingThing>& things_;
   const MotionLimits limits_;
   const double join_s_;
   const MotionState state_;
-  const Vector2 target_;
+  const int steps_;  // of a way
   const double clear_m_;
-  Keeping keeping_ = kKeepings[0];
+  const MovingDiscs discs_;
+  Keeping keeping_{};
   std::vector<Node> nodes_;
   std::priority_queue<Entry> open_;
   std::unordered_set<std::uint64_t> seen_;
@@ -216,17 +263,12 @@ class Search {
 
 }  // namespace
 
-Maneuvers escape_searches(const ManeuverStart& start) {
-  const double join_s = start.emergency_s;
-  if (!is_alone(start) || start.committed.at(join_s).speed < 0.0) return {};
-  MotionLimits limits = start.robot.limits;
-  limits.max_acceleration = start.robot.hard_braking().deceleration();
-  const std::vector<MovingThing> things = exposed_to(start, join_s);
-  Search search(start, things, limits);
-  for (const Keeping& keeping : kKeepings) {
-    if (auto motion = search.way(keeping))
-      return {
-          whole(std::move(*motion), join_s, true, "finds a way out, which keeps the most room")};
+std::vector<Motion> rolling_ways(const ManeuverStart& start, const RollingSearchOptions& options) {
+  if (start.committed.at(options.join_s).speed < 0.0) return {};
+  Search search(start, options);
+  for (const Keeping& keeping : options.keepings) {
+    auto ways = search.ways(keeping);
+    if (!ways.empty()) return ways;
   }
   return {};
 }
