@@ -46,11 +46,13 @@ void Rolling::step(double duration_s, double yaw_rate_wanted, double acceleratio
   const double jerk = kJerk * duration_s;
   acceleration += std::clamp(acceleration_wanted - acceleration, -jerk, jerk);
   acceleration = std::clamp(acceleration, -left, left);
-  course_rad += 0.5 * yaw_rate * duration_s;
-  position += duration_s * std::max(0.0, speed + 0.5 * acceleration * duration_s) * along();
-  course_rad += 0.5 * yaw_rate * duration_s;
   const double fastest = std::max(speed, kShareOfLimits * limits.max_speed);
+  const double before = speed;
   speed = std::clamp(speed + acceleration * duration_s, 0.0, fastest);
+  acceleration = (speed - before) / duration_s;
+  course_rad += 0.5 * yaw_rate * duration_s;
+  position += 0.5 * duration_s * (before + speed) * along();
+  course_rad += 0.5 * yaw_rate * duration_s;
 }
 
 DrivePhase drive_through(const MotionState& start, const std::vector<Vector2>& places,

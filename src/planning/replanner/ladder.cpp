@@ -34,11 +34,11 @@ constexpr Rung kBrakeAnyway{Row::kLastResort, K::kBrakeHard, R::kNone, true};
 
 const std::vector<Rung>& ladder_of(Situation situation) {
   static const std::vector<Rung> kHolds = {kRejoinSooner, kFollow, kDetour, kDetourLikely};
-  static const std::vector<Rung> kPlanMeets = {kDetour, kDetourLikely, kWeave, kFollow};
+  static const std::vector<Rung> kPlanMeets = {kDetour, kWeave, kDetourLikely, kFollow};
   static const std::vector<Rung> kThreatened = {kFollow,
                                                 kDetour,
-                                                kDetourLikely,
                                                 kWeave,
+                                                kDetourLikely,
                                                 kBrakeSoon,
                                                 kBrakeInTime,
                                                 kBrakeInTimeAtOnce,
@@ -63,8 +63,8 @@ const std::vector<Rung>& ladder_of(Situation situation) {
                                              kBrakeHard,
                                              kEmergencyDetour,
                                              kBrakeAnyway};
-  static const std::vector<Rung> kInTheWay = {kFollow,          kDetour,   kDetourLikely,
-                                              kWeave,    kSidestep, kSidestepLikely,
+  static const std::vector<Rung> kInTheWay = {kFollow,          kDetour,   kWeave,
+                                              kDetourLikely,    kSidestep, kSidestepLikely,
                                               kEmergencyDetour, kMostRoom, kLastResort};
   static const std::vector<Rung> kNoGoal = {kStop};
   switch (situation) {

@@ -37,8 +37,8 @@ class WeaveTest : public ManeuverTest, public ::testing::WithParamInterface<cons
     return least_m;
   }
 
-  const OccupancyGrid open_ = free_grid({-8.0, -8.0}, {12.0, 8.0});
-  const double speed_ = 0.75 * robot_.limits.max_speed;
+  const OccupancyGrid open_ = free_grid({-8.0, -8.0}, {16.0, 8.0});
+  const double speed_ = 0.6 * robot_.limits.max_speed;
   const Motion ahead_ = straight_drive(kNow_s - 2.0, {-2.0 * speed_, 0.0}, 0.0, 14.0, speed_,
                                        0.5 * robot_.limits.max_acceleration);
 };
@@ -112,9 +112,9 @@ TEST_P(WeaveTest, GoesOnTowardsTheTargetWithinTheUsualLimits) {
   // Somebody stands in the way, and somebody else walks towards one side of him.
   const Vector2 here = ahead_.position(kNow_s);
   const LocalScene scene =
-      with({{here + Vector2(4.0, 0.0), {0.0, 0.0}}, {here + Vector2(6.0, 1.5), {-1.0, 0.0}}});
+      with({{here + Vector2(4.0, 0.0), {0.0, 0.0}}, {here + Vector2(8.0, 2.0), {-1.0, 0.0}}});
   ManeuverStart start = start_of(ahead_, scene, kNow_s);
-  start.target = here + Vector2(10.0, 0.0);
+  start.target = here + Vector2(12.0, 0.0);
   const auto choice = first_certified(start, weaves(start), RequirementName::kPromise);
   ASSERT_TRUE(choice);
   EXPECT_GT(choice->motion.end_pose().position.x(), here.x() + 1.8 * robot_.limits.max_speed);

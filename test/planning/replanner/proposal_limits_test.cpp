@@ -117,7 +117,7 @@ class ProposalLimitsTest : public ::testing::TestWithParam<const char*> {};
 TEST_P(ProposalLimitsTest, AreKeptByEachRowThatIsCertified) {
   const RobotModel robot = load_robot_model("config", GetParam());
   std::map<Row, int> seen;
-  for (int seed = 0; seed < 100; ++seed) {
+  for (int seed = 0; seed < 130; ++seed) {
     RandomSteps(robot, seed).run([&](Row row, const ProposedMotion& proposal) {
       ++seen[row];
       if (kNotCertified.count(row) > 0) return;
@@ -131,7 +131,7 @@ TEST_P(ProposalLimitsTest, AreKeptByEachRowThatIsCertified) {
   for (const auto& [row, count] : seen)
     RecordProperty(std::to_string(static_cast<int>(row)), count);
   // Those that random worlds come to.
-  for (const Row row : {Row::kFollow, Row::kDetour, Row::kBrakeSoon, Row::kMostRoom})
+  for (const Row row : {Row::kFollow, Row::kDetour, Row::kWeave, Row::kBrakeSoon, Row::kMostRoom})
     EXPECT_GT(seen[row], 0) << to_text(row);
   int emergencies = 0;
   for (const Row row : kEmergencies) emergencies += seen[row];
