@@ -15,7 +15,7 @@ target_link_libraries(benchmark_classes mocha_perception)
 mocha_benchmark(localization)
 target_link_libraries(benchmark_localization mocha_perception mocha_simulation)
 
-mocha_benchmark(tracks)
+mocha_benchmark(tracks test/benchmarks/bag_perception.cpp)
 target_link_libraries(benchmark_tracks mocha_ros_bridge)
 
 # Planners of OMPL stand beside ours.

@@ -61,11 +61,12 @@ def add_classes(what):
 
 def add_tracks(what):
     tracks = what.add_parser("tracks", help="what moves in the laser scans of a bag",
-                             description="Runs perception's tracker over all laser scans of a bag whose lidars stand still. Writes tracks.png: "
+                             description="Runs perception over all laser scans of a bag. Writes tracks.png: "
                              "the map, the hits on moving things, their tracks with velocities, and their speeds over time.")
     tracks.add_argument("bag", help="bag with sensor_msgs/LaserScan")
+    tracks.add_argument("--map-frame", default="odom", metavar="FRAME", help="in which is drawn, of the bag's transforms (default odom)")
     tracks.add_argument("--mount", action="append", default=[], metavar="FRAME:X,Y,YAW",
-                        help="where the lidar with that frame_id is [m, rad]; give it once for each lidar (default: all at the origin)")
+                        help="where the lidar with that frame_id is [m, rad], if the bag has no transforms; give it once for each lidar")
     tracks.set_defaults(draw=draw_tracks)
     return tracks
 
@@ -148,7 +149,7 @@ def draw_classes(options):
 
 def draw_tracks(options):
     from benchmarks import tracks_plots
-    tracks_plots.draw_tracks(options.bag, options.mount, options.out)
+    tracks_plots.draw_tracks(options.bag, options.map_frame, options.mount, options.out)
 
 
 def draw_contacts(options):

@@ -1,96 +1,69 @@
-// Follows what moves in the laser scans of a bag and prints, as JSON, the map, the hits on moving
-// things and their tracks, for scripts/plots tracks.
-
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
+// Follows what moves in the laser scans of a bag, as the node perception does, and prints, as JSON,
+// the map, the hits on moving things, and after each scan what is told of these and where people
+// are by the bag's labels; for scripts/bench tracking and scripts/plots tracks. Arguments: a bag,
+// the map frame, and FRAME:X,Y,YAW for each lidar of which the bag has no transforms.
 
 #include <iostream>
-#include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "perception/sensor/range_smoothing.h"
-#include "perception/tracking/moving_object_filter.h"
-#include "ros_bridge/messages/sensor_conversions.h"
-#include "world/robot_model.h"
+#include "benchmarks/bag_perception.h"
+#include "benchmarks/world_program.h"
 
 namespace mocha {
 namespace {
 
-using Mounts = std::map<std::string, Eigen::Isometry3d>;
+using Json = nlohmann::json;
 
 /// From "frame:x,y,yaw" [m, rad].
-Mounts::value_type parse_mount(const std::string& text) {
+void add_mount(BagPerception& perception, const std::string& text) {
   const std::size_t colon = text.rfind(':');
   std::istringstream numbers(colon == std::string::npos ? "" : text.substr(colon + 1));
   double x, y, yaw;
   char comma1, comma2;
   if (!(numbers >> x >> comma1 >> y >> comma2 >> yaw) || comma1 != ',' || comma2 != ',')
     throw std::runtime_error("a mount is FRAME:X,Y,YAW, not " + text);
-  return {text.substr(0, colon),
-          Eigen::Translation3d(x, y, 0.0) * Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ())};
+  perception.mount(text.substr(0, colon), {{x, y}, yaw});
 }
 
-/// One row of numbers of a JSON list.
-void print(bool& first, std::initializer_list<double> numbers) {
-  std::cout << (first ? "" : ",\n") << "[";
-  const char* comma = "";
-  for (double number : numbers) {
-    std::cout << comma << number;
-    comma = ", ";
-  }
-  std::cout << "]";
-  first = false;
+/// Times count from the first scan.
+Json to_json(const BagScan& scan, double begin_s) {
+  Json json{{"time_s", rounded(scan.end_s - begin_s)},
+            {"sensor",
+             {rounded(scan.sensor.position.x()), rounded(scan.sensor.position.y()),
+              rounded(scan.sensor.yaw_rad)}},
+            {"things", Json::array()},
+            {"labels", Json::array()}};
+  for (const TrackedObstacle& thing : scan.things)
+    json["things"].push_back({thing.id, rounded(thing.position.x()), rounded(thing.position.y()),
+                              rounded(thing.velocity.x()), rounded(thing.velocity.y()),
+                              rounded(thing.radius_m), thing.is_seen});
+  for (const PersonLabel& label : scan.labels)
+    json["labels"].push_back({label.person, rounded(label.place.x()), rounded(label.place.y()),
+                              rounded(label.time_s - begin_s), rounded(label.bearing_rad)});
+  return json;
 }
 
-struct Sighted {
-  double time_s;
-  Vector2 end;
-};
-
-void run(const std::vector<std::string>& arguments) {
-  if (arguments.size() < 2) throw std::runtime_error("usage: CONFIG BAG [FRAME:X,Y,YAW ...]");
-  Mounts mounts;
-  for (std::size_t i = 2; i < arguments.size(); ++i) mounts.insert(parse_mount(arguments[i]));
-  const auto values = ParameterTable::from_schema(arguments[0] + "/perception.yaml");
-  MovingObjectFilter filter(MovingObjectFilterOptions::from(values));
-  OccupancyMap map(OccupancyMapOptions::from(
-      values, load_robot_model(arguments[0], values.text("robot_model")).map_resolution_m));
-  std::vector<Sighted> hits;
-  double begin_s = 0.0;
-  bool first = true;
-  std::cout << "{\"tracks\": [";  // [id, time, x, y, vx, vy, radius]
-  rosbag::Bag bag(arguments[1]);
-  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
-    const auto scan = message.instantiate<sensor_msgs::LaserScan>();
-    if (!scan) continue;
-    const auto mount = mounts.find(scan->header.frame_id);
-    const Eigen::Isometry3d pose =
-        mount == mounts.end() ? Eigen::Isometry3d::Identity() : mount->second;
-    auto beams = to_beams(smoothed(from_message(*scan), values.number("smoothing_reach")),
-                          {pose, pose}, {30.0, 10.0});
-    filter.sort(beams, map);
-    map.insert_scan(beams);
-    const double end_s = from_message(*scan).end_time_s();
-    if (begin_s == 0.0) begin_s = end_s;
-    for (const Beam& beam : beams) {
-      if (beam.kind == BeamEnd::kIgnored)
-        hits.push_back({beam.time_s - begin_s, beam.end.head<2>()});
-    }
-    for (const TrackedObstacle& thing : filter.moving(end_s)) {
-      print(first, {static_cast<double>(thing.id), thing.time_s - begin_s, thing.position.x(),
-                    thing.position.y(), thing.velocity.x(), thing.velocity.y(), thing.radius_m});
-    }
+Json measure(const std::vector<std::string>& arguments) {
+  if (arguments.size() < 2) throw std::runtime_error("usage: BAG MAP_FRAME [FRAME:X,Y,YAW ...]");
+  const rosbag::Bag bag(arguments[0]);
+  BagPerception perception(bag, arguments[1]);
+  for (std::size_t i = 2; i < arguments.size(); ++i) add_mount(perception, arguments[i]);
+  const std::vector<BagScan> scans = perception.run();
+  if (scans.empty()) throw std::runtime_error("no scan of the bag has a place in the map frame");
+  Json result{{"scans", Json::array()}, {"hits", Json::array()}, {"walls", Json::array()}};
+  for (const BagScan& scan : scans) {
+    result["scans"].push_back(to_json(scan, scans[0].begin_s));
+    for (const Beam& hit : scan.moving_hits)
+      result["hits"].push_back(
+          {rounded(hit.time_s - scans[0].begin_s), rounded(hit.end.x()), rounded(hit.end.y())});
   }
-  std::cout << "],\n\"hits\": [";
-  first = true;
-  for (const Sighted& hit : hits) print(first, {hit.time_s, hit.end.x(), hit.end.y()});
-  std::cout << "],\n\"walls\": [";
-  first = true;
-  for (const Eigen::Vector3f& cell : map.occupied_voxels()) print(first, {cell.x(), cell.y()});
-  std::cout << "],\n\"resolution\": " << map.options().resolution_m << "}\n";
+  for (const Eigen::Vector3f& cell : perception.map().occupied_voxels())
+    result["walls"].push_back({rounded(cell.x()), rounded(cell.y())});
+  return result;
 }
 
 }  // namespace
@@ -98,7 +71,7 @@ void run(const std::vector<std::string>& arguments) {
 
 int main(int argc, char** argv) {
   try {
-    mocha::run({argv + 1, argv + argc});
+    std::cout << mocha::measure({argv + 1, argv + argc}).dump() << "\n";
     return 0;
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";

@@ -11,11 +11,12 @@ from benchmarks import benchmark
 ARROW_EVERY_S = 0.5
 
 
-def tracks_of(rows):
-    """id -> rows (time, x, y, vx, vy, radius)."""
+def tracks_of(scans):
+    """id -> rows (time, x, y, vx, vy, radius, seen)."""
     tracks = {}
-    for row in rows:
-        tracks.setdefault(int(row[0]), []).append(row[1:])
+    for scan in scans:
+        for thing in scan["things"]:
+            tracks.setdefault(int(thing[0]), []).append([scan["time_s"], *thing[1:]])
     return {number: np.array(track) for number, track in tracks.items()}
 
 
@@ -30,7 +31,9 @@ def draw_place(axes, result, tracks):
         shown = track[np.unique((track[:, 0] / ARROW_EVERY_S).astype(int), return_index=True)[1]]
         axes.quiver(*shown[:, 1:5].T, color=line.get_color(), angles="xy", scale_units="xy", scale=2.0, width=0.0025, zorder=5)
         axes.annotate(str(number), track[0, 1:3], color=line.get_color(), weight="bold", zorder=6)
-    axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]", title="map, moving things, velocities (0.5 s long)")
+    labels = np.array([label for scan in result["scans"] for label in scan["labels"]]).reshape(-1, 5)
+    axes.plot(labels[:, 1], labels[:, 2], "rx", ms=5, zorder=3)
+    axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]", title="map, moving things, velocities (0.5 s long), labelled people (red)")
 
 
 def draw_speeds(axes, tracks):
@@ -41,10 +44,15 @@ def draw_speeds(axes, tracks):
     axes.grid(alpha=0.3)
 
 
-def draw_tracks(bag, mounts, out):
-    result = benchmark.run("tracks", os.path.join(benchmark.ROOT, "config"), os.path.abspath(bag), *mounts)
-    tracks = tracks_of(result["tracks"])
+def draw(result, path):
+    """Of what benchmark_tracks printed."""
+    tracks = tracks_of(result["scans"])
     figure, (place, speeds) = plt.subplots(2, 1, figsize=(12, 14), gridspec_kw={"height_ratios": (3, 1)})
     draw_place(place, result, tracks)
     draw_speeds(speeds, tracks)
-    figure.savefig(os.path.join(out, "tracks.png"), dpi=110, bbox_inches="tight")
+    figure.savefig(path, dpi=110, bbox_inches="tight")
+    plt.close(figure)
+
+
+def draw_tracks(bag, map_frame, mounts, out):
+    draw(benchmark.run("tracks", os.path.abspath(bag), map_frame, *mounts), os.path.join(out, "tracks.png"))

@@ -12,8 +12,7 @@ using Matrix4 = Eigen::Matrix4d;
 }  // namespace
 
 ConstantVelocityFilter::ConstantVelocityFilter(double time_s, const Vector2& position,
-                                               const Matrix2& noise,
-                                               double speed_sigma_mps)
+                                               const Matrix2& noise, double speed_sigma_mps)
     : time_s_(time_s), covariance_(Matrix4::Zero()) {
   state_ << position, 0.0, 0.0;
   covariance_.topLeftCorner<2, 2>() = noise;
@@ -48,8 +47,7 @@ void ConstantVelocityFilter::update(const Vector2& position, const Matrix2& nois
   state_ += gain * (position - state_.head<2>());
   Matrix4 kept = Matrix4::Identity();  // Joseph's form: stays symmetric and positive
   kept.leftCols<2>() -= gain;
-  covariance_ =
-      (kept * covariance_ * kept.transpose()).eval() + gain * noise * gain.transpose();
+  covariance_ = (kept * covariance_ * kept.transpose()).eval() + gain * noise * gain.transpose();
 }
 
 }  // namespace mocha

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Matrix2d;
 
 constexpr int kIterations = 5;
-constexpr double kMostHits = 6.0;  // that count as independent: their errors are alike
+constexpr double kMostHits = 6.0;       // that count as independent: their errors are alike
 constexpr double kLeastNoise_m = 0.01;  // of a centre: of times and poses
 constexpr double kGuess_m = 0.3;        // how far off the first guess may be, standard deviation
 
@@ -38,8 +38,7 @@ void add_edge(double edge_rad, double side, const Vector2& off, double radius_m,
 
 NormalEquations equations(const Detection& detection, const Vector2& centre, double radius_m) {
   NormalEquations sums;
-  const double weight =
-      std::min(1.0, kMostHits / std::max<double>(1.0, detection.hits.size()));
+  const double weight = std::min(1.0, kMostHits / std::max<double>(1.0, detection.hits.size()));
   for (const Vector2& hit : detection.hits) {
     const Vector2 to = centre - hit;
     const double distance_m = to.norm();
@@ -70,8 +69,7 @@ DiscFit fit_disc(const Detection& detection, double radius_m, double hit_noise_m
   }
   variance = base + sums.squares / std::max(1.0, sums.weights);
   information = sums.information / variance + Matrix2d::Identity() / (kGuess_m * kGuess_m);
-  return {centre,
-          information.inverse() + kLeastNoise_m * kLeastNoise_m * Matrix2d::Identity()};
+  return {centre, information.inverse() + kLeastNoise_m * kLeastNoise_m * Matrix2d::Identity()};
 }
 
 }  // namespace mocha

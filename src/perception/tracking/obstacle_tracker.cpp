@@ -19,9 +19,7 @@ constexpr double kGrowth = 0.5;          // of the radius, share of the differen
 constexpr double kShrinkage = 0.05;
 constexpr int kMissingScans = 2;  // that see a known track's place free end it
 
-Eigen::Matrix2d square(double sigma_m) {
-  return sigma_m * sigma_m * Eigen::Matrix2d::Identity();
-}
+Eigen::Matrix2d square(double sigma_m) { return sigma_m * sigma_m * Eigen::Matrix2d::Identity(); }
 
 void require(bool holds, const std::string& name, double value, const std::string& range) {
   if (holds) return;
@@ -120,14 +118,16 @@ void ObstacleTracker::follow_turns(const std::vector<Detection>& detections,
       if (taken[j] || since_s <= 0.0 || since_s > kTurn_s) continue;
       const DiscFit seen = fit(detections[j], track.radius_m);
       const double off_m = (seen.centre - track.seen_at).norm();
-      const double reach_m = kFastest_mps * since_s + 2.0 * std::sqrt(seen.covariance.trace() / 2.0);
+      const double reach_m =
+          kFastest_mps * since_s + 2.0 * std::sqrt(seen.covariance.trace() / 2.0);
       if (off_m > std::min(reach_m, nearest_m)) continue;
       nearest_m = off_m;
       partners[i] = static_cast<int>(j);
     }
     if (partners[i] < 0) continue;
     taken[partners[i]] = true;
-    track.filter = {track.seen_s, track.seen_at, square(options_.measurement_noise_m), kFirstSpeed_mps};
+    track.filter = {track.seen_s, track.seen_at, square(options_.measurement_noise_m),
+                    kFirstSpeed_mps};
   }
 }
 

@@ -15,7 +15,8 @@ Detection sighted(const Vector2& centre, double radius_m, double time_s) {
   const double bearing_rad = std::atan2(centre.y(), centre.x());
   const double half_rad = std::asin(radius_m / distance_m);
   Detection detection{time_s, {0.0, 0.0}, bearing_rad - half_rad, bearing_rad + half_rad,
-                      false,  false,      distance_m - radius_m,  radius_m, {}};
+                      false,  false,      distance_m - radius_m,  radius_m,
+                      {}};
   for (int i = -5; i <= 5; ++i) {
     const double angle_rad = bearing_rad + M_PI + 0.2 * i;
     detection.hits.push_back(centre + radius_m * Vector2(std::cos(angle_rad), std::sin(angle_rad)));
