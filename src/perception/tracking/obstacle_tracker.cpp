@@ -12,12 +12,17 @@ namespace {
 constexpr double kFarthest_m = 2.0;      // from where a track is expected
 constexpr double kGate = 9.21;           // chi-squared, two degrees of freedom, 99 %
 constexpr double kFirstSpeed_mps = 1.0;  // standard deviation of an unknown velocity, one axis
-constexpr double kFastest_mps = 2.0;     // of a thing that turns
+constexpr double kFastest_mps = 2.5;     // of a thing that turns
 constexpr double kTurn_s = 0.25;         // since it was last seen, at most
 constexpr double kPartNoise = 0.7;       // times the difference of the radii, for a part
 constexpr double kGrowth = 0.5;          // of the radius, share of the difference per detection
 constexpr double kShrinkage = 0.05;
-constexpr int kMissingScans = 2;  // that see a known track's place free end it
+constexpr double kHiddenNoise = 3.0;  // times the noise, if only a part is seen
+constexpr double kRoundNoise = 0.6;   // the same, of hits on what is a disc
+constexpr double kUnsteady_m = 0.04;  // of what is new
+constexpr double kRound_m = 0.03;     // steadier than this is a disc
+constexpr double kSettling = 0.1;     // share of the difference per detection
+constexpr int kMissingScans = 2;      // that see a known track's place free end it
 
 Eigen::Matrix2d square(double sigma_m) { return sigma_m * sigma_m * Eigen::Matrix2d::Identity(); }
 
@@ -81,7 +86,7 @@ std::vector<int> ObstacleTracker::associate(const std::vector<Detection>& detect
       filter.predict(detections[j].time_s, options_.acceleration_psd);
       if ((detections[j].centre(tracks_[i].radius_m) - filter.position()).norm() > kFarthest_m)
         continue;
-      const DiscFit seen = fit(detections[j], tracks_[i].radius_m);
+      const DiscFit seen = fit(detections[j], tracks_[i].radius_m, tracks_[i].unsteady_m);
       const auto mismatch = filter.mismatch(seen.centre, seen.covariance);
       if (mismatch.squared < kGate) {
         pairs.push_back({mismatch.squared + mismatch.log_determinant, static_cast<int>(i),
@@ -116,7 +121,7 @@ void ObstacleTracker::follow_turns(const std::vector<Detection>& detections,
     for (std::size_t j = 0; j < detections.size(); ++j) {
       const double since_s = detections[j].time_s - track.seen_s;
       if (taken[j] || since_s <= 0.0 || since_s > kTurn_s) continue;
-      const DiscFit seen = fit(detections[j], track.radius_m);
+      const DiscFit seen = fit(detections[j], track.radius_m, track.unsteady_m);
       const double off_m = (seen.centre - track.seen_at).norm();
       const double reach_m =
           kFastest_mps * since_s + 2.0 * std::sqrt(seen.covariance.trace() / 2.0);
@@ -133,9 +138,11 @@ void ObstacleTracker::follow_turns(const std::vector<Detection>& detections,
 
 void ObstacleTracker::see(Track& track, const Detection& detection) {
   track.filter.predict(detection.time_s, options_.acceleration_psd);
-  const DiscFit seen = fit(detection, track.radius_m);
+  const DiscFit seen = fit(detection, track.radius_m, track.unsteady_m);
   track.filter.update(seen.centre, seen.covariance);
   const double growth_m = clamped_radius(detection) - track.radius_m;
+  if (!detection.is_hidden())
+    track.unsteady_m += kSettling * (std::abs(growth_m) - track.unsteady_m);
   if (growth_m > 0.0) track.radius_m += kGrowth * growth_m;
   if (growth_m < 0.0 && !detection.is_hidden()) track.radius_m += kShrinkage * growth_m;
   if (detection.time_s >= track.seen_s) {
@@ -169,10 +176,11 @@ void ObstacleTracker::miss(Track& track, const std::vector<Beam>& beams, double 
 
 void ObstacleTracker::begin(const Detection& detection) {
   const double radius_m = clamped_radius(detection);
-  const DiscFit seen = fit(detection, radius_m);
+  const DiscFit seen = fit(detection, radius_m, kUnsteady_m);
   Track track{0,
               {detection.time_s, seen.centre, seen.covariance, kFirstSpeed_mps},
               radius_m,
+              kUnsteady_m,
               1,
               detection.time_s,
               seen.centre,
@@ -185,13 +193,19 @@ void ObstacleTracker::begin(const Detection& detection) {
 }
 
 /// Of a disc that is known to have this radius; of the part that is seen, if that is smaller: a
-/// part, such as one leg, may be anywhere in the disc.
-DiscFit ObstacleTracker::fit(const Detection& detection, double radius_m) const {
-  if (detection.is_hidden()) return fit_disc(detection, radius_m, options_.measurement_noise_m);
-  const double part_m = std::min(radius_m, clamped_radius(detection));
-  DiscFit seen = fit_disc(detection, part_m, options_.measurement_noise_m);
-  seen.covariance += square(kPartNoise * (radius_m - part_m));
-  return seen;
+/// part, such as one leg, may be anywhere in the disc. What changes its size from scan to scan, as
+/// two legs do, is no disc to be fitted, but somewhere in its sector.
+DiscFit ObstacleTracker::fit(const Detection& detection, double radius_m, double unsteady_m) const {
+  const bool hidden = detection.is_hidden();
+  const double part_m = hidden ? radius_m : std::min(radius_m, clamped_radius(detection));
+  const double part_noise_m = kPartNoise * (radius_m - part_m);
+  if (unsteady_m < kRound_m) {
+    DiscFit seen = fit_disc(detection, part_m, kRoundNoise * options_.measurement_noise_m);
+    seen.covariance += square(part_noise_m);
+    return seen;
+  }
+  const double whole_m = (hidden ? kHiddenNoise : 1.0) * options_.measurement_noise_m;
+  return {detection.centre(part_m), square(std::hypot(whole_m, part_noise_m))};
 }
 
 /// Of things that cannot be apart, such as legs, the younger belongs to the older.

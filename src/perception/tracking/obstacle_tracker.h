@@ -57,6 +57,7 @@ class ObstacleTracker {
     std::uint32_t id;  ///< 0 until it is known
     ConstantVelocityFilter filter;
     double radius_m;
+    double unsteady_m;  ///< by so much its radius differs from scan to scan, as with legs
     int detections = 1;
     double seen_s;         ///< last ...
     Vector2 seen_at;       ///< ... and where
@@ -75,7 +76,7 @@ class ObstacleTracker {
   void miss(Track& track, const std::vector<Beam>& beams, double time_s) const;
   void begin(const Detection& detection);
   void join();
-  DiscFit fit(const Detection& detection, double radius_m) const;
+  DiscFit fit(const Detection& detection, double radius_m, double unsteady_m) const;
   double clamped_radius(const Detection& detection) const;
 
   TrackerOptions options_;
