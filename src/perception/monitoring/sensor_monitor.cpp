@@ -93,7 +93,7 @@ void SensorMonitor::check_frozen(const SensorReading& reading, double now_s) {
 
 void SensorMonitor::check_blind(const SensorReading& reading, const OccupancyMap& map,
                                 double now_s) {
-  // The first scans map everything, people who walk by included.
+  // The first scans map everything, also people who walk by.
   if (!begun_s_) begun_s_ = now_s;
   if (now_s - *begun_s_ < kSettling_s) return;
   const BlindBeams blind = blind_beams(reading.beams, reading.scan.angle_increment_rad, map);

@@ -27,7 +27,6 @@ constexpr double kRest_mps = 0.05;
 constexpr double kBehind_mps = 0.01;
 constexpr double kPast = 0.4;      // weight of the time so far, against the time to go
 constexpr double kGrowth_s = 1.0;  // for which what is kept grows
-constexpr double kStands_s = 1.5;  // so long after a way nobody may come
 constexpr double kNearer_m = 0.01;
 constexpr double kReaction_m = 2.0;  // beyond what the robot can reach, nothing is looked at
 // States as near to each other as this are one.
@@ -46,7 +45,8 @@ struct Disc {
 class MovingDiscs {
  public:
   MovingDiscs(const ManeuverStart& start, const Vector2& from, const RollingSearchOptions& options)
-      : steps_(1 + static_cast<int>((options.duration_s + kLongest_s) / kStep_s)),
+      : steps_(1 +
+               static_cast<int>((options.duration_s + options.stands_s + kLongest_s) / kStep_s)),
         clearance_m_(start.robot.moving_clearance_m) {
     for (const MovingThing& thing : exposed_to(start, options.join_s)) {
       const double here_m = room_m(thing, from, options.join_s);
@@ -73,7 +73,7 @@ class MovingDiscs {
   }
 
  private:
-  static constexpr double kLongest_s = 5.0;  // to turn before a way, to brake and to stand after it
+  static constexpr double kLongest_s = 3.0;  // to turn before a way, and to brake after it
 
   static double keep_m(const MovingThing& thing, double t) {
     return thing.keep_m + thing.obstacle->at(t).radius_m;
@@ -109,6 +109,7 @@ class Search {
         state_(start.committed.at(join_s_)),
         steps_(kStepsPerEdge *
                static_cast<int>(std::lround(options.duration_s / (kStepsPerEdge * kStep_s)))),
+        stands_s_(options.stands_s),
         clear_m_(start.robot.footprint.circumscribed_radius_m() +
                  MarginBudget::of(start.robot).static_margin_m()),
         discs_(start, state_.pose.position, options) {}
@@ -228,7 +229,7 @@ class Search {
       roll(0.0, -limits_.max_acceleration);
       if (!is_clear(rolling.position, step)) return std::nullopt;
     }
-    const int stands = step + static_cast<int>(kStands_s / kStep_s);
+    const int stands = step + static_cast<int>(stands_s_ / kStep_s);
     if (places.size() < 4 || !stays_clear(rolling.position, step, stands)) return std::nullopt;
     return assembled(first, places, rolling.course_rad);
   }
@@ -253,6 +254,7 @@ class Search {
   const double join_s_;
   const MotionState state_;
   const int steps_;  // of a way
+  const double stands_s_;
   const double clear_m_;
   const MovingDiscs discs_;
   Keeping keeping_{};

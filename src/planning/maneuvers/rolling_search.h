@@ -17,6 +17,7 @@ struct RollingSearchOptions {
   MotionLimits limits;            ///< within which ways keep
   double join_s;                  ///< where they leave the committed motion
   double duration_s;              ///< of a way, before it brakes to rest
+  double stands_s;                ///< so long after it nobody may come, as far as is predicted
   std::vector<Keeping> keepings;  ///< tried in this order
 };
 

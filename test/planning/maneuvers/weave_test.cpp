@@ -38,9 +38,11 @@ class WeaveTest : public ManeuverTest, public ::testing::WithParamInterface<cons
   }
 
   const OccupancyGrid open_ = free_grid({-8.0, -8.0}, {16.0, 8.0});
-  const double speed_ = 0.6 * robot_.limits.max_speed;
+  const double speed_ = 0.9 * robot_.limits.max_speed;
   const Motion ahead_ = straight_drive(kNow_s - 2.0, {-2.0 * speed_, 0.0}, 0.0, 14.0, speed_,
                                        0.5 * robot_.limits.max_acceleration);
+  const Motion slow_ = straight_drive(kNow_s - 2.0, {-0.8 * speed_, 0.0}, 0.0, 14.0, 0.5 * speed_,
+                                      0.25 * robot_.limits.max_acceleration);
 };
 
 TEST_P(WeaveTest, GoesOnFromTheMotionToRest) {
@@ -110,10 +112,10 @@ TEST_P(WeaveTest, KeepsFromWalls) {
 
 TEST_P(WeaveTest, GoesOnTowardsTheTargetWithinTheUsualLimits) {
   // Somebody stands in the way, and somebody else walks towards one side of him.
-  const Vector2 here = ahead_.position(kNow_s);
+  const Vector2 here = slow_.position(kNow_s);
   const LocalScene scene =
       with({{here + Vector2(4.0, 0.0), {0.0, 0.0}}, {here + Vector2(8.0, 2.0), {-1.0, 0.0}}});
-  ManeuverStart start = start_of(ahead_, scene, kNow_s);
+  ManeuverStart start = start_of(slow_, scene, kNow_s);
   start.target = here + Vector2(12.0, 0.0);
   const auto choice = first_certified(start, weaves(start), RequirementName::kPromise);
   ASSERT_TRUE(choice);
@@ -145,7 +147,7 @@ TEST_P(WeaveTest, WhereSomebodyIsTooNearAlreadyItLeaves) {
 }
 
 TEST_P(WeaveTest, DoesNotEndWhereSomebodyComesSoon) {
-  // A row of people who stand, and others who walk along it: behind them the robot cannot stay.
+  // People stand in a row, and others walk along it: the robot cannot stay in their way.
   const Vector2 here = ahead_.position(kNow_s);
   std::vector<std::pair<Vector2, Vector2>> people;
   for (int i = -8; i <= 8; ++i) people.push_back({here + Vector2(5.0, 0.9 * i), {0.0, 0.0}});

@@ -21,7 +21,7 @@ TEST(ForwardOnly, TurnsAwayWhereAnotherBaseBacksOff) {
     SCOPED_TRACE(ahead_m);
     Street reversing = head_on(ahead_m, 0.3, true);
     reversing.run(15.0);
-    EXPECT_LT(reversing.least_speed, -0.4);
+    EXPECT_LT(reversing.least_speed, -0.5);
     Street forward = head_on(ahead_m, 0.3, false);
     forward.run(15.0);
     EXPECT_EQ(forward.least_speed, 0.0);
