@@ -175,7 +175,7 @@ class PerceptionNode {
   /// Though nothing moves: their age tells that they can be relied on.
   void publish_moving(ros::Time stamp) {
     auto message =
-        to_message(filter_.moving(stamp.toSec()), filter_.spread(), robot_.map_frame, stamp);
+        to_message(filter_.things(stamp.toSec()), filter_.spread(), robot_.map_frame, stamp);
     message.fault = sensors_.stop();
     moving_.publish(message);
   }

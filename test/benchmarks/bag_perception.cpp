@@ -90,7 +90,7 @@ BagScan BagPerception::take(const Measurement& measurement) {
   if (base) map_.clear_body(*base, model_.footprint);
   stamp_s_ = std::max(stamp_s_, measurement.last.toSec());
   BagScan taken{measurement.first.toSec(), stamp_s_, planar(measurement.poses.last),
-                filter_.moving(stamp_s_),  {},       labels_of(measurement)};
+                filter_.things(stamp_s_),  {},       labels_of(measurement)};
   for (const Beam& beam : beams) {
     if (beam.kind == BeamEnd::kIgnored) taken.moving_hits.push_back(beam);
   }

@@ -37,10 +37,12 @@ Json to_json(const BagScan& scan, double begin_s) {
               rounded(scan.sensor.yaw_rad)}},
             {"things", Json::array()},
             {"labels", Json::array()}};
-  for (const TrackedObstacle& thing : scan.things)
+  for (const TrackedObstacle& thing : scan.things) {
+    if (!thing.is_mover) continue;
     json["things"].push_back({thing.id, rounded(thing.position.x()), rounded(thing.position.y()),
                               rounded(thing.velocity.x()), rounded(thing.velocity.y()),
                               rounded(thing.radius_m), thing.is_seen});
+  }
   for (const PersonLabel& label : scan.labels)
     json["labels"].push_back({label.person, rounded(label.place.x()), rounded(label.place.y()),
                               rounded(label.time_s - begin_s), rounded(label.bearing_rad)});

@@ -16,6 +16,9 @@ struct Detection {
   double nearest_m;
   double radius_m;  ///< of the disc that fills the sector; of a hidden one, at most its radius
   std::vector<Vector2> hits;
+  int legs = 0;               ///< of a person, as which it looks: 0, 1 or 2
+  bool has_come = false;      ///< it is where the map was free
+  bool is_continued = false;  ///< what has not come goes on beside it: it may be part of a wall
 
   bool is_hidden() const { return right_hidden || left_hidden; }
 

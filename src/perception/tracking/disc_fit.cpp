@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <stdexcept>
 
 namespace mocha {
 namespace {
@@ -13,6 +15,9 @@ constexpr int kIterations = 5;
 constexpr double kMostHits = 6.0;       // that count as independent: their errors are alike
 constexpr double kLeastNoise_m = 0.01;  // of a centre: of times and poses
 constexpr double kGuess_m = 0.3;        // how far off the first guess may be, standard deviation
+constexpr double kLegRadius_m = 0.05;
+constexpr double kOneLeg_m = 0.15;  // from a leg to between them, standard deviation along an axis
+constexpr double kTwoLegs_m = 0.1;  // from between the legs to where the person is
 
 /// A sum of squares, linear around a centre.
 struct NormalEquations {
@@ -51,6 +56,19 @@ NormalEquations equations(const Detection& detection, const Vector2& centre, dou
   return sums;
 }
 
+Vector2 mean(std::vector<Vector2>::const_iterator begin, std::vector<Vector2>::const_iterator end) {
+  return std::accumulate(begin, end, Vector2(Vector2::Zero())) / static_cast<double>(end - begin);
+}
+
+/// Between the two groups of hits with the widest gap between them.
+Vector2 between_legs(const std::vector<Vector2>& hits) {
+  auto other = hits.begin() + 1;
+  for (auto hit = other; hit != hits.end(); ++hit) {
+    if ((*hit - *(hit - 1)).norm() > (*other - *(other - 1)).norm()) other = hit;
+  }
+  return 0.5 * (mean(hits.begin(), other) + mean(other, hits.end()));
+}
+
 }  // namespace
 
 DiscFit fit_disc(const Detection& detection, double radius_m, double hit_noise_m) {
@@ -70,6 +88,17 @@ DiscFit fit_disc(const Detection& detection, double radius_m, double hit_noise_m
   variance = base + sums.squares / std::max(1.0, sums.weights);
   information = sums.information / variance + Matrix2d::Identity() / (kGuess_m * kGuess_m);
   return {centre, information.inverse() + kLeastNoise_m * kLeastNoise_m * Matrix2d::Identity()};
+}
+
+DiscFit fit_legs(const Detection& detection) {
+  if (detection.legs < 1 || detection.legs > 2 || detection.hits.size() < 2)
+    throw std::invalid_argument("fit_legs: a detection without legs");
+  const std::vector<Vector2>& hits = detection.hits;
+  const bool two = detection.legs == 2;
+  const Vector2 front = two ? between_legs(hits) : mean(hits.begin(), hits.end());
+  const double sigma_m = two ? kTwoLegs_m : kOneLeg_m;
+  return {front + kLegRadius_m * (front - detection.sensor).normalized(),
+          sigma_m * sigma_m * Matrix2d::Identity()};
 }
 
 }  // namespace mocha

@@ -19,4 +19,8 @@ struct DiscFit {
 /// disc, such as two legs, tells less. `hit_noise_m` is the standard deviation of hits on a disc.
 DiscFit fit_disc(const Detection& detection, double radius_m, double hit_noise_m);
 
+/// Where a person is whose legs, or one of them, a detection shows: between them. Throws
+/// std::invalid_argument for a detection that does not look like legs.
+DiscFit fit_legs(const Detection& detection);
+
 }  // namespace mocha

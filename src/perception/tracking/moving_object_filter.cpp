@@ -6,8 +6,6 @@
 namespace mocha {
 namespace {
 
-constexpr double kNotch_m = 0.15;  // between two things, in the ranges of the beams that hit them
-
 MovingObjectFilterOptions checked(const MovingObjectFilterOptions& o) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(std::string("MovingObjectFilter: ") + what);
@@ -25,22 +23,6 @@ double time_of(const std::vector<Beam>& beams) {
   double sum_s = 0.0;
   for (const Beam& beam : beams) sum_s += beam.time_s / static_cast<double>(beams.size());
   return sum_s;
-}
-
-/// The angle between neighbouring beams, the median: beams may be missing.
-double gap_between_beams_rad(const std::vector<Beam>& beams) {
-  std::vector<double> gaps_rad;
-  for (std::size_t i = 1; i < beams.size(); ++i) {
-    if (!is_usable(beams[i - 1]) || !is_usable(beams[i])) continue;
-    const Vector2 before = (beams[i - 1].end - beams[i - 1].origin).head<2>();
-    const Vector2 after = (beams[i].end - beams[i].origin).head<2>();
-    const double cross = before.x() * after.y() - before.y() * after.x();
-    gaps_rad.push_back(std::abs(std::atan2(cross, before.dot(after))));
-  }
-  if (gaps_rad.empty()) return 0.0;
-  const auto middle = gaps_rad.begin() + gaps_rad.size() / 2;
-  std::nth_element(gaps_rad.begin(), middle, gaps_rad.end());
-  return *middle;
 }
 
 /// Whether unseen space begins within reach of a hit: a disc that is wider than what two beams
@@ -73,42 +55,44 @@ MovingObjectFilterOptions MovingObjectFilterOptions::from(const ParameterTable& 
   tracker.confirmation_hits = values.integer("confirmation_hits");
   tracker.track_timeout_s = values.number("track_timeout");
   tracker.occlusion_timeout_s = values.number("occlusion_timeout");
-  tracker.standing_speed_mps = values.number("standing_speed");
   tracker.standing_time_s = values.number("standing_time");
   return options;
 }
 
 MovingObjectFilter::MovingObjectFilter(const MovingObjectFilterOptions& options)
-    : options_(checked(options)), tracker_(options.tracker) {}
+    : options_(checked(options)),
+      detector_({options.cluster_gap_m, options.cluster_points, options.cluster_extent_m,
+                 options.map_tolerance_m}),
+      tracker_(options.tracker) {}
 
 void MovingObjectFilter::sort(std::vector<Beam>& beams, const OccupancyMap& map) {
   if (beams.empty()) return;
   const double time_s = time_of(beams);
   const std::vector<TrackedObstacle> known = tracker_.at(time_s);
-  const auto clusters = things(beams, candidates(beams, map, known), known);
+  const auto things = detector_.detect(beams, come_hits(beams, map, known), known);
   std::vector<Detection> detections;
-  for (const BeamIndices& cluster : clusters) detections.push_back(sight_disc(beams, cluster));
+  for (const Detector::Thing& thing : things) detections.push_back(thing.detection);
   const std::vector<bool> moving = tracker_.update(detections, beams, time_s);
-  errors_.update(tracker_.at(time_s));
+  errors_.update(this->moving(time_s));
   moving_hits_ = 0;
-  for (std::size_t i = 0; i < clusters.size(); ++i) {
+  for (std::size_t i = 0; i < things.size(); ++i) {
     if (!moving[i]) continue;
-    for (int beam : clusters[i]) beams[beam].kind = BeamEnd::kIgnored;
-    moving_hits_ += static_cast<int>(clusters[i].size());
+    for (int beam : things[i].hits) beams[beam].kind = BeamEnd::kIgnored;
+    moving_hits_ += static_cast<int>(things[i].hits.size());
   }
 }
 
-BeamIndices MovingObjectFilter::candidates(const std::vector<Beam>& beams, const OccupancyMap& map,
-                                           const std::vector<TrackedObstacle>& known) const {
+BeamIndices MovingObjectFilter::come_hits(const std::vector<Beam>& beams, const OccupancyMap& map,
+                                          const std::vector<TrackedObstacle>& known) const {
   BeamIndices hits;
-  const double gap_rad = gap_between_beams_rad(beams);
+  const double gap_rad = beam_spacing_rad(beams);
   for (std::size_t i = 0; i < beams.size(); ++i) {
     if (beams[i].kind != BeamEnd::kHit || !is_usable(beams[i])) continue;
     const Vector2 end = beams[i].end.head<2>();
     const double range_m = (beams[i].end - beams[i].origin).head<2>().norm();
     const double tolerance_m = options_.map_tolerance_m + options_.map_tolerance_rad * range_m;
     const bool on_known = std::any_of(known.begin(), known.end(), [&](const TrackedObstacle& disc) {
-      return !disc.standing &&
+      return !disc.stands &&
              (end - disc.position).norm() <= disc.radius_m + options_.map_tolerance_m;
     });
     // Cells that moving things have hit once or twice are no walls yet, or such things would drag
@@ -123,71 +107,21 @@ BeamIndices MovingObjectFilter::candidates(const std::vector<Beam>& beams, const
   return hits;
 }
 
-/// Clusters of hits that are small enough to move. Those within reach of a known thing are one, as
-/// the legs of a walking person; one that several known things can reach is parted among them. What
-/// is too large for one thing may be several that are near to each other.
-std::vector<BeamIndices> MovingObjectFilter::things(
-    const std::vector<Beam>& beams, const BeamIndices& hits,
-    const std::vector<TrackedObstacle>& known) const {
-  std::vector<BeamIndices> owned(known.size());
-  std::vector<BeamIndices> others;
-  for (BeamIndices& cluster : cluster_hits(beams, hits, options_.cluster_gap_m)) {
-    std::vector<std::size_t> owners;
-    std::vector<Vector2> centres;
-    for (std::size_t k = 0; k < known.size(); ++k) {
-      const bool holds = std::any_of(cluster.begin(), cluster.end(),
-                                     [&](int i) { return is_in_reach(beams[i], known[k]); });
-      if (!holds) continue;
-      owners.push_back(k);
-      centres.push_back(known[k].position);
-    }
-    if (owners.empty()) {
-      others.push_back(std::move(cluster));
-      continue;
-    }
-    const auto parts = part_cluster(beams, cluster, centres);
-    for (std::size_t k = 0; k < owners.size(); ++k)
-      owned[owners[k]].insert(owned[owners[k]].end(), parts[k].begin(), parts[k].end());
-  }
-  for (std::size_t k = 0; k < known.size(); ++k) {
-    for (BeamIndices& rest : keep_to_reach(beams, known[k], owned[k]))
-      others.push_back(std::move(rest));
-  }
-  for (const BeamIndices& other : others) {
-    if (is_one_thing(beams, other)) {
-      owned.push_back(other);
-      continue;
-    }
-    for (BeamIndices& part : part_at_notches(beams, other, kNotch_m))
-      owned.push_back(std::move(part));
-  }
-  const auto moves = [&](const BeamIndices& group) {
-    return static_cast<int>(group.size()) >= options_.cluster_points && is_one_thing(beams, group);
-  };
-  owned.erase(std::stable_partition(owned.begin(), owned.end(), moves), owned.end());
-  return owned;
+std::vector<TrackedObstacle> MovingObjectFilter::things(double time_s) const {
+  std::vector<TrackedObstacle> things = tracker_.at(time_s);
+  things.erase(std::remove_if(
+                   things.begin(), things.end(),
+                   [](const TrackedObstacle& thing) { return thing.is_mapped && !thing.is_mover; }),
+               things.end());
+  return things;
 }
 
-bool MovingObjectFilter::is_in_reach(const Beam& beam, const TrackedObstacle& thing) const {
-  return (beam.end.head<2>() - thing.position).norm() <=
-         thing.radius_m + 0.5 * options_.cluster_gap_m;
-}
-
-bool MovingObjectFilter::is_one_thing(const std::vector<Beam>& beams,
-                                      const BeamIndices& group) const {
-  return extent_m(beams, group) <= options_.cluster_extent_m;
-}
-
-/// Of a group that is too large, the hits out of the thing's reach are others'.
-std::vector<BeamIndices> MovingObjectFilter::keep_to_reach(const std::vector<Beam>& beams,
-                                                           const TrackedObstacle& thing,
-                                                           BeamIndices& group) const {
-  if (is_one_thing(beams, group)) return {};
-  const auto rest = std::stable_partition(group.begin(), group.end(),
-                                          [&](int i) { return is_in_reach(beams[i], thing); });
-  const BeamIndices others(rest, group.end());
-  group.erase(rest, group.end());
-  return cluster_hits(beams, others, options_.cluster_gap_m);
+std::vector<TrackedObstacle> MovingObjectFilter::moving(double time_s) const {
+  std::vector<TrackedObstacle> things = tracker_.at(time_s);
+  things.erase(std::remove_if(things.begin(), things.end(),
+                              [](const TrackedObstacle& thing) { return thing.is_mapped; }),
+               things.end());
+  return things;
 }
 
 void MovingObjectFilter::clear() {

@@ -4,6 +4,7 @@
 
 #include "config/parameter_table.h"
 #include "perception/mapping/occupancy_map.h"
+#include "perception/tracking/detector.h"
 #include "perception/tracking/obstacle_tracker.h"
 #include "perception/tracking/prediction_errors.h"
 
@@ -24,9 +25,10 @@ struct MovingObjectFilterOptions {
 /// Parts the hits of planar scans into those on the map and those on moving things, and follows the
 /// latter.
 ///
-/// A hit is on something that moves if it is where the map is sure to be free and neither a wall
-/// nor unseen space is near, or on a moving thing known already; unless it belongs to few or too
-/// widespread hits. What has stood for a while goes into the map.
+/// A hit may be on something that moves if it is where the map is sure to be free and neither a
+/// wall nor unseen space is near, or if it is on what is known and does not stand. What has not
+/// left its place for a while goes into the map, soon where it has never been seen to move, and is
+/// followed all the same.
 class MovingObjectFilter {
  public:
   /// Throws std::invalid_argument, naming the value and its range.
@@ -35,8 +37,11 @@ class MovingObjectFilter {
   /// Takes the next scan before it enters the map: hits on moving things become ignored ones.
   void sort(std::vector<Beam>& beams, const OccupancyMap& map);
 
-  /// The moving things that are known, predicted to a time.
-  std::vector<TrackedObstacle> moving(double time_s) const { return tracker_.at(time_s); }
+  /// What moves or looks like a person, and what may move as it has come to where the map was free,
+  /// predicted to a time.
+  std::vector<TrackedObstacle> things(double time_s) const;
+  /// Of these, what the map does not hold: what to keep clear of.
+  std::vector<TrackedObstacle> moving(double time_s) const;
   /// How far off predictions of these turn out to be.
   PredictionSpread spread() const { return errors_.spread(); }
   /// How many hits of the newest scan are on moving things.
@@ -45,16 +50,11 @@ class MovingObjectFilter {
   void clear();
 
  private:
-  BeamIndices candidates(const std::vector<Beam>& beams, const OccupancyMap& map,
-                         const std::vector<TrackedObstacle>& known) const;
-  std::vector<BeamIndices> things(const std::vector<Beam>& beams, const BeamIndices& hits,
-                                  const std::vector<TrackedObstacle>& known) const;
-  bool is_in_reach(const Beam& beam, const TrackedObstacle& thing) const;
-  bool is_one_thing(const std::vector<Beam>& beams, const BeamIndices& group) const;
-  std::vector<BeamIndices> keep_to_reach(const std::vector<Beam>& beams,
-                                         const TrackedObstacle& thing, BeamIndices& group) const;
+  BeamIndices come_hits(const std::vector<Beam>& beams, const OccupancyMap& map,
+                        const std::vector<TrackedObstacle>& known) const;
 
   MovingObjectFilterOptions options_;
+  Detector detector_;
   ObstacleTracker tracker_;
   PredictionErrors errors_;
   int moving_hits_ = 0;

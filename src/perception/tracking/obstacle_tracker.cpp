@@ -22,7 +22,13 @@ constexpr double kRoundNoise = 0.6;   // the same, of hits on what is a disc
 constexpr double kUnsteady_m = 0.04;  // of what is new
 constexpr double kRound_m = 0.03;     // steadier than this is a disc
 constexpr double kSettling = 0.1;     // share of the difference per detection
-constexpr int kMissingScans = 2;      // that see a known track's place free end it
+constexpr int kMissingScans = 2;      // that see a known track's place free end it ...
+constexpr int kMissingNew = 3;        // ... a new one's, of which the velocity is not known yet ...
+constexpr int kMissingLegs = 5;       // ... that of legs: beams pass between them
+constexpr int kLegPairs = 2;          // detections that look like two legs are a person's
+constexpr double kLeftBehind_m = 0.2;  // between a thing and the place that it has left
+constexpr double kSlow_mps = 0.7;
+constexpr double kMoment_s = 0.5;
 
 Eigen::Matrix2d square(double sigma_m) { return sigma_m * sigma_m * Eigen::Matrix2d::Identity(); }
 
@@ -43,7 +49,6 @@ ObstacleTracker::ObstacleTracker(const TrackerOptions& options) : options_(optio
   require(o.confirmation_hits >= 1, "confirmation_hits", o.confirmation_hits, "at least 1");
   require(o.track_timeout_s > 0.0, "track_timeout", o.track_timeout_s, "above 0 s");
   require(o.occlusion_timeout_s > 0.0, "occlusion_timeout", o.occlusion_timeout_s, "above 0 s");
-  require(o.standing_speed_mps > 0.0, "standing_speed", o.standing_speed_mps, "above 0 m/s");
   require(o.standing_time_s > 0.0, "standing_time", o.standing_time_s, "above 0 s");
 }
 
@@ -58,12 +63,15 @@ std::vector<bool> ObstacleTracker::update(const std::vector<Detection>& detectio
       miss(tracks_[i], beams, time_s);
       continue;
     }
-    see(tracks_[i], detections[partners[i]]);
+    Track& track = tracks_[i];
+    see(track, detections[partners[i]], beams);
     taken[partners[i]] = true;
-    moving[partners[i]] = !tracks_[i].standing;
+    moving[partners[i]] = !stands(track);
   }
   for (std::size_t j = 0; j < detections.size(); ++j) {
-    if (!taken[j]) begin(detections[j]);
+    if (taken[j]) continue;
+    begin(detections[j]);
+    moving[j] = !stands(tracks_.back());
   }
   join();
   tracks_.erase(
@@ -116,7 +124,7 @@ void ObstacleTracker::follow_turns(const std::vector<Detection>& detections,
   }
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Track& track = tracks_[i];
-    if (partners[i] >= 0 || track.id == 0) continue;
+    if (partners[i] >= 0 || track.id == 0 || stands(track)) continue;
     double nearest_m = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < detections.size(); ++j) {
       const double since_s = detections[j].time_s - track.seen_s;
@@ -136,15 +144,12 @@ void ObstacleTracker::follow_turns(const std::vector<Detection>& detections,
   }
 }
 
-void ObstacleTracker::see(Track& track, const Detection& detection) {
+void ObstacleTracker::see(Track& track, const Detection& detection,
+                          const std::vector<Beam>& beams) {
   track.filter.predict(detection.time_s, options_.acceleration_psd);
   const DiscFit seen = fit(detection, track.radius_m, track.unsteady_m);
   track.filter.update(seen.centre, seen.covariance);
-  const double growth_m = clamped_radius(detection) - track.radius_m;
-  if (!detection.is_hidden())
-    track.unsteady_m += kSettling * (std::abs(growth_m) - track.unsteady_m);
-  if (growth_m > 0.0) track.radius_m += kGrowth * growth_m;
-  if (growth_m < 0.0 && !detection.is_hidden()) track.radius_m += kShrinkage * growth_m;
+  resize(track, detection);
   if (detection.time_s >= track.seen_s) {
     track.seen_s = detection.time_s;
     track.seen_at = seen.centre;
@@ -152,13 +157,39 @@ void ObstacleTracker::see(Track& track, const Detection& detection) {
   track.missing = 0;
   track.hidden = false;
   track.is_seen = true;
-  if (++track.detections == options_.confirmation_hits) track.id = ++last_id_;
-  const double leeway_m = options_.standing_speed_mps * options_.standing_time_s;
-  if ((track.filter.position() - track.stood_at).norm() > leeway_m) {
-    track.stood_at = track.filter.position();
-    track.stood_since_s = detection.time_s;
+  track.has_come = detection.has_come;
+  track.leg_pairs += detection.legs == 2 ? 1 : 0;
+  ++track.detections;
+  if (!detection.is_continued && has_left(track.place, detection, seen.centre, beams)) {
+    ++track.departures;
+    track.place = {seen.centre, detection.hits};
+    track.arrived_s = detection.time_s;
   }
-  track.standing = detection.time_s - track.stood_since_s >= options_.standing_time_s;
+  const bool is_known = track.detections >= options_.confirmation_hits || is_mover(track);
+  if (track.id == 0 && is_known) track.id = ++last_id_;
+}
+
+void ObstacleTracker::resize(Track& track, const Detection& detection) const {
+  const double growth_m = clamped_radius(detection) - track.radius_m;
+  if (!detection.is_hidden())
+    track.unsteady_m += kSettling * (std::abs(growth_m) - track.unsteady_m);
+  if (growth_m > 0.0) track.radius_m += kGrowth * growth_m;
+  if (growth_m < 0.0 && !detection.is_hidden()) track.radius_m += kShrinkage * growth_m;
+}
+
+/// What is not sure to move is given the time in which something slow leaves its place.
+bool ObstacleTracker::stands(const Track& track) const {
+  const double slow_s = (2.0 * track.radius_m + kLeftBehind_m) / kSlow_mps;
+  return track.seen_s - track.arrived_s >=
+         (track.departures > 1 ? options_.standing_time_s : slow_s);
+}
+
+/// One place that seems to be left may be an error, as where another part of a thing is seen: that
+/// counts for a moment only.
+bool ObstacleTracker::is_mover(const Track& track) const {
+  if (track.leg_pairs >= kLegPairs) return true;
+  if (track.departures > 1) return !stands(track);
+  return track.departures == 1 && track.seen_s - track.arrived_s < kMoment_s;
 }
 
 void ObstacleTracker::miss(Track& track, const std::vector<Beam>& beams, double time_s) const {
@@ -167,27 +198,28 @@ void ObstacleTracker::miss(Track& track, const std::vector<Beam>& beams, double 
   const View view = view_of(beams, track.filter.position(), track.radius_m);
   if (view == View::kFree) ++track.missing;
   if (view != View::kUnseen) track.hidden = view == View::kHidden;
-  const bool known = track.id > 0;
   const double patience_s =
-      known && track.hidden ? options_.occlusion_timeout_s : options_.track_timeout_s;
-  track.lost = time_s - track.seen_s > patience_s || track.missing >= (known ? kMissingScans : 1) ||
-               (track.standing && view == View::kTaken);  // the map has it
+      track.id > 0 && track.hidden ? options_.occlusion_timeout_s : options_.track_timeout_s;
+  const int most_missing = track.leg_pairs > 0 ? kMissingLegs
+                           : track.id > 0      ? kMissingScans
+                                               : kMissingNew;
+  track.lost = time_s - track.seen_s > patience_s || track.missing >= most_missing;
 }
 
 void ObstacleTracker::begin(const Detection& detection) {
   const double radius_m = clamped_radius(detection);
   const DiscFit seen = fit(detection, radius_m, kUnsteady_m);
+  const double stood_s = detection.has_come ? 0.0 : options_.standing_time_s;
   Track track{0,
               {detection.time_s, seen.centre, seen.covariance, kFirstSpeed_mps},
               radius_m,
               kUnsteady_m,
-              1,
-              detection.time_s,
-              seen.centre,
-              0,
-              false,
-              seen.centre,
-              detection.time_s};
+              {seen.centre, detection.hits},
+              detection.time_s - stood_s,
+              detection.has_come,
+              detection.legs == 2 ? 1 : 0};
+  track.seen_s = detection.time_s;
+  track.seen_at = seen.centre;
   if (options_.confirmation_hits == 1) track.id = ++last_id_;
   tracks_.push_back(track);
 }
@@ -196,6 +228,7 @@ void ObstacleTracker::begin(const Detection& detection) {
 /// part, such as one leg, may be anywhere in the disc. What changes its size from scan to scan, as
 /// two legs do, is no disc to be fitted, but somewhere in its sector.
 DiscFit ObstacleTracker::fit(const Detection& detection, double radius_m, double unsteady_m) const {
+  if (detection.legs > 0) return fit_legs(detection);
   const bool hidden = detection.is_hidden();
   const double part_m = hidden ? radius_m : std::min(radius_m, clamped_radius(detection));
   const double part_noise_m = kPartNoise * (radius_m - part_m);
@@ -213,6 +246,7 @@ void ObstacleTracker::join() {
   for (Track& younger : tracks_) {
     for (const Track& older : tracks_) {
       if (older.lost || older.id == 0 || younger.id <= older.id) continue;
+      if (is_mover(younger) && !is_mover(older)) continue;
       const double apart_m = (younger.filter.position() - older.filter.position()).norm();
       if (apart_m < std::max(younger.radius_m, older.radius_m)) younger.lost = true;
     }
@@ -230,7 +264,8 @@ std::vector<TrackedObstacle> ObstacleTracker::at(double time_s) const {
     ConstantVelocityFilter filter = track.filter;
     filter.predict(time_s, options_.acceleration_psd);
     obstacles.push_back({track.id, time_s, filter.position(), filter.velocity(), track.radius_m,
-                         filter.covariance(), track.standing, track.is_seen, track.seen_at});
+                         filter.covariance(), is_mover(track), stands(track),
+                         stands(track) && !track.has_come, track.is_seen, track.seen_at});
   }
   return obstacles;
 }

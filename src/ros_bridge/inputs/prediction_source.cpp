@@ -48,10 +48,15 @@ void NewestPredictions::on_predictions(const mocha_ugv::PredictedObstacles& mess
   try {
     if (message.header.frame_id != frame_)
       throw std::invalid_argument("the frame is not " + frame_);
-    if (message.obstacles.size() > kMostObstacles)
+    if (message.obstacles.size() + message.tentative.size() > kMostObstacles)
       throw std::invalid_argument("more than " + std::to_string(kMostObstacles) + " obstacles");
     Predictions newest{message.header.stamp.toSec(), {}, spread_from(message)};
-    for (const auto& obstacle : message.obstacles) newest.things.push_back(from_message(obstacle));
+    for (const auto* obstacles : {&message.obstacles, &message.tentative}) {
+      for (const mocha_ugv::PredictedObstacle& obstacle : *obstacles) {
+        const PredictedThing thing = from_message(obstacle);
+        if (!obstacle.mapped) newest.things.push_back(thing);
+      }
+    }
     newest_ = std::move(newest);
     sensor_fault_ = message.fault;
     stamp_ = message.header.stamp;

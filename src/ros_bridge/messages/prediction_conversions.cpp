@@ -11,6 +11,7 @@ mocha_ugv::PredictedObstacle to_message(const TrackedObstacle& obstacle) {
   message.velocity.x = obstacle.velocity.x();
   message.velocity.y = obstacle.velocity.y();
   message.radius = obstacle.radius_m;
+  message.mapped = obstacle.is_mapped;
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column)
       message.covariance[4 * row + column] = obstacle.covariance(row, column);
@@ -41,7 +42,7 @@ mocha_ugv::PredictedObstacles to_message(const std::vector<TrackedObstacle>& obs
   message.header.stamp = stamp;
   message.header.frame_id = frame;
   for (const TrackedObstacle& obstacle : obstacles)
-    message.obstacles.push_back(to_message(obstacle));
+    (obstacle.is_mover ? message.obstacles : message.tentative).push_back(to_message(obstacle));
   message.ahead = spread.ahead_s;
   message.confidences = spread.confidences;
   message.deviations = row_by_row(spread.at);

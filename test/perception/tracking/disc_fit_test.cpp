@@ -85,5 +85,19 @@ TEST(DiscFit, WhatIsNoDiscTellsLess) {
   EXPECT_GT(scattered.covariance.trace(), 2.0 * disc.covariance.trace());
 }
 
+TEST(FitLegs, APersonIsBetweenTheLegs) {
+  Detection detection{};
+  detection.sensor = {0.0, 0.0};
+  for (const double y : {-0.17, -0.15, -0.13, 0.11, 0.13, 0.15, 0.17, 0.19})
+    detection.hits.push_back({3.0, y});
+  detection.legs = 2;
+  EXPECT_LT((fit_legs(detection).centre - Vector2(3.05, 0.0)).norm(), 1e-3);
+  const double two = fit_legs(detection).covariance.trace();
+  detection.legs = 1;
+  EXPECT_GT(fit_legs(detection).covariance.trace(), two) << "of one leg less is known";
+  detection.legs = 0;
+  EXPECT_THROW(fit_legs(detection), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace mocha

@@ -25,6 +25,8 @@ class Walkers {
                     {1.0, 0.0},
                     0.3,
                     Eigen::Vector4d(4e-4, 4e-4, 0.01, 0.01).asDiagonal(),
+                    true,
+                    false,
                     false,
                     true,
                     {3.0 * i, 0.0}};

@@ -7,9 +7,13 @@
 namespace mocha {
 namespace {
 
+TrackedObstacle mover(std::uint32_t id) {
+  return {id,   12.5,  {1.0, -2.0}, {0.5, 0.25}, 0.3,        Eigen::Matrix4d::Random(),
+          true, false, false,       true,        {1.0, -2.0}};
+}
+
 TEST(PredictionConversions, KeepEveryNumber) {
-  TrackedObstacle obstacle{7,     12.5, {1.0, -2.0}, {0.5, 0.25}, 0.3, Eigen::Matrix4d::Random(),
-                           false, true, {1.0, -2.0}};
+  const TrackedObstacle obstacle = mover(7);
   const auto message =
       to_message({obstacle, obstacle}, PredictionSpread::normal(), "map", ros::Time(12.5));
   EXPECT_EQ(message.header.frame_id, "map");
@@ -26,6 +30,20 @@ TEST(PredictionConversions, KeepEveryNumber) {
     for (int column = 0; column < 4; ++column)
       EXPECT_EQ(first.covariance[4 * row + column], obstacle.covariance(row, column));
   }
+}
+
+TEST(PredictionConversions, WhatMayMoveIsTentativeAndWhatTheMapHoldsIsSaidToBe) {
+  TrackedObstacle tentative = mover(1);
+  tentative.is_mover = false;
+  TrackedObstacle mapped = mover(2);
+  mapped.is_mapped = true;
+  const auto message =
+      to_message({tentative, mapped, mover(3)}, PredictionSpread::normal(), "map", ros::Time(12.5));
+  ASSERT_EQ(message.tentative.size(), 1u);
+  EXPECT_EQ(message.tentative[0].id, 1u);
+  ASSERT_EQ(message.obstacles.size(), 2u);
+  EXPECT_TRUE(message.obstacles[0].mapped);
+  EXPECT_FALSE(message.obstacles[1].mapped);
 }
 
 TEST(PredictionConversions, NothingIsAMessageToo) {
