@@ -1,6 +1,6 @@
 """How well perception's tracks follow the labelled people of a bag: CLEAR MOT.
 
-Runs perception over the laser scans of a bag in one process, and holds every thing that it tells (`predicted_obstacles`) against the labels:
+Runs perception over the laser scans of a bag in one process, and holds every mover that it tells (`obstacles` of `predicted_obstacles`) against the labels:
 geometry_msgs/PoseStamped with the stamp and frame of a scan, and the person's number in header.seq. Both are looked at where the labels' authors
 looked: between two bearings of the lidar (--sector), in every scan of the bag, so that what is told where nobody is labelled counts as false.
 A person and a thing belong together within 0.75 m. The first row is everything told, as hard as that; a row below it leaves out what its name

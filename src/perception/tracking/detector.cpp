@@ -7,8 +7,7 @@ namespace mocha {
 namespace {
 
 constexpr double kNotch_m = 0.15;  // between two things, in the ranges of the beams that hit them
-constexpr double kGoesOn_m =
-    0.3;  // a hit so near, of one of the next beams, is on the same surface
+constexpr double kGoesOn_m = 0.3;  // a hit so near is on the same surface, of the next beams
 constexpr int kNextBeams = 2;
 constexpr double kMost = 0.5;  // of the hits on a surface have come: it has
 
