@@ -6,7 +6,6 @@
 namespace mocha {
 namespace {
 
-constexpr double kNear_m = 0.2;          // what is so near to a former hit may be on the same thing
 constexpr double kFreeShare = 0.5;       // of the former hits that are passed
 constexpr std::size_t kMostHits = 8;     // that are looked at
 constexpr double kBesideBeam_m = 0.075;  // a beam so near to a place tells whether that is free
@@ -53,7 +52,7 @@ bool has_left(const SeenPlace& place, const Detection& now, const Vector2& centr
               const std::vector<Beam>& beams) {
   for (const Vector2& hit : now.hits) {
     for (const Vector2& former : place.hits) {
-      if ((hit - former).squaredNorm() < kNear_m * kNear_m) return false;
+      if ((hit - former).squaredNorm() < kDepartureGap_m * kDepartureGap_m) return false;
     }
   }
   return hides(now, centre, place.centre) || is_free(place.hits, beams);

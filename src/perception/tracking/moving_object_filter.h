@@ -25,10 +25,10 @@ struct MovingObjectFilterOptions {
 /// Parts the hits of planar scans into those on the map and those on moving things, and follows the
 /// latter.
 ///
-/// A hit may be on something that moves if it is where the map is sure to be free and neither a
-/// wall nor unseen space is near, or if it is on what is known and does not stand. What has not
-/// left its place for a while goes into the map, soon where it has never been seen to move, and is
-/// followed all the same.
+/// Hits have come where the map is sure to be free and neither a wall nor unseen space is near.
+/// They are kept out of the map until their thing has had the time to leave its place; what leaves
+/// it is kept out on, until it has stood for a while. What stands is mapped, and followed all the
+/// same.
 class MovingObjectFilter {
  public:
   /// Throws std::invalid_argument, naming the value and its range.

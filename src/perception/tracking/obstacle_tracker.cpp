@@ -26,9 +26,8 @@ constexpr int kMissingScans = 2;      // that see a known track's place free end
 constexpr int kMissingNew = 3;        // ... a new one's, of which the velocity is not known yet ...
 constexpr int kMissingLegs = 5;       // ... that of legs: beams pass between them
 constexpr int kLegPairs = 2;          // detections that look like two legs are a person's
-constexpr double kLeftBehind_m = 0.2;  // between a thing and the place that it has left
-constexpr double kSlow_mps = 0.7;
-constexpr double kMoment_s = 0.5;
+constexpr double kSlow_mps = 0.7;     // of what is given the time to leave its place
+constexpr double kMoment_s = 0.5;     // for which one place left makes a mover
 
 Eigen::Matrix2d square(double sigma_m) { return sigma_m * sigma_m * Eigen::Matrix2d::Identity(); }
 
@@ -179,9 +178,10 @@ void ObstacleTracker::resize(Track& track, const Detection& detection) const {
 
 /// What is not sure to move is given the time in which something slow leaves its place.
 bool ObstacleTracker::stands(const Track& track) const {
-  const double slow_s = (2.0 * track.radius_m + kLeftBehind_m) / kSlow_mps;
-  return track.seen_s - track.arrived_s >=
-         (track.departures > 1 ? options_.standing_time_s : slow_s);
+  const double slow_s = (2.0 * track.radius_m + kDepartureGap_m) / kSlow_mps;
+  const double given_s =
+      track.departures > 1 ? options_.standing_time_s : std::min(slow_s, options_.standing_time_s);
+  return track.seen_s - track.arrived_s >= given_s;
 }
 
 /// One place that seems to be left may be an error, as where another part of a thing is seen: that

@@ -99,4 +99,10 @@ class Watch {
   std::uniform_real_distribution<double> chance_{0.0, 1.0};
 };
 
+/// One scan from the origin of a room with some things in it.
+inline std::vector<Beam> scan_of(Room room, const std::vector<Room::Circle>& things) {
+  room.circles.insert(room.circles.end(), things.begin(), things.end());
+  return Watch(room).scan({});
+}
+
 }  // namespace mocha

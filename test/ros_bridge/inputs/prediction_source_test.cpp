@@ -106,6 +106,19 @@ struct NewestPredictionsTest : ::testing::Test {
   NewestPredictions predictions{"map"};
 };
 
+TEST_F(NewestPredictionsTest, WhatMayMoveIsKeptClearOfAndWhatTheMapHoldsIsLeftToIt) {
+  NewestPredictions predictions{"map"};
+  mocha_ugv::PredictedObstacle mapped = walker();
+  mapped.mapped = true;
+  mocha_ugv::PredictedObstacle tentative = walker();
+  tentative.id = 8;
+  auto message = seen({mapped});
+  message.tentative = {tentative};
+  predictions.on_predictions(message);
+  ASSERT_EQ(predictions.newest().things.size(), 1u);
+  EXPECT_EQ(predictions.newest().things[0].id, 8u);
+}
+
 TEST_F(NewestPredictionsTest, HasNothingAtFirst) {
   EXPECT_TRUE(predictions.newest().things.empty());
   EXPECT_TRUE(std::isinf(predictions.age_s(ros::Time(1.0))));
