@@ -10,6 +10,7 @@
 #include "safety/drive_piece.h"
 #include "safety/limit_search.h"
 #include "safety/worst_value.h"
+#include "trajectory/plane_vectors.h"
 
 namespace mocha {
 namespace {
@@ -77,7 +78,7 @@ Earliest first_break(const DrivePiece& before, const DrivePiece& after) {
   if (const Earliest first = first_jump(before, after)) return first;
   const Vector2 from = before.course.col(4);
   const Vector2 to = after.course.col(0);
-  const double aside = std::abs(from.x() * to.y() - from.y() * to.x());
+  const double aside = std::abs(cross(from, to));
   if (aside <= kHeadingJump_rad * from.dot(to)) return {};
   return {ViolatedTerm::kYawRate, 0.0, true};
 }

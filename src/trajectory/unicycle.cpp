@@ -1,13 +1,8 @@
 #include "trajectory/unicycle.h"
 
+#include "trajectory/plane_vectors.h"
+
 namespace mocha {
-namespace {
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-}  // namespace
 
 UnicycleState unicycle_state(int direction, const Eigen::Vector2d& velocity,
                              const Eigen::Vector2d& acceleration, const Eigen::Vector2d& jerk,

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "trajectory/plane_vectors.h"
+
 namespace mocha {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSmallestSide_m = 1e-6;
-
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 const Vector2& corner(const Polygon& polygon, std::size_t i) {
   return polygon.corners[i % polygon.corners.size()];

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "trajectory/plane_vectors.h"
+
 namespace mocha {
 namespace {
 
@@ -29,7 +31,7 @@ class Line {
   double distance_m(const Vector2& point) const {
     const Vector2 along = direction();
     const Vector2 off = point - centre();
-    return std::abs(along.x() * off.y() - along.y() * off.x());
+    return std::abs(cross(along, off));
   }
 
  private:
@@ -40,17 +42,13 @@ class Line {
 
 Vector2 course(const Beam& beam) { return (beam.end - beam.origin).head<2>(); }
 
-double angle_between_rad(const Vector2& a, const Vector2& b) {
-  return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
-}
-
 /// The wall where a sweep ends, going inwards from there.
 template <class Iterator>
 std::optional<BlindWall> wall_at(Iterator beam, Iterator last) {
   if (beam == last) return std::nullopt;
   const Vector2 outermost = course(*beam);
   while (beam != last && beam->kind != BeamEnd::kHit) ++beam;
-  if (beam == last || angle_between_rad(outermost, course(*beam)) > kOutermost_rad)
+  if (beam == last || std::abs(angle_between(outermost, course(*beam))) > kOutermost_rad)
     return std::nullopt;
   const Vector2 seen = course(*beam);
   const Vector2 end = beam->end.template head<2>();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trajectory/plane_vectors.h"
+
 namespace mocha {
 namespace {
 
@@ -19,7 +21,7 @@ bool is_passed(const Vector2& place, const std::vector<Beam>& beams) {
     const Vector2 ray = (beam.end - beam.origin).head<2>();
     const double length_m = ray.norm();
     const double along_m = to.dot(ray) / length_m;
-    const double off_m = std::abs(to.x() * ray.y() - to.y() * ray.x()) / length_m;
+    const double off_m = std::abs(cross(to, ray)) / length_m;
     if (!(along_m > 0.0 && off_m < kBesideBeam_m)) continue;  // also a length that is not finite
     if (length_m < along_m + kBeyond_m) return false;
     any = true;

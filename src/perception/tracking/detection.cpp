@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trajectory/plane_vectors.h"
+
 namespace mocha {
 namespace {
 
@@ -11,13 +13,6 @@ constexpr double kWidest_rad = 1.2;  // half a sector; wider ones are too near t
 constexpr double kNextBeams = 2.5;   // spacings; a hit farther away is no neighbour in the scan
 
 Vector2 ray(const Beam& beam) { return (beam.end - beam.origin).head<2>(); }
-
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// From a to b, counter-clockwise, between -pi and pi.
-double angle_between(const Vector2& a, const Vector2& b) {
-  return std::atan2(cross(a, b), a.dot(b));
-}
 
 /// Where one edge of a cluster is.
 struct Edge {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "trajectory/plane_vectors.h"
+
 namespace mocha {
 namespace {
 
@@ -17,11 +19,7 @@ constexpr int kMixed = 1;             // beams beside a segment that may have hi
 Vector2 ray(const Beam& beam) { return (beam.end - beam.origin).head<2>(); }
 
 /// Between the directions of two beams, without sign.
-double between_rad(const Beam& a, const Beam& b) {
-  const Vector2 u = ray(a);
-  const Vector2 v = ray(b);
-  return std::abs(std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)));
-}
+double between_rad(const Beam& a, const Beam& b) { return std::abs(angle_between(ray(a), ray(b))); }
 
 bool is_one_surface(const Beam& a, const Beam& b, double spacing_rad) {
   if (between_rad(a, b) > kNextBeams * spacing_rad) return false;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planning/candidates/start_maneuver.h"
+#include "trajectory/plane_vectors.h"
 #include "trajectory/stopping.h"
 
 namespace mocha {
@@ -111,8 +112,7 @@ bool GoalExecutive::has_to_brake(const Vector2& goal, const Motion& committed, d
   const Motion stop = brake(committed, now_s);
   const Vector2 velocity = stop.velocity(stop.start_time());
   const Vector2 way = goal - stop.end_pose().position;
-  const double across = velocity.x() * way.y() - velocity.y() * way.x();
-  return velocity.isZero() || std::abs(std::atan2(across, velocity.dot(way))) > kRollingStart_rad;
+  return velocity.isZero() || std::abs(angle_between(velocity, way)) > kRollingStart_rad;
 }
 
 // --- a step ---

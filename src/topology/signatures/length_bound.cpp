@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "trajectory/plane_vectors.h"
+
 namespace mocha {
 namespace {
 
@@ -11,8 +13,6 @@ using Vector2 = Eigen::Vector2d;
 
 constexpr int kProjections = 4;        // onto what is nearest
 constexpr double kOnSurface_m = 1e-6;  // no path comes as close
-
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 struct Ray {
   Vector2 origin;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trajectory/plane_vectors.h"
+
 namespace mocha {
 namespace {
 
@@ -33,7 +35,7 @@ double swept_turns(const TimedPath& path, const Tube<2>& tube, double from_s, do
   Vector2 last = position_at(path, from_s) - centre_at(tube, from_s);
   for (const double t : times) {
     const Vector2 relative = position_at(path, t) - centre_at(tube, t);
-    swept_rad += std::atan2(last.x() * relative.y() - last.y() * relative.x(), last.dot(relative));
+    swept_rad += angle_between(last, relative);
     last = relative;
   }
   return swept_rad / (2.0 * M_PI);
