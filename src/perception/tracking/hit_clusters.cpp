@@ -10,7 +10,11 @@
 namespace mocha {
 namespace {
 
+constexpr int kPassing = 2;  // beams in a row; one alone may be without return
+
 Vector2 end_of(const Beam& beam) { return beam.end.head<2>(); }
+
+double range_m(const Beam& beam) { return (beam.end - beam.origin).head<2>().norm(); }
 
 /// The root of a group, with the paths to it shortened.
 int root_of(std::vector<int>& parents, int i) {
@@ -49,6 +53,19 @@ std::vector<double> notches(const std::vector<double>& ranges_m) {
     before_m = std::min(before_m, ranges_m[i]);
   }
   return depths_m;
+}
+
+/// Whether beams pass between two neighbours of a cluster, `from` the first in the sweep.
+bool is_open_between(const std::vector<Beam>& beams, int from, int to, double notch_m) {
+  const int size = static_cast<int>(beams.size());
+  const double behind_m = std::max(range_m(beams[from]), range_m(beams[to])) + notch_m;
+  int passing = 0;
+  for (int i = (from + 1) % size; i != to; i = (i + 1) % size) {
+    const bool passes = beams[i].kind == BeamEnd::kMiss || range_m(beams[i]) > behind_m;
+    passing = passes ? passing + 1 : 0;
+    if (passing == kPassing) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -97,8 +114,12 @@ std::vector<BeamIndices> part_at_notches(const std::vector<Beam>& beams, const B
   if (cluster.empty()) return {};
   const BeamIndices ordered = in_order(beams, cluster);
   std::vector<double> ranges_m;
-  for (const int i : ordered) ranges_m.push_back((beams[i].end - beams[i].origin).head<2>().norm());
-  const std::vector<double> depths_m = notches(ranges_m);
+  for (const int i : ordered) ranges_m.push_back(range_m(beams[i]));
+  std::vector<double> depths_m = notches(ranges_m);
+  for (std::size_t i = 1; i < ordered.size(); ++i) {
+    if (is_open_between(beams, ordered[i - 1], ordered[i], notch_m))
+      depths_m[i] = std::numeric_limits<double>::infinity();
+  }
   const auto deepest = std::max_element(depths_m.begin(), depths_m.end());
   if (*deepest <= notch_m) return {cluster};
   const auto middle = ordered.begin() + (deepest - depths_m.begin());

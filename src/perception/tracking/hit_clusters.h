@@ -19,9 +19,9 @@ std::vector<BeamIndices> cluster_hits(const std::vector<Beam>& beams, const Beam
 std::vector<BeamIndices> part_cluster(const std::vector<Beam>& beams, const BeamIndices& cluster,
                                       const std::vector<Vector2>& centres);
 
-/// Parts a cluster at its deepest notch, and its parts again: where the ranges of its beams, in
-/// their order, jump by more than `notch_m`, or rise by more than that above what is nearest on
-/// either side, as they do between two discs and not along one.
+/// Parts a cluster at its deepest notch, and its parts again: where beams pass between its hits,
+/// and where the ranges of its beams, in their order, jump by more than `notch_m`, or rise by more
+/// than that above what is nearest on either side, as they do between two discs and not along one.
 std::vector<BeamIndices> part_at_notches(const std::vector<Beam>& beams, const BeamIndices& cluster,
                                          double notch_m);
 

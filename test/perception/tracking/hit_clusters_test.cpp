@@ -54,13 +54,16 @@ class Discs {
   Watch watch_;
 };
 
-TEST(PartAtNotches, PartsDiscsThatTouch) {
+TEST(PartAtNotches, PartsDiscsThatTouchOrNearlyDo) {
   const std::vector<std::vector<Circle>> scenes = {
       {{{3.0, -0.5}, 0.5}, {{3.0, 0.5}, 0.5}},                     // side by side
       {{{3.0, 0.0}, 0.5}, {{3.8, 0.8}, 0.5}},                      // one half behind the other
       {{{3.0, -1.0}, 0.5}, {{3.0, 0.0}, 0.5}, {{3.0, 1.0}, 0.5}},  // three in a row
       {{{-3.0, -0.5}, 0.5}, {{-3.0, 0.5}, 0.5}},                   // where the sweep begins
-      {{{-3.0, 0.2}, 0.5}, {{-3.6, 1.1}, 0.5}}};
+      {{{-3.0, 0.2}, 0.5}, {{-3.6, 1.1}, 0.5}},
+      // Not touching, and not round enough for their edges to be much farther away than their
+      // fronts.
+      {{{2.5, -0.9}, 0.25}, {{2.5, -0.3}, 0.25}, {{2.5, 0.3}, 0.25}, {{2.5, 0.9}, 0.25}}};
   for (const auto& scene : scenes) {
     const Discs discs(scene);
     SCOPED_TRACE(scene[0].centre.transpose());
@@ -90,6 +93,14 @@ TEST(PartAtNotches, LeavesOneDiscWhole) {
       EXPECT_EQ(parts[0], disc.hits);
     }
   }
+}
+
+TEST(PartAtNotches, ABeamWithoutReturnPartsNothing) {
+  Discs disc({{{2.5, 0.0}, 0.35}});
+  const int lost = disc.hits[disc.hits.size() / 2];
+  disc.beams[lost].kind = BeamEnd::kMiss;
+  disc.hits.erase(disc.hits.begin() + static_cast<std::ptrdiff_t>(disc.hits.size() / 2));
+  EXPECT_EQ(part_at_notches(disc.beams, disc.hits, 0.15).size(), 1u);
 }
 
 TEST(PartAtNotches, LeavesAWallWhole) {

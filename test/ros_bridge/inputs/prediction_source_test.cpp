@@ -107,7 +107,6 @@ struct NewestPredictionsTest : ::testing::Test {
 };
 
 TEST_F(NewestPredictionsTest, WhatMayMoveIsKeptClearOfAndWhatTheMapHoldsIsLeftToIt) {
-  NewestPredictions predictions{"map"};
   mocha_ugv::PredictedObstacle mapped = walker();
   mapped.mapped = true;
   mocha_ugv::PredictedObstacle tentative = walker();
