@@ -25,7 +25,7 @@ struct MovingObjectFilterOptions {
 /// Parts the hits of planar scans into those on the map and those on moving things, and follows the
 /// latter.
 ///
-/// Hits have come where the map is sure to be free and neither a wall nor unseen space is near.
+/// A hit has come if the map is sure to be free there, and neither a wall nor unseen space is near.
 /// They are kept out of the map until their thing has had the time to leave its place; what leaves
 /// it is kept out on, until it has stood for a while. What stands is mapped, and followed all the
 /// same.

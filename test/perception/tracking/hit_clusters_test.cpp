@@ -61,8 +61,7 @@ TEST(PartAtNotches, PartsDiscsThatTouchOrNearlyDo) {
       {{{3.0, -1.0}, 0.5}, {{3.0, 0.0}, 0.5}, {{3.0, 1.0}, 0.5}},  // three in a row
       {{{-3.0, -0.5}, 0.5}, {{-3.0, 0.5}, 0.5}},                   // where the sweep begins
       {{{-3.0, 0.2}, 0.5}, {{-3.6, 1.1}, 0.5}},
-      // Not touching, and not round enough for their edges to be much farther away than their
-      // fronts.
+      // Small, with space between them: no edge is much farther away than the next disc's front.
       {{{2.5, -0.9}, 0.25}, {{2.5, -0.3}, 0.25}, {{2.5, 0.3}, 0.25}, {{2.5, 0.9}, 0.25}}};
   for (const auto& scene : scenes) {
     const Discs discs(scene);
