@@ -9,12 +9,17 @@ namespace {
 constexpr double kNotch_m = 0.15;  // between two things, in the ranges of the beams that hit them
 constexpr double kGoesOn_m = 0.3;  // a hit so near is on the same surface, of the next beams
 constexpr int kNextBeams = 2;
-constexpr double kMost = 0.5;  // of the hits on a surface have come: it has
+constexpr double kMost = 0.5;  // of the hits on a surface or thing have come: it has
 
 std::vector<bool> mask_of(const BeamIndices& hits, std::size_t size) {
   std::vector<bool> mask(size, false);
   for (const int i : hits) mask[i] = true;
   return mask;
+}
+
+bool have_mostly_come(const BeamIndices& hits, const std::vector<bool>& has_come) {
+  const auto came = std::count_if(hits.begin(), hits.end(), [&](int i) { return has_come[i]; });
+  return static_cast<double>(came) > kMost * static_cast<double>(hits.size());
 }
 
 /// Whether something that has not come goes on beside a group of hits.
@@ -65,27 +70,31 @@ void add_legs(const std::vector<Beam>& beams, const std::vector<LegHits>& legs,
 std::vector<Detector::Thing> Detector::detect(const std::vector<Beam>& beams,
                                               const BeamIndices& came,
                                               const std::vector<TrackedObstacle>& known) const {
-  std::vector<TrackedObstacle> moving;
+  std::vector<TrackedObstacle> lively;
   std::vector<TrackedObstacle> still;
-  for (const TrackedObstacle& thing : known) (thing.stands ? still : moving).push_back(thing);
+  for (const TrackedObstacle& thing : known)
+    (thing.stands && !thing.is_mover ? still : lively).push_back(thing);
   const std::vector<ScanSegment> segments = scan_segments(beams);
   const std::vector<bool> has_come = mask_of(came, beams.size());
   const std::vector<bool> on_surface = on_large_surfaces(segments, has_come);
-  BeamIndices come_hits;
+  BeamIndices lively_hits;
   BeamIndices other_hits;
   for (int i = 0; i < static_cast<int>(beams.size()); ++i) {
     if (beams[i].kind != BeamEnd::kHit || !is_usable(beams[i]) || on_surface[i]) continue;
-    (has_come[i] ? come_hits : other_hits).push_back(i);
+    const bool is_lively = has_come[i] || is_on_standing_person(beams[i], lively);
+    (is_lively ? lively_hits : other_hits).push_back(i);
   }
-  const std::vector<bool> may_move = mask_of(come_hits, beams.size());
+  const std::vector<bool> may_move = mask_of(lively_hits, beams.size());
   std::vector<Thing> things;
-  const auto add = [&](const BeamIndices& group, bool come) {
+  const auto add = [&](BeamIndices group) {
+    std::sort(group.begin(), group.end());
     things.push_back({group, sight_disc(beams, group)});
-    things.back().detection.has_come = come;
-    things.back().detection.is_continued = is_continued(beams, group, may_move);
+    Detection& detection = things.back().detection;
+    detection.has_come = have_mostly_come(group, has_come);
+    detection.is_continued = is_continued(beams, group, may_move);
   };
-  for (const BeamIndices& group : come_things(beams, come_hits, moving)) add(group, true);
-  for (const BeamIndices& group : still_things(beams, other_hits, still)) add(group, false);
+  for (BeamIndices& group : lively_things(beams, lively_hits, lively)) add(std::move(group));
+  for (BeamIndices& group : still_things(beams, other_hits, still)) add(std::move(group));
   add_legs(beams, find_legs(beams, segments), things);
   return things;
 }
@@ -96,31 +105,37 @@ std::vector<bool> Detector::on_large_surfaces(const std::vector<ScanSegment>& se
   std::vector<bool> large(has_come.size(), false);
   for (const ScanSegment& segment : segments) {
     if (segment.width_m <= options_.extent_m) continue;
-    const auto came =
-        std::count_if(segment.hits.begin(), segment.hits.end(), [&](int i) { return has_come[i]; });
-    if (static_cast<double>(came) > kMost * static_cast<double>(segment.hits.size())) continue;
+    if (have_mostly_come(segment.hits, has_come)) continue;
     for (const int i : segment.hits) large[i] = true;
   }
   return large;
 }
 
-/// Clusters of hits that are small enough to move. Those within reach of a moving thing are one, as
+/// A person who stands, and whom the map may hold, sets off with one leg: both are one thing.
+bool Detector::is_on_standing_person(const Beam& beam,
+                                     const std::vector<TrackedObstacle>& lively) const {
+  return std::any_of(lively.begin(), lively.end(), [&](const TrackedObstacle& thing) {
+    return thing.stands && is_in_reach(beam, thing);
+  });
+}
+
+/// Clusters of hits that are small enough to move. Those within reach of a lively thing are one, as
 /// the legs of a walking person; one that several of these can reach is parted among them. What is
 /// too large for one thing may be several that are near to each other.
-std::vector<BeamIndices> Detector::come_things(const std::vector<Beam>& beams,
-                                               const BeamIndices& hits,
-                                               const std::vector<TrackedObstacle>& moving) const {
-  std::vector<BeamIndices> owned(moving.size());
+std::vector<BeamIndices> Detector::lively_things(const std::vector<Beam>& beams,
+                                                 const BeamIndices& hits,
+                                                 const std::vector<TrackedObstacle>& lively) const {
+  std::vector<BeamIndices> owned(lively.size());
   std::vector<BeamIndices> others;
   for (BeamIndices& cluster : cluster_hits(beams, hits, options_.gap_m)) {
     std::vector<std::size_t> owners;
     std::vector<Vector2> centres;
-    for (std::size_t k = 0; k < moving.size(); ++k) {
+    for (std::size_t k = 0; k < lively.size(); ++k) {
       const bool holds = std::any_of(cluster.begin(), cluster.end(),
-                                     [&](int i) { return is_in_reach(beams[i], moving[k]); });
+                                     [&](int i) { return is_in_reach(beams[i], lively[k]); });
       if (!holds) continue;
       owners.push_back(k);
-      centres.push_back(moving[k].position);
+      centres.push_back(lively[k].position);
     }
     if (owners.empty()) {
       others.push_back(std::move(cluster));
@@ -130,8 +145,8 @@ std::vector<BeamIndices> Detector::come_things(const std::vector<Beam>& beams,
     for (std::size_t k = 0; k < owners.size(); ++k)
       owned[owners[k]].insert(owned[owners[k]].end(), parts[k].begin(), parts[k].end());
   }
-  for (std::size_t k = 0; k < moving.size(); ++k) {
-    for (BeamIndices& rest : keep_to_reach(beams, moving[k], owned[k]))
+  for (std::size_t k = 0; k < lively.size(); ++k) {
+    for (BeamIndices& rest : keep_to_reach(beams, lively[k], owned[k]))
       others.push_back(std::move(rest));
   }
   for (const BeamIndices& other : others) {

@@ -12,12 +12,12 @@ struct DetectorOptions {
   double gap_m;     ///< hits that near to each other are on one thing
   int points;       ///< least hits of a thing
   double extent_m;  ///< larger things do not move
-  double reach_m;   ///< hits that near to a known thing that stands are on it
+  double reach_m;   ///< hits that near to a known thing that stands, and is no person, are on it
 };
 
 /// Finds what may move among the hits of a scan: what has come to where the map was free, what is
-/// known and stands, and what looks like legs. Surfaces that are too large to move are no things,
-/// and neither are parts of them.
+/// known and stands, and what looks like legs. Lively is what moves, or is a person, also one who
+/// stands. Surfaces that are too large to move are no things, and neither are parts of them.
 class Detector {
  public:
   explicit Detector(const DetectorOptions& options) : options_(options) {}
@@ -36,8 +36,9 @@ class Detector {
  private:
   std::vector<bool> on_large_surfaces(const std::vector<ScanSegment>& segments,
                                       const std::vector<bool>& has_come) const;
-  std::vector<BeamIndices> come_things(const std::vector<Beam>& beams, const BeamIndices& hits,
-                                       const std::vector<TrackedObstacle>& moving) const;
+  bool is_on_standing_person(const Beam& beam, const std::vector<TrackedObstacle>& lively) const;
+  std::vector<BeamIndices> lively_things(const std::vector<Beam>& beams, const BeamIndices& hits,
+                                         const std::vector<TrackedObstacle>& lively) const;
   std::vector<BeamIndices> still_things(const std::vector<Beam>& beams, const BeamIndices& hits,
                                         const std::vector<TrackedObstacle>& still) const;
   bool is_thing(const std::vector<Beam>& beams, const BeamIndices& group) const;

@@ -57,6 +57,19 @@ TEST(Detector, WhatStandsAndIsKnownIsFoundAgainThoughItHasNotCome) {
   EXPECT_LT((things[0].detection.centre(kOther.radius_m) - kOther.centre).norm(), 0.05);
 }
 
+TEST(Detector, APersonWhoStandsAndSetsOffWithOneLegIsOneThing) {
+  const Circle kStays{{2.0, 0.0}, 0.06};
+  const Circle kSetsOff{{2.0, 0.5}, 0.06};  // farther than legs stand apart
+  const auto beams = scan_of(Room(), {kStays, kSetsOff});
+  TrackedObstacle person = standing({{2.0, 0.2}, 0.3});
+  const BeamIndices came = hits_on(beams, {kSetsOff});
+  EXPECT_EQ(detector().detect(beams, came, {person}).size(), 2u) << "beside what is no person";
+  person.is_mover = true;
+  const auto things = detector().detect(beams, came, {person});
+  ASSERT_EQ(things.size(), 1u);
+  EXPECT_EQ(things[0].hits, hits_on(beams, {kStays, kSetsOff}));
+}
+
 TEST(Detector, PartsOfALargeSurfaceAreNoThings) {
   // A row of pillars without gaps, 2 m wide.
   std::vector<Circle> row;
