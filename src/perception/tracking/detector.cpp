@@ -86,15 +86,14 @@ std::vector<Detector::Thing> Detector::detect(const std::vector<Beam>& beams,
   }
   const std::vector<bool> may_move = mask_of(lively_hits, beams.size());
   std::vector<Thing> things;
-  const auto add = [&](BeamIndices group) {
-    std::sort(group.begin(), group.end());
+  const auto add = [&](const BeamIndices& group) {
     things.push_back({group, sight_disc(beams, group)});
     Detection& detection = things.back().detection;
     detection.has_come = have_mostly_come(group, has_come);
     detection.is_continued = is_continued(beams, group, may_move);
   };
-  for (BeamIndices& group : lively_things(beams, lively_hits, lively)) add(std::move(group));
-  for (BeamIndices& group : still_things(beams, other_hits, still)) add(std::move(group));
+  for (const BeamIndices& group : lively_things(beams, lively_hits, lively)) add(group);
+  for (const BeamIndices& group : still_things(beams, other_hits, still)) add(group);
   add_legs(beams, find_legs(beams, segments), things);
   return things;
 }
@@ -111,7 +110,8 @@ std::vector<bool> Detector::on_large_surfaces(const std::vector<ScanSegment>& se
   return large;
 }
 
-/// A person who stands, and whom the map may hold, sets off with one leg: both are one thing.
+/// Returns whether a hit is within reach of a known person who stands. The map may hold the leg
+/// that stays while the other one sets off.
 bool Detector::is_on_standing_person(const Beam& beam,
                                      const std::vector<TrackedObstacle>& lively) const {
   return std::any_of(lively.begin(), lively.end(), [&](const TrackedObstacle& thing) {
@@ -158,6 +158,7 @@ std::vector<BeamIndices> Detector::lively_things(const std::vector<Beam>& beams,
       owned.push_back(std::move(part));
   }
   const auto no_thing = [&](const BeamIndices& group) { return !is_thing(beams, group); };
+  for (BeamIndices& group : owned) std::sort(group.begin(), group.end());
   owned.erase(std::remove_if(owned.begin(), owned.end(), no_thing), owned.end());
   return owned;
 }
