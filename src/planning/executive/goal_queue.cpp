@@ -9,12 +9,13 @@ namespace {
 
 constexpr double kNearer_m = 0.1;
 constexpr double kElsewhere_m = 0.5;
+constexpr double kRounding_m = 1e-6;  // of a place that was searched
 
 }  // namespace
 
 GoalOptions GoalOptions::from(const ParameterTable& values) {
   return {values.number("goal_tolerance"), values.number("goal_yaw_tolerance"),
-          values.number("goal_timeout")};
+          values.number("goal_timeout"), values.number("goal_search_radius")};
 }
 
 void GoalQueue::set(std::deque<Goal> goals, double now_s) {
@@ -49,10 +50,12 @@ GoalQueue::Event GoalQueue::update(double now_s, const RobotState& state) {
   if (goals_.empty()) return Event::kNone;
   note_progress(now_s, state.pose.position);
   const Goal goal = current();
+  const bool counts =
+      (goal.position - asked().position).norm() <= options_.search_radius_m + kRounding_m;
   const bool there = (state.pose.position - goal.position).norm() <= options_.tolerance_m;
   const bool aligned = !goal.yaw_rad || std::abs(wrap_angle(*goal.yaw_rad - state.pose.yaw_rad)) <=
                                             options_.yaw_tolerance_rad;
-  if (there && aligned && stands(state)) {
+  if (counts && there && aligned && stands(state)) {
     goals_.pop_front();
     begin(now_s);
     return goals_.empty() ? Event::kAllReached : Event::kReached;

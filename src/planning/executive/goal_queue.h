@@ -12,7 +12,8 @@ namespace mocha {
 struct GoalOptions {
   double tolerance_m;
   double yaw_tolerance_rad;
-  double timeout_s;  ///< without progress
+  double timeout_s;        ///< without progress
+  double search_radius_m;  ///< so near to an occupied goal, a place counts for it
 
   /// Of config/global_planner.yaml.
   static GoalOptions from(const ParameterTable& values);
@@ -42,7 +43,8 @@ class GoalQueue {
   void wait(double now_s) { progress_s_ = now_s; }
   std::size_t remaining() const { return goals_.size(); }
 
-  /// Arrival is standing within the tolerances; then the next goal counts. Progress is coming
+  /// Arrival is standing within the tolerances, at the goal or at a place that counts for it; then
+  /// the next goal counts. Progress is coming
   /// nearer to the goal than ever, or being half a metre away from where the last progress was.
   /// After kAllReached and kTimedOut the queue is empty.
   Event update(double now_s, const RobotState& state);

@@ -51,18 +51,25 @@ GlobalPlanner::GlobalPlanner(RobotModel robot, const PlannerOptions& options)
       optimizer_(robot_, options_, MarginBudget::of(robot_).static_margin()),
       front_end_(robot_, options_) {}
 
-std::optional<Vector2> GlobalPlanner::free_goal(const Vector2& goal,
+std::optional<Vector2> GlobalPlanner::free_goal(const Vector2& goal, const Vector2& from,
                                                 const ObstacleField<2>& obstacles) const {
   constexpr double kStep_m = 0.05;
-  const double needed = front_end_.required_clearance_m();
-  for (double radius = 0.0; radius <= options_.goal_search_radius_m; radius += kStep_m) {
+  constexpr double kShare = 0.05;  // of the radius, where that is a longer step
+  constexpr double kShareOfWay = 0.25;
+  const double needed_m = front_end_.required_clearance_m();
+  // What was seen there from far may have gone, or be no wall, when the robot is near.
+  const double farthest_m =
+      std::max(options_.goal_search_radius_m, kShareOfWay * (goal - from).norm());
+  for (double radius_m = 0.0; radius_m <= farthest_m;) {
+    const double step_m = std::max(kStep_m, kShare * radius_m);
     const int directions =
-        radius == 0.0 ? 1 : std::max(8, static_cast<int>(2 * M_PI * radius / kStep_m));
+        radius_m == 0.0 ? 1 : std::max(8, static_cast<int>(2 * M_PI * radius_m / step_m));
     for (int i = 0; i < directions; ++i) {
       const double angle = 2 * M_PI * i / directions;
-      const Vector2 place = goal + radius * Vector2(std::cos(angle), std::sin(angle));
-      if (obstacles.distance_bound(place) >= needed) return place;
+      const Vector2 place = goal + radius_m * Vector2(std::cos(angle), std::sin(angle));
+      if (obstacles.distance_bound(place) >= needed_m) return place;
     }
+    radius_m += step_m;
   }
   return std::nullopt;
 }
@@ -157,7 +164,7 @@ PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scen
     return failure(PlanReason::kStartOccupied, "the robot at " + place(start.pose.position) +
                                                    " is inside an obstacle of the map");
   }
-  const auto goal = free_goal(query.goal, obstacles);
+  const auto goal = free_goal(query.goal, start.pose.position, obstacles);
   if (!goal) {
     return failure(PlanReason::kGoalOccupied, "the goal " + place(query.goal) +
                                                   " is occupied, and so is everything around it");
@@ -168,7 +175,11 @@ PlanResult GlobalPlanner::plan(const PlanQuery& query, const PlanningScene& scen
   const StaticMap& static_map = *scene.static_map;
   const bool may_reach = front_end_.may_reach(start.pose.position, *goal, static_map);
   if (may_reach) search(query, scene, *goal, result);
-  if (result.reason == PlanReason::kSolved) return result;
+  if (result.reason == PlanReason::kSolved) {
+    if (*goal != query.goal)
+      result.message += ", to " + place(*goal) + " near the goal, which is occupied";
+    return result;
+  }
   if (!result.candidates.empty() || query.should_stop()) return unless_stopped(query, result);
   if (may_reach && !scene.peers.empty() &&
       front_end_.reaches(start.pose.position, *goal, static_map, query.should_stop)) {

@@ -24,7 +24,10 @@ class GlobalPlanner {
  private:
   /// Why there is nothing to plan, if so.
   std::optional<PlanResult> refusal(const PlanQuery& query, const PlanningScene& scene) const;
-  std::optional<Vector2> free_goal(const Vector2& goal, const ObstacleField<2>& obstacles) const;
+  /// The goal, or the nearest free place around it, as far off as it may be for now; none where all
+  /// is occupied.
+  std::optional<Vector2> free_goal(const Vector2& goal, const Vector2& from,
+                                   const ObstacleField<2>& obstacles) const;
   /// What is in the way to a goal to which no path leads, in words.
   std::string obstruction(const Vector2& goal, const PlanQuery& query,
                           const StaticMap& static_map) const;

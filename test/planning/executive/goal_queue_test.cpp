@@ -17,7 +17,7 @@ RobotState at(double x, double yaw_rad = 0.0, double speed = 0.0, double yaw_rat
 Goal goal(double x, std::optional<double> yaw_rad = std::nullopt) { return {{x, 0.0}, yaw_rad}; }
 
 struct GoalQueueTest : ::testing::Test {
-  GoalQueue queue{GoalOptions{0.15, 0.2, 10.0}};
+  GoalQueue queue{GoalOptions{0.15, 0.2, 10.0, 0.4}};
 };
 
 TEST_F(GoalQueueTest, EmptyHasNothingToSay) {
@@ -45,8 +45,17 @@ TEST_F(GoalQueueTest, HeadingCountsWhereOneIsAskedForAndWrapsRound) {
 TEST_F(GoalQueueTest, NewRulesCountForTheGoalsThatAreThere) {
   queue.set({goal(5.0)}, 0.0);
   EXPECT_EQ(queue.update(1.0, at(4.5)), Event::kNone);
-  queue.set_options({0.6, 0.2, 10.0});
+  queue.set_options({0.6, 0.2, 10.0, 0.4});
   EXPECT_EQ(queue.update(2.0, at(4.5)), Event::kAllReached);
+}
+
+TEST_F(GoalQueueTest, APlaceFarFromAnOccupiedGoalIsNoArrival) {
+  queue.set({goal(5.0)}, 0.0);
+  queue.move_current({3.0, 0.0});
+  EXPECT_EQ(queue.update(1.0, at(3.0)), Event::kNone);
+  queue.move_current({4.6, 0.0});
+  EXPECT_EQ(queue.update(2.0, at(3.0)), Event::kNone);
+  EXPECT_EQ(queue.update(3.0, at(4.6)), Event::kAllReached);
 }
 
 TEST_F(GoalQueueTest, VisitsGoalsInOrder) {

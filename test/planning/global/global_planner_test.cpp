@@ -149,9 +149,22 @@ TEST_F(GlobalPlannerTest, OccupiedGoalIsReplacedByTheNearestFreePlace) {
   EXPECT_GT(off_m, 0.45);
 }
 
+/// As a crowd that will have moved on, or that was one of people and not a wall.
+TEST_F(GlobalPlannerTest, AnOccupiedGoalFarAwayIsApproached) {
+  OccupancyGrid grid = open_;
+  fill_disc(grid, {8.0, 0.0}, 1.0, OccupancyGrid::kOccupied);
+  const PlanQuery query = from_standing({0.0, 0.0}, 0.0, {8.0, 0.0});
+  const PlanResult far = plan(query, grid);
+  expect_certified(far, query, grid);
+  EXPECT_LT((far.motion.end_pose().position - query.goal).norm(), 0.25 * 8.0);
+  EXPECT_NE(far.message.find("near the goal, which is occupied"), std::string::npos) << far.message;
+  const PlanResult near = plan(from_standing({6.4, 0.0}, 0.0, {8.0, 0.0}), grid);
+  EXPECT_EQ(near.reason, PlanReason::kGoalOccupied) << near.message;
+}
+
 TEST_F(GlobalPlannerTest, GoalDeepInAWallIsOccupied) {
   OccupancyGrid grid = open_;
-  fill_disc(grid, {8.0, 0.0}, 1.5, OccupancyGrid::kOccupied);
+  fill_disc(grid, {8.0, 0.0}, 2.5, OccupancyGrid::kOccupied);
   const PlanResult result = plan(from_standing({0.0, 0.0}, 0.0, {8.0, 0.0}), grid);
   EXPECT_EQ(result.reason, PlanReason::kGoalOccupied);
   EXPECT_TRUE(result.motion.empty());
