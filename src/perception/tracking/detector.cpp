@@ -98,7 +98,8 @@ std::vector<Detector::Thing> Detector::detect(const std::vector<Beam>& beams,
   return things;
 }
 
-/// Not on those that have come: they may be things that are near to each other.
+/// Returns for each beam whether it hits a surface that is too large to move. Segments that have
+/// mostly come do not count: they may be several things that are near to each other.
 std::vector<bool> Detector::on_large_surfaces(const std::vector<ScanSegment>& segments,
                                               const std::vector<bool>& has_come) const {
   std::vector<bool> large(has_come.size(), false);
@@ -110,8 +111,8 @@ std::vector<bool> Detector::on_large_surfaces(const std::vector<ScanSegment>& se
   return large;
 }
 
-/// Returns whether a hit is within reach of a known person who stands. The map may hold the leg
-/// that stays while the other one sets off.
+/// Returns whether the beam hits a known person who stands, or close to one. Such a person may be
+/// in the map already; when it sets off, only the leg that moves looks new.
 bool Detector::is_on_standing_person(const Beam& beam,
                                      const std::vector<TrackedObstacle>& lively) const {
   return std::any_of(lively.begin(), lively.end(), [&](const TrackedObstacle& thing) {

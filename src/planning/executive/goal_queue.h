@@ -13,7 +13,7 @@ struct GoalOptions {
   double tolerance_m;
   double yaw_tolerance_rad;
   double timeout_s;        ///< without progress
-  double search_radius_m;  ///< so near to an occupied goal, a place counts for it
+  double search_radius_m;  ///< of an occupied goal; a place within it counts for the goal
 
   /// Of config/global_planner.yaml.
   static GoalOptions from(const ParameterTable& values);
@@ -44,9 +44,8 @@ class GoalQueue {
   std::size_t remaining() const { return goals_.size(); }
 
   /// Arrival is standing within the tolerances, at the goal or at a place that counts for it; then
-  /// the next goal counts. Progress is coming
-  /// nearer to the goal than ever, or being half a metre away from where the last progress was.
-  /// After kAllReached and kTimedOut the queue is empty.
+  /// the next goal counts. Progress is coming nearer to the goal than ever, or being half a metre
+  /// away from where the last progress was. After kAllReached and kTimedOut the queue is empty.
   Event update(double now_s, const RobotState& state);
 
  private:

@@ -24,8 +24,8 @@ class GlobalPlanner {
  private:
   /// Why there is nothing to plan, if so.
   std::optional<PlanResult> refusal(const PlanQuery& query, const PlanningScene& scene) const;
-  /// The goal, or the nearest free place around it, as far off as it may be for now; none where all
-  /// is occupied.
+  /// Returns the goal where that is free, else the nearest free place around it; none where all
+  /// within goal_search_radius of it, and within a quarter of the way to it, is occupied.
   std::optional<Vector2> free_goal(const Vector2& goal, const Vector2& from,
                                    const ObstacleField<2>& obstacles) const;
   /// What is in the way to a goal to which no path leads, in words.
