@@ -13,8 +13,6 @@ constexpr double kStand_s = 0.1;
 constexpr double kSameTime_s = 0.1;
 constexpr double kSamePlace_m = 0.02;
 
-bool turning(const Motion& motion, double t) { return motion.switch_time(t) != t; }
-
 /// A motion that brakes at least as hard has no need of another stop.
 bool stops_alike(const Motion& motion, const Motion& stop) {
   return motion.end_time() <= stop.end_time() + kSameTime_s &&
@@ -26,8 +24,7 @@ bool stops_alike(const Motion& motion, const Motion& stop) {
 Motion stop_at_lease_end(const Motion& motion, double lease_end_s, double now_s,
                          const Braking& braking) {
   const double t = motion.clean_cut(std::max(lease_end_s, now_s - kNoticedAfter_s));
-  if (t < motion.start_time() || turning(motion, t))
-    return Motion(t, {StandPhase{motion.at(t).pose, kStand_s}});
+  if (t < motion.start_time()) return Motion(t, {StandPhase{motion.at(t).pose, kStand_s}});
   return with_brake(motion, t, t, braking);
 }
 

@@ -26,7 +26,7 @@ struct Lease {
 
 /// What a robot does on `motion` once its lease has ended: from `lease_end_s` on (absolute; at most
 /// 0.1 s before `now_s`, where that was noticed late) it brakes along its path. A turn in place is
-/// broken off, and what has not begun does not begin.
+/// ended as well, and what has not begun does not begin.
 Motion stop_at_lease_end(const Motion& motion, double lease_end_s, double now_s,
                          const Braking& braking);
 

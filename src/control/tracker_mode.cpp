@@ -16,7 +16,6 @@ constexpr Transition kTransitions[] = {
     {M::kIdle, E::kAdopted, M::kTracking},
 
     {M::kTracking, E::kLeaseExpired, M::kBraking},
-    {M::kTracking, E::kLeaseExpiredInTurn, M::kErrorBraking},
     {M::kTracking, E::kStrayed, M::kErrorBraking},
     {M::kTracking, E::kPoseLost, M::kStale},
     {M::kTracking, E::kArrived, M::kHolding},
@@ -31,7 +30,6 @@ constexpr Transition kTransitions[] = {
     // Blind and without a lease, it has to stay where it stopped: the path is no longer promised
     // when the pose is back.
     {M::kStale, E::kLeaseExpired, M::kErrorBraking},
-    {M::kStale, E::kLeaseExpiredInTurn, M::kErrorBraking},
     {M::kStale, E::kPoseBack, M::kTracking},
 
     {M::kHolding, E::kAdopted, M::kTracking},

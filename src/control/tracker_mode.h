@@ -16,9 +16,8 @@ enum class TrackerMode {
 
 enum class TrackerEvent {
   kAdopted,       ///< a new committed motion that fits the actual pose was taken up
-  kLeaseExpired,  ///< while the motion drives
-  kLeaseExpiredInTurn,
-  kStrayed,  ///< the tracking error is beyond its bound
+  kLeaseExpired,  ///< while the motion moves
+  kStrayed,       ///< the tracking error is beyond its bound
   kPoseLost,
   kPoseBack,
   kArrived,  ///< the motion has ended

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
+#include "trajectory/splice.h"
 #include "world/margin_budget.h"
 
 namespace mocha {
@@ -28,22 +28,6 @@ void require_positive(double value, const char* name) {
   if (value > 0.0 && std::isfinite(value)) return;
   throw std::invalid_argument(
       format("TrajectoryTracker: %s = %g, expected a positive number", name, value));
-}
-
-/// `current` until `next` begins, then `next`. Throws std::invalid_argument where the one does not
-/// lead to the other.
-Motion join(const Motion& current, const Motion& next, double t) {
-  double from = std::max(t, current.start_time());
-  for (std::size_t i = 0; i < current.phases().size(); ++i) {
-    const double begin = current.phase_start_time(static_cast<int>(i));
-    const double end = begin + duration_s(current.phases()[i]);
-    if (begin <= from && from < end) from = begin;  // turns in place cannot be cut
-  }
-  std::vector<Phase> phases = current.phases_between(from, next.start_time());
-  const double rest = next.start_time() - std::max(from, current.end_time());
-  if (rest > 0.0) phases.emplace_back(StandPhase{current.end_pose(), rest});
-  phases.insert(phases.end(), next.phases().begin(), next.phases().end());
-  return Motion(from, std::move(phases));
 }
 
 }  // namespace
@@ -142,11 +126,11 @@ void TrajectoryTracker::take_up_offer(double t, const Pose& pose, double speed) 
                    start_speed);
     }
     if (!active_.motion.empty()) {
-      try {
-        next.motion = join(active_.motion, next.motion, t);
+      MotionOrFault joined = splice(active_.motion, t, next.motion.start_time(), next.motion);
+      // Where it is no continuation, it has to start from rest, where the robot stands.
+      if (joined) {
+        next.motion = std::move(joined.motion);
         why.clear();
-      } catch (const std::invalid_argument&) {
-        // Not a continuation: then it has to start from rest, where the robot stands.
       }
     }
   }
@@ -204,8 +188,7 @@ void TrajectoryTracker::update_mode(double t, const std::optional<Pose>& pose) {
   // Before the pose may come back: a robot that stopped blind does not set off under an expired
   // lease.
   if (t > active_.lease_end_s && !stands(t)) {
-    const bool turning = active_.motion.switch_time(t) != t;
-    handle(turning ? TrackerEvent::kLeaseExpiredInTurn : TrackerEvent::kLeaseExpired, t,
+    handle(TrackerEvent::kLeaseExpired, t,
            format("the lease ended %.2f s ago", t - active_.lease_end_s));
   }
   if (!pose) {

@@ -71,33 +71,20 @@ struct DriveArc : CurveArc<2, 5> {
   }
 };
 
-/// An interval of a turn in place, by normalised time.
-struct TurnArc {
-  const TurnPhase* turn;
-  double u0;
-  double u1;
-  double start_s;
-  double duration_s;
+/// An interval of a turn in place: how its heading changes.
+struct TurnArc : CurveArc<1, 5> {
+  Pose start;
 
   std::pair<TurnArc, TurnArc> halves() const {
-    const double half = 0.5 * duration_s;
-    const double middle = 0.5 * (u0 + u1);
-    return {{turn, u0, middle, start_s, half}, {turn, middle, u1, start_s + half, half}};
+    const auto parts = CurveArc::halves();
+    return {{parts.first, start}, {parts.second, start}};
   }
 
   Sweep sweep(const TurnArc& second_half) const {
-    const double middle = progress(second_half.u0);
-    const double yaw = turn->start.yaw_rad + turn->yaw_change_rad * middle;
-    const double part = std::max(middle - progress(u0), progress(u1) - middle);
-    return {turn->start.position,
-            {std::cos(yaw), std::sin(yaw)},
-            0.0,
-            part * std::abs(turn->yaw_change_rad),
-            0.0,
-            0.0};
+    const auto turned = CurveArc::sweep(second_half);
+    const double yaw = start.yaw_rad + turned.place[0];
+    return {start.position, {std::cos(yaw), std::sin(yaw)}, 0.0, turned.travel_m, 0.0, 0.0};
   }
-
-  static double progress(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
 };
 
 /// What has to stay clear of what.
@@ -150,8 +137,11 @@ std::optional<double> first_contact(const Motion& motion, int phase, const Keepo
   const Phase& what = motion.phases()[phase];
   if (const auto* turn = std::get_if<TurnPhase>(&what)) {
     const double u = std::clamp((from_s - start) / turn->duration_s, 0.0, 1.0);
-    const double left = (1.0 - u) * turn->duration_s;
-    return first_unclear(TurnArc{turn, u, 1.0, start + turn->duration_s - left, left}, keepout);
+    const double left_s = (1.0 - u) * turn->duration_s;
+    const TurnArc arc{
+        {split(yaw_change(*turn), u).second, start + turn->duration_s - left_s, left_s},
+        turn->start};
+    return first_unclear(arc, keepout);
   }
   if (const auto* stand = std::get_if<StandPhase>(&what)) {
     return keepout.clear(stand->pose) ? std::nullopt : std::make_optional(std::max(start, from_s));

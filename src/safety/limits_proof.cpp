@@ -103,27 +103,20 @@ Earliest first_violation(const DrivePiece& piece, const MotionLimits& limits) {
 /// Turns in place: rate and acceleration of the quintic profile are polynomials too. `u` is where
 /// the check begins.
 Earliest first_violation(const TurnPhase& turn, const MotionLimits& limits, double u) {
-  const double change = std::abs(turn.yaw_change_rad);
   const double tau = turn.duration_s;
-  Bernstein<1, 4> rate;
-  rate << 0.0, 0.0, 5.0 * change, 0.0, 0.0;  // 30 u^2 (1 - u)^2
+  const Bernstein<1, 4> rate = derivative(yaw_change(turn));
   const Bernstein<1, 3> acceleration = derivative(rate);
   Earliest first;
   const auto check = [&](ViolatedTerm term, auto excess, double limit) {
     excess.array() -= kLimitSlack * limit;
     first.consider(term, first_positive(split(excess, u).second));
   };
-  check(ViolatedTerm::kYawRate, rate, limits.max_yaw_rate * tau);
-  check(ViolatedTerm::kAcceleration, acceleration, limits.max_yaw_acceleration * tau * tau);
-  check(ViolatedTerm::kAcceleration, Bernstein<1, 3>(-acceleration),
-        limits.max_yaw_acceleration * tau * tau);
+  for (const double side : {1.0, -1.0}) {
+    check(ViolatedTerm::kYawRate, Bernstein<1, 4>(side * rate), limits.max_yaw_rate * tau);
+    check(ViolatedTerm::kAcceleration, Bernstein<1, 3>(side * acceleration),
+          limits.max_yaw_acceleration * tau * tau);
+  }
   return first;
-}
-
-double yaw_acceleration(const TurnPhase& turn, double t) {
-  const double u = std::clamp(t / turn.duration_s, 0.0, 1.0);
-  return turn.yaw_change_rad * 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) /
-         (turn.duration_s * turn.duration_s);
 }
 
 double limit_of(ViolatedTerm term, bool in_turn, const MotionLimits& limits) {
@@ -157,7 +150,7 @@ Violation report(const Motion& motion, int phase, const MotionLimits& limits, co
       return state.velocity.norm() + 0.5 * limits.track_m * std::abs(state.yaw_rate);
     }
     if (!turn) return state.acceleration.norm();
-    return std::abs(yaw_acceleration(*turn, when - motion.phase_start_time(phase)));
+    return std::abs(state_of(*turn, when - motion.phase_start_time(phase)).rates.yaw_acceleration);
   };
   Violation violation;
   violation.term = term;

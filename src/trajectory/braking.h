@@ -8,13 +8,18 @@ namespace mocha {
 class Braking {
  public:
   /// `deceleration` [m/s^2]: along the path, at most. `max_acceleration` [m/s^2]: along and across
-  /// the path together; without it, bends change nothing. Throws std::invalid_argument for a
-  /// deceleration that is not positive and finite, and a limit that is not positive.
+  /// the path together; without it, bends change nothing. `yaw_deceleration` [rad/s^2]: of turns in
+  /// place, at least; they are ended about as hard as they are turned in any case, and what peers
+  /// are told does not hold it, as it moves no disc. Throws std::invalid_argument for a
+  /// deceleration that is not positive and finite, a limit that is not positive, and a yaw
+  /// deceleration that is negative or not finite.
   explicit Braking(double deceleration,
-                   double max_acceleration = std::numeric_limits<double>::infinity());
+                   double max_acceleration = std::numeric_limits<double>::infinity(),
+                   double yaw_deceleration = 0.0);
 
   double deceleration() const { return deceleration_; }
   double max_acceleration() const { return max_acceleration_; }
+  double yaw_deceleration() const { return yaw_deceleration_; }
 
   /// What is left for braking beside `lateral` [m/s^2] across the path; at least a quarter of the
   /// deceleration, so that the robot slows down in the sharpest bend, too.
@@ -29,6 +34,7 @@ class Braking {
  private:
   double deceleration_;
   double max_acceleration_;
+  double yaw_deceleration_;
 };
 
 }  // namespace mocha

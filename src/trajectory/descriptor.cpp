@@ -22,6 +22,8 @@ PhaseDescriptor describe_phase(const TurnPhase& turn) {
   phase.kind = PhaseDescriptor::Kind::kTurn;
   phase.yaw_start_rad = turn.start.yaw_rad;
   phase.yaw_change_rad = turn.yaw_change_rad;
+  phase.start_rates = turn.from;
+  phase.end_rates = turn.to;
   phase.durations_s = {turn.duration_s};
   phase.points = {turn.start.position};
   return phase;
@@ -102,7 +104,8 @@ Phase rebuild_phase(const PhaseDescriptor& phase) {
   const Pose pose{phase.points[0], phase.yaw_start_rad};
   if (phase.kind == PhaseDescriptor::Kind::kTurn) {
     require(phase.durations_s[0] > 0.0, "a turn takes no time");
-    return TurnPhase{pose, phase.yaw_change_rad, phase.durations_s[0]};
+    return TurnPhase{pose, phase.yaw_change_rad, phase.durations_s[0], phase.start_rates,
+                     phase.end_rates};
   }
   return StandPhase{pose, phase.durations_s[0]};
 }

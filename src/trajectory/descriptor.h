@@ -15,6 +15,8 @@ struct PhaseDescriptor {
   int direction = 0;                ///< kDrive: +1 or -1
   double yaw_start_rad = 0.0;       ///< kTurn, kStand
   double yaw_change_rad = 0.0;      ///< kTurn
+  TurnRates start_rates = {};       ///< kTurn
+  TurnRates end_rates = {};         ///< kTurn
   std::vector<double> durations_s;  ///< kDrive: one a piece; otherwise one
   std::vector<Vector2> points;      ///< kDrive: start, interior knots, end; otherwise one
   Eigen::Matrix<double, 2, 2> start_derivatives =

@@ -13,27 +13,23 @@
 namespace mocha {
 namespace {
 
-constexpr double kRestSpeed = 1e-4;  // [m/s] slower is rest
+constexpr double kRestSpeed = 1e-4;    // [m/s] slower is rest
+constexpr double kRestYawRate = 1e-4;  // [rad/s] the same of turns
 constexpr double kLeastSpeed =
     1e-6;  // [m/s] below, the direction of the velocity is rounding noise
 constexpr double kRestAcceleration = 1e-3;  // [m/s^2] likewise
 constexpr double kRestJerk = 1e-3;          // [m/s^3] likewise
 constexpr double kLargest = 1e12;           // [m], [m/s^2] beyond, squares soon overflow
+constexpr double kSameYawRate = 0.01;       // [rad/s]
 constexpr double kSliver_s = 2e-3;
-constexpr double kForRounding = 1.001;  // a message that rounds a turn keeps it within its limits
 constexpr double kShortestPhase_s = 1e-5;  // shorter parts of a phase are dropped when cutting
 
-/// Progress of a quintic turn and its rate, u in [0, 1].
-double turn_progress(double u) { return u * u * u * (10.0 + u * (6.0 * u - 15.0)); }
-double turn_progress_rate(double u) { return 30.0 * u * u * (1.0 - u) * (1.0 - u); }
-
 MotionState state_in(const TurnPhase& turn, double t) {
-  const double u = std::clamp(t / turn.duration_s, 0.0, 1.0);
+  const TurnState at = state_of(turn, t);
   MotionState state;
-  state.pose.position = turn.start.position;
-  state.pose.yaw_rad = wrap_angle(turn.start.yaw_rad + turn.yaw_change_rad * turn_progress(u));
-  state.yaw_rate = turn.yaw_change_rad * turn_progress_rate(u) / turn.duration_s;
-  state.at_rest = u <= 0.0 || u >= 1.0;
+  state.pose = {turn.start.position, at.yaw_rad};
+  state.yaw_rate = at.rates.yaw_rate;
+  state.at_rest = std::abs(state.yaw_rate) < kRestYawRate;
   return state;
 }
 
@@ -72,7 +68,8 @@ MotionState standing(const MotionState& state) {
 
 bool finite(const MotionState& state) {
   return state.pose.position.allFinite() && std::isfinite(state.pose.yaw_rad) &&
-         state.velocity.allFinite() && state.acceleration.allFinite();
+         std::isfinite(state.yaw_rate) && state.velocity.allFinite() &&
+         state.acceleration.allFinite();
 }
 
 /// Whether a path is; `box` is made to hold it.
@@ -90,6 +87,16 @@ bool finite(const PlanarPath& path, Eigen::AlignedBox2d& box) {
   return true;
 }
 
+/// The yaw rate of a turn in place at its ends [rad/s]; 0 of anything else.
+double turned_at_start(const Phase& phase) {
+  const auto* turn = std::get_if<TurnPhase>(&phase);
+  return turn != nullptr ? turn->from.yaw_rate : 0.0;
+}
+double turned_at_end(const Phase& phase) {
+  const auto* turn = std::get_if<TurnPhase>(&phase);
+  return turn != nullptr ? turn->to.yaw_rate : 0.0;
+}
+
 void require(bool condition, const std::string& what) {
   if (!condition) throw std::invalid_argument("Motion: " + what);
 }
@@ -99,13 +106,6 @@ void require(bool condition, const std::string& what) {
 double wrap_angle(double angle_rad) {
   const double wrapped = std::remainder(angle_rad, 2.0 * M_PI);
   return wrapped <= -M_PI ? M_PI : wrapped;
-}
-
-double turn_duration_s(double yaw_change_rad, double max_yaw_rate, double max_yaw_acceleration) {
-  // Peaks of the quintic: rate 15/8 change/T at the middle, acceleration 10/sqrt(3) change/T^2.
-  const double change = kForRounding * std::abs(yaw_change_rad);
-  return std::max(1.875 * change / max_yaw_rate,
-                  std::sqrt(10.0 / std::sqrt(3.0) * change / max_yaw_acceleration));
 }
 
 double duration_s(const Phase& phase) {
@@ -149,10 +149,10 @@ const char* describe(MotionFault fault) {
       return "jumps in heading between phases";
     case MotionFault::kVelocityJump:
       return "jumps in velocity between phases";
+    case MotionFault::kYawRateJump:
+      return "jumps in yaw rate where a turn in place begins or ends";
     case MotionFault::kMoves:
       return "does not end at rest";
-    case MotionFault::kCutTurn:
-      return "a turn in place cannot be cut";
   }
   return "unknown";
 }
@@ -183,7 +183,9 @@ MotionFault Motion::index() {
     phase_starts_.push_back(phase_starts_.back() + mocha::duration_s(phases_[i]));
   }
   const MotionState end = state_in(phases_.back(), mocha::duration_s(phases_.back()));
-  return end.velocity.norm() <= 1e-3 ? MotionFault::kNone : MotionFault::kMoves;
+  const bool rests =
+      end.velocity.norm() <= 1e-3 && std::abs(turned_at_end(phases_.back())) <= kSameYawRate;
+  return rests ? MotionFault::kNone : MotionFault::kMoves;
 }
 
 MotionFault Motion::index_phase(std::size_t i) {
@@ -203,8 +205,10 @@ MotionFault Motion::index_phase(std::size_t i) {
   if ((before.pose.position - begin.pose.position).norm() > 1e-3) return MotionFault::kPositionJump;
   if (std::abs(wrap_angle(before.pose.yaw_rad - begin.pose.yaw_rad)) > 0.01)
     return MotionFault::kHeadingJump;
-  return (before.velocity - begin.velocity).norm() <= 0.01 ? MotionFault::kNone
-                                                           : MotionFault::kVelocityJump;
+  if ((before.velocity - begin.velocity).norm() > 0.01) return MotionFault::kVelocityJump;
+  return std::abs(turned_at_end(phases_[i - 1]) - turned_at_start(phase)) <= kSameYawRate
+             ? MotionFault::kNone
+             : MotionFault::kYawRateJump;
 }
 
 double Motion::end_time() const { return phases_.empty() ? start_time_s_ : phase_starts_.back(); }
@@ -250,23 +254,14 @@ double Motion::length_m() const {
 }
 
 double Motion::switch_time(double t) const {
-  if (phases_.empty() || t <= start_time_s_ || t >= end_time()) return t;
-  const int i = phase_at(t);
-  const bool turning = std::holds_alternative<TurnPhase>(phases_[i]);
-  return turning && t > phase_starts_[i] + kShortestPhase_s ? phase_starts_[i + 1] : t;
-}
-
-double Motion::cut_time(double t) const {
-  if (phases_.empty() || t <= start_time_s_ || t >= end_time()) return t;
-  const int i = phase_at(t);
-  return std::holds_alternative<TurnPhase>(phases_[i]) ? phase_starts_[i] : t;
-}
-
-bool Motion::can_be_cut(double t) const {
-  if (phases_.empty() || t <= start_time_s_ || t >= end_time()) return true;
-  const int i = phase_at(t);
-  return !std::holds_alternative<TurnPhase>(phases_[i]) ||
-         t - phase_starts_[i] < kShortestPhase_s || phase_starts_[i + 1] - t < kShortestPhase_s;
+  if (phases_.empty() || t <= start_time_s_) return t;
+  for (int i = phase_at(t); t < end_time(); ++i) {
+    const bool turns = std::holds_alternative<TurnPhase>(phases_[i]);
+    if (!turns || (t - phase_starts_[i] <= kShortestPhase_s && turned_at_start(phases_[i]) == 0.0))
+      return t;
+    t = phase_starts_[i + 1];
+  }
+  return t;
 }
 
 double Motion::clean_cut(double t) const {
@@ -292,9 +287,8 @@ std::vector<Phase> Motion::phases_between(double t0, double t1) const {
       parts.push_back(StandPhase{stand->pose, to - from});
     } else {
       const auto& turn = std::get<TurnPhase>(phases_[i]);
-      require(to - from > turn.duration_s - 2.0 * kShortestPhase_s,
-              "a turn in place cannot be cut");
-      parts.push_back(turn);
+      const bool all = to - from > whole - 2.0 * kShortestPhase_s;
+      parts.push_back(all ? turn : part_of(turn, from, to));
     }
   }
   return parts;

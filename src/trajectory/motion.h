@@ -5,22 +5,9 @@
 #include <vector>
 
 #include "trajectory/piecewise_polynomial.h"
+#include "trajectory/turn_phase.h"
 
 namespace mocha {
-
-/// Position [m] and heading [rad] in the map frame.
-struct Pose {
-  Vector2 position = Vector2::Zero();
-  double yaw_rad = 0.0;
-};
-
-/// Turn in place, from rest to rest, with a quintic heading profile. Positive change is
-/// counter-clockwise.
-struct TurnPhase {
-  Pose start;
-  double yaw_change_rad;
-  double duration_s;
-};
 
 /// Drive along a polynomial; the heading is that of the velocity (direction +1) or its opposite
 /// (-1).
@@ -60,8 +47,8 @@ enum class MotionFault {
   kPositionJump,  ///< of more than 1 mm between phases
   kHeadingJump,   ///< of more than 0.01 rad between phases
   kVelocityJump,  ///< of more than 0.01 m/s between phases
+  kYawRateJump,   ///< of a turn in place, of more than 0.01 rad/s where it begins or ends
   kMoves,         ///< does not end at rest
-  kCutTurn,       ///< a turn in place would be cut
 };
 
 /// In words.
@@ -75,8 +62,8 @@ class Motion {
  public:
   Motion() = default;
   /// Throws std::invalid_argument without phases, with values that are not finite (or positions and
-  /// accelerations of a drive beyond 1e12), with a jump between phases (more than 1 mm, 0.01 rad or
-  /// 0.01 m/s), or if the motion does not end at rest.
+  /// accelerations of a drive beyond 1e12), with a jump between phases (more than 1 mm, 0.01 rad,
+  /// 0.01 m/s or, in turns, 0.01 rad/s), or if the motion does not end at rest.
   Motion(double start_time_s, std::vector<Phase> phases);
 
   /// The same without throwing; where the phases make no motion, it is empty and the fault says
@@ -99,25 +86,17 @@ class Motion {
   /// Holds every place that the motion comes to [m]; a little more than is needed.
   const Eigen::AlignedBox2d& box() const { return box_; }
 
-  /// The first time >= t at which another motion can take over: t itself while driving or standing,
-  /// else the end of the turn in place that is under way.
+  /// The first time >= t at which no turn in place is under way: t itself while driving or
+  /// standing, else the end of the turn.
   double switch_time(double t) const;
-
-  /// The last time <= t at which the motion can be cut: t itself, or the start of the turn in place
-  /// that is under way.
-  double cut_time(double t) const;
 
   /// t, or the boundary between two phases that is less than 2 ms away: what a cut at t would leave
   /// of a phase is too short to be told in the numbers of a message.
   double clean_cut(double t) const;
 
   /// The phases between absolute times t0 and t1 (clamped); empty where t1 <= t0. Used to compose
-  /// motions. Turns in place are never cut: t0 and t1 must be switch times, or
-  /// std::invalid_argument is thrown.
+  /// motions.
   std::vector<Phase> phases_between(double t0, double t1) const;
-
-  /// Whether phases_between() can begin or end at absolute time t: no turn in place is under way.
-  bool can_be_cut(double t) const;
 
  private:
   MotionFault index();
@@ -139,12 +118,5 @@ struct MotionOrFault {
 
 /// Heading of a drive phase at time t within it; continuous through points of rest at its ends.
 double heading(const DrivePhase& drive, double t);
-
-/// Duration of the quintic turn by `yaw_change_rad` within the limits of rate [rad/s] and
-/// acceleration [rad/s^2], with a thousandth to spare for what messages round.
-double turn_duration_s(double yaw_change_rad, double max_yaw_rate, double max_yaw_acceleration);
-
-/// Wraps into (-pi, pi].
-double wrap_angle(double angle_rad);
 
 }  // namespace mocha

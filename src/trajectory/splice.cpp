@@ -9,8 +9,7 @@ namespace {
 constexpr double kStand_s = 0.1;
 constexpr double kShortest_s = 1e-5;  // shorter waits are rounding of absolute times
 
-/// The phases of a motion between two times at which it can be cut, with its standing before and
-/// after.
+/// The phases of a motion between two times, with its standing before and after.
 std::vector<Phase> phases_with_stands(const Motion& motion, double from_s, double until_s) {
   std::vector<Phase> phases;
   const auto stand = [&phases](const Pose& pose, double duration_s) {
@@ -26,7 +25,6 @@ std::vector<Phase> phases_with_stands(const Motion& motion, double from_s, doubl
 
 MotionOrFault splice(double start_time_s, std::vector<Phase> head, const Motion& tail,
                      double tail_from_s) {
-  if (!tail.can_be_cut(tail_from_s)) return {{}, MotionFault::kCutTurn};
   const double until_s = std::max(tail_from_s, tail.end_time());
   std::vector<Phase> rest = phases_with_stands(tail, tail_from_s, until_s);
   const bool over = rest.empty();
@@ -39,8 +37,7 @@ MotionOrFault splice(double start_time_s, std::vector<Phase> head, const Motion&
 }
 
 MotionOrFault splice(const Motion& first, double from_s, double join_s, const Motion& second) {
-  const double begin_s = std::max(first.cut_time(from_s), std::min(first.start_time(), join_s));
-  if (!first.can_be_cut(join_s)) return {{}, MotionFault::kCutTurn};
+  const double begin_s = std::max(from_s, std::min(first.start_time(), join_s));
   return splice(begin_s, phases_with_stands(first, begin_s, join_s), second, join_s);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -133,6 +134,18 @@ double before_crawling(const Motion& motion, double t) {
   return t;
 }
 
+/// From the turn in place that is under way at t to rest; nothing where none is.
+std::optional<TurnPhase> turn_to_rest(const Motion& motion, double t, const Braking& braking) {
+  if (motion.at(t).at_rest) return std::nullopt;
+  for (int i = 0; i < static_cast<int>(motion.phases().size()); ++i) {
+    const auto* turn = std::get_if<TurnPhase>(&motion.phases()[i]);
+    const double since_s = t - motion.phase_start_time(i);
+    if (turn != nullptr && since_s >= 0.0 && since_s < turn->duration_s)
+      return braking_turn(*turn, since_s, braking.yaw_deceleration());
+  }
+  return std::nullopt;
+}
+
 /// A circle driven at constant speed, or a straight line.
 MotionState on_circle(const Pose& pose, double speed, double yaw_rate, double t) {
   const double turned = yaw_rate * t;
@@ -154,8 +167,8 @@ MotionState on_circle(const Pose& pose, double speed, double yaw_rate, double t)
 }  // namespace
 
 std::vector<Phase> brake_along(const Motion& motion, double t, const Braking& braking) {
-  t = motion.switch_time(t);
   const MotionState now = motion.at(t);
+  if (const auto turning = turn_to_rest(motion, t, braking)) return {*turning};
   if (now.velocity.norm() < kSlowest) return {StandPhase{now.pose, kStand_s}};
   const Track track{[&motion](double when) { return motion.at(when); },
                     [&motion](double when) { return motion.velocity(when).norm(); }, t,
@@ -184,11 +197,8 @@ MotionOrFault try_brake(const Motion& motion, double t0, double t_brake, const B
   const double start = std::max(t0, motion.start_time());
   t_brake = motion.clean_cut(before_crawling(motion, t_brake));
   if (t_brake > start && t_brake - start < kSliver_s) t_brake = start;
-  const double switch_s = motion.switch_time(t_brake);
-  std::vector<Phase> phases = motion.phases_between(start, switch_s);
-  if (phases.empty() || switch_s == t_brake) {
-    for (Phase& phase : brake_along(motion, switch_s, braking)) phases.push_back(std::move(phase));
-  }
+  std::vector<Phase> phases = motion.phases_between(start, t_brake);
+  for (Phase& phase : brake_along(motion, t_brake, braking)) phases.push_back(std::move(phase));
   return Motion::make(start, std::move(phases));
 }
 

@@ -17,8 +17,8 @@ namespace mocha {
 
 /// From the motion's state at absolute time t to rest along its own path, never faster than the
 /// motion itself is at the same place. Where the motion comes to rest no later on the path, that is
-/// what is returned, exactly. At rest, or slower than 1 mm/s: a short stand. In a turn in place,
-/// which cannot be cut, the phases begin at motion.switch_time(t).
+/// what is returned, exactly. A turn in place that is under way is ended (braking_turn()). At rest,
+/// or slower than 1 mm/s: a short stand.
 std::vector<Phase> brake_along(const Motion& motion, double t, const Braking& braking);
 
 /// For a robot off its motion: from `speed` [m/s] (negative: backward) to rest. It stays on the
@@ -27,9 +27,7 @@ std::vector<Phase> brake_along(const Motion& motion, double t, const Braking& br
 std::vector<Phase> brake_from(const Pose& pose, double speed, double yaw_rate,
                               const Braking& braking);
 
-/// The motion from t0 to t_brake, then braking along it. If t_brake falls into a turn in place, the
-/// turn is finished and nothing follows. t0 must be a switch time, or std::invalid_argument is
-/// thrown.
+/// The motion from t0 to t_brake, then braking along it.
 Motion with_brake(const Motion& motion, double t0, double t_brake, const Braking& braking);
 
 /// The same; where its parts do not join, it is none and the fault says why. with_brake() throws

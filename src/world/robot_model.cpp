@@ -12,6 +12,8 @@ constexpr double kBrakingShare = 0.6;
 constexpr double kTold = 1e3;               // counts in 1 m/s^2 of a braking that peers are told
 constexpr double kBrakingOvershoot = 1.15;  // of a braking curve over its deceleration
 
+constexpr double kTurnOvershoot = 1.02;  // the same of a turn in place that is ended
+
 /// The highest number that peers can be told, and is not above the acceleration.
 double told(double acceleration) {
   constexpr double kRounding = 1e-6;
@@ -33,11 +35,13 @@ bool LidarModel::sees(const Vector2& in_body) const {
 }
 
 Braking RobotModel::braking() const {
-  return Braking(told(kBrakingShare * limits.max_acceleration), told(limits.max_acceleration));
+  return Braking(told(kBrakingShare * limits.max_acceleration), told(limits.max_acceleration),
+                 limits.max_yaw_acceleration / kTurnOvershoot);
 }
 
 Braking RobotModel::hard_braking() const {
-  return Braking(emergency_acceleration / kBrakingOvershoot, emergency_acceleration);
+  return Braking(emergency_acceleration / kBrakingOvershoot, emergency_acceleration,
+                 limits.max_yaw_acceleration / kTurnOvershoot);
 }
 
 MotionLimits RobotModel::emergency_limits() const {

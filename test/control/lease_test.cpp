@@ -30,10 +30,12 @@ TEST(StopAtLeaseEnd, BrakesAlongThePathFromTheEndOfTheLeaseOn) {
   EXPECT_LT(beside_m, 0.02);
 }
 
-TEST(StopAtLeaseEnd, BreaksOffATurn) {
+TEST(StopAtLeaseEnd, EndsATurn) {
   const Motion stop = stop_at_lease_end(turning(), 2.5, 2.52, kBraking);
+  EXPECT_EQ(stop.start_time(), 2.5);
   EXPECT_EQ(stop.length_m(), 0.0);
-  EXPECT_NEAR(stop.end_pose().yaw_rad, turning().at(2.5).pose.yaw_rad, 1e-9);
+  EXPECT_NEAR(stop.at(2.5).pose.yaw_rad, turning().at(2.5).pose.yaw_rad, 1e-9);
+  EXPECT_LT(stop.end_time(), turning().end_time());
 }
 
 TEST(StopAtLeaseEnd, DoesNotBeginWhatHasNotBegun) {

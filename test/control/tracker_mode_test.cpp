@@ -13,33 +13,31 @@ using E = TrackerEvent;
 
 constexpr M kModes[] = {M::kIdle,  M::kTracking, M::kBraking,  M::kErrorBraking,
                         M::kStale, M::kHolding,  M::kEmergency};
-constexpr E kEvents[] = {E::kAdopted, E::kLeaseExpired, E::kLeaseExpiredInTurn,
-                         E::kStrayed, E::kPoseLost,     E::kPoseBack,
-                         E::kArrived, E::kStopped,      E::kReset};
+constexpr E kEvents[] = {E::kAdopted,  E::kLeaseExpired, E::kStrayed, E::kPoseLost,
+                         E::kPoseBack, E::kArrived,      E::kStopped, E::kReset};
 
 /// One row a mode, one column an event in the order of kEvents.
 const std::map<M, std::vector<M>> kTable = {
     {M::kIdle,
-     {M::kTracking, M::kIdle, M::kIdle, M::kIdle, M::kIdle, M::kIdle, M::kIdle, M::kEmergency,
-      M::kIdle}},
+     {M::kTracking, M::kIdle, M::kIdle, M::kIdle, M::kIdle, M::kIdle, M::kEmergency, M::kIdle}},
     {M::kTracking,
-     {M::kTracking, M::kBraking, M::kErrorBraking, M::kErrorBraking, M::kStale, M::kTracking,
-      M::kHolding, M::kEmergency, M::kTracking}},
+     {M::kTracking, M::kBraking, M::kErrorBraking, M::kStale, M::kTracking, M::kHolding,
+      M::kEmergency, M::kTracking}},
     {M::kBraking,
-     {M::kTracking, M::kBraking, M::kBraking, M::kErrorBraking, M::kStale, M::kBraking, M::kHolding,
+     {M::kTracking, M::kBraking, M::kErrorBraking, M::kStale, M::kBraking, M::kHolding,
       M::kEmergency, M::kBraking}},
     {M::kErrorBraking,
      {M::kTracking, M::kErrorBraking, M::kErrorBraking, M::kErrorBraking, M::kErrorBraking,
-      M::kErrorBraking, M::kErrorBraking, M::kEmergency, M::kErrorBraking}},
+      M::kErrorBraking, M::kEmergency, M::kErrorBraking}},
     {M::kStale,
-     {M::kStale, M::kErrorBraking, M::kErrorBraking, M::kStale, M::kStale, M::kTracking, M::kStale,
-      M::kEmergency, M::kStale}},
+     {M::kStale, M::kErrorBraking, M::kStale, M::kStale, M::kTracking, M::kStale, M::kEmergency,
+      M::kStale}},
     {M::kHolding,
-     {M::kTracking, M::kHolding, M::kHolding, M::kErrorBraking, M::kStale, M::kHolding, M::kHolding,
+     {M::kTracking, M::kHolding, M::kErrorBraking, M::kStale, M::kHolding, M::kHolding,
       M::kEmergency, M::kHolding}},
     {M::kEmergency,
      {M::kEmergency, M::kEmergency, M::kEmergency, M::kEmergency, M::kEmergency, M::kEmergency,
-      M::kEmergency, M::kEmergency, M::kIdle}},
+      M::kEmergency, M::kIdle}},
 };
 
 TEST(TrackerMode, FollowsTheTable) {

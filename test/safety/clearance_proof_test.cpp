@@ -5,6 +5,7 @@
 #include "safety/certificate.h"
 #include "safety/circle_field.h"
 #include "trajectory/random_motion.h"
+#include "trajectory/stopping.h"
 #include "world/primitive_field.h"
 
 namespace mocha {
@@ -20,15 +21,19 @@ double sampled_clearance(const Motion& motion, const Footprint& footprint, const
   return least;
 }
 
-/// Turn towards a winding drive, the drive, and a turn at its end.
+/// Turn towards a winding drive, the drive, and a turn at its end, which some end early.
 Motion winding(int seed) {
   const int direction = seed % 2 ? 1 : -1;
   const DrivePhase drive = random_drive(seed, 3 + seed % 6, direction);
   const double first = heading(drive, 0.0);
   const double duration = drive.path.duration();
   const Pose end{drive.path.position(duration), heading(drive, duration)};
-  return Motion(100.0, {TurnPhase{{Vector2::Zero(), first - 2.0}, 2.0, 2.0}, drive,
-                        TurnPhase{end, -2.5, 3.0}});
+  const TurnPhase begin{{Vector2::Zero(), first - 2.0}, 2.0, 2.0};
+  const TurnPhase last{end, -2.5, 3.0};
+  if (seed % 4 == 0) return Motion(100.0, {begin, drive, last});
+  const double ended_s = 0.6 * (seed % 4);
+  return Motion(100.0,
+                {begin, drive, part_of(last, 0.0, ended_s), braking_turn(last, ended_s, 4.0)});
 }
 
 CircleField clutter(const Motion& motion, int seed, double gap_m) {
@@ -180,6 +185,12 @@ TEST(ClearanceProof, FindsWhatOnlyACornerTouchesInATurn) {
   EXPECT_LT(violation.time_s, 1.0);
   EXPECT_FALSE(check_clearance(turn, long_one, post(reach), 0.0, 1.4));
   EXPECT_FALSE(check_clearance(turn, long_one, post(reach + 0.012), 0.0, 0.0));
+  const Motion rest(0.5, turn.phases_between(0.5, 2.0));
+  const Violation same = check_clearance(rest, long_one, post(reach), 0.0, 0.0);
+  ASSERT_TRUE(same);
+  EXPECT_NEAR(same.time_s, violation.time_s, 0.01);
+  const Motion ended = with_brake(turn, 0.0, 0.5, Braking(1.0, 1.0, 4.0));
+  EXPECT_FALSE(check_clearance(ended, long_one, post(reach), 0.0, 0.0));
 }
 
 TEST(ClearanceProof, DiscsFollowTheHeadingBackward) {

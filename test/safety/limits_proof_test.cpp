@@ -357,6 +357,30 @@ TEST(LimitsProof, TurnsInPlace) {
   }
 }
 
+TEST(LimitsProof, TurnsThatAreUnderWayAndEnded) {
+  for (const double change : {2.5, -2.5}) {
+    const TurnPhase turn{{}, change, turn_duration_s(change, 1.8, 4.0)};
+    for (const double share : {0.1, 0.4, 0.6, 0.9}) {
+      const double t = share * turn.duration_s;
+      EXPECT_FALSE(check_limits(Motion(t, {part_of(turn, t, turn.duration_s)}), kLimits, t));
+      TurnPhase stop = braking_turn(turn, t, 3.9);
+      EXPECT_FALSE(check_limits(Motion(t, {stop}), kLimits, t)) << change << " " << share;
+      if (share > 0.5) continue;
+      stop.yaw_change_rad *= 0.8;
+      stop.duration_s *= 0.8;
+      const Violation violation = check_limits(Motion(t, {stop}), kLimits, t);
+      EXPECT_EQ(violation.term, ViolatedTerm::kAcceleration) << change << " " << share;
+      EXPECT_EQ(violation.limit, 4.0);
+      EXPECT_GT(violation.value, 4.0);
+    }
+    const TurnPhase too_fast{{}, 0.5 * change, 1.0, {change, 0.0}, {}};
+    const Violation violation = check_limits(Motion(0.0, {too_fast}), kLimits, 0.0);
+    EXPECT_EQ(violation.term, ViolatedTerm::kYawRate);
+    EXPECT_EQ(violation.time_s, 0.0);
+    EXPECT_NEAR(violation.value, 2.5, 1e-9);
+  }
+}
+
 TEST(LimitsProof, ABaseThatCannotReverseIsHeldToDriveForward) {
   MotionLimits limits = scaled(1.001);
   limits.can_reverse = false;

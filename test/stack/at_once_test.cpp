@@ -59,9 +59,7 @@ class OneRobot {
   /// From here to where it rests if it brakes along its promise after so long.
   double stopping_m(double after_s) const {
     const Motion& committed = stack_.committed();
-    const double from_s = committed.cut_time(now_s());
-    const double brake_s = committed.switch_time(now_s() + after_s);
-    const Motion stop = with_brake(committed, from_s, brake_s, robot_.braking());
+    const Motion stop = with_brake(committed, now_s(), now_s() + after_s, robot_.braking());
     return distance_m(stop.end_pose().position);
   }
 

@@ -42,6 +42,17 @@ TEST(Descriptor, RebuildsSlices) {
   }
 }
 
+TEST(Descriptor, RebuildsTurnsThatAreUnderWayAndEnded) {
+  const TurnPhase turn{{{1.0, 2.0}, 0.4}, -3.0, 3.0};
+  const Motion whole(0.0, {turn});
+  const Motion part = with_brake(whole, 0.6, 1.4, Braking(1.0, 2.0, 4.0));
+  ASSERT_EQ(part.phases().size(), 2u);
+  const Motion rebuilt = rebuild(describe(part));
+  expect_same(part, rebuilt);
+  for (double t = 0.61; t < part.end_time(); t += 0.05)
+    EXPECT_NEAR(rebuilt.at(t).yaw_rate, part.at(t).yaw_rate, 1e-9) << t;
+}
+
 TEST(Descriptor, RebuildsBraking) {
   const Motion motion(0.0, {random_drive(3, 8)});
   const Motion braking = with_brake(motion, 1.0, 3.0, Braking(1.0));

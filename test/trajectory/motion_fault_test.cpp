@@ -24,6 +24,8 @@ TEST(MotionFault, EachIsNamed) {
   const DrivePhase ends{1, drive.path.slice(half_s, drive.path.duration())};
   PlanarPath::Piece far = PlanarPath::Piece::Zero();
   far(0, 0) = 1e13;
+  const TurnPhase turn{{Vector2::Zero(), 0.0}, 1.0, 2.0};
+  const StandPhase stand_in_turn = stands_at(Vector2::Zero(), state_of(turn, 0.5).yaw_rad, 1.0);
   struct Case {
     double start_time_s;
     std::vector<Phase> phases;
@@ -45,6 +47,9 @@ TEST(MotionFault, EachIsNamed) {
       {0.0, {stand, stands_at({0.002, 0.0}, 0.0, 1.0)}, MotionFault::kPositionJump},
       {0.0, {stand, stands_at(Vector2::Zero(), 0.02, 1.0)}, MotionFault::kHeadingJump},
       {0.0, {begins, DrivePhase{1, ends.path.stretched(1.5)}}, MotionFault::kVelocityJump},
+      {0.0, {part_of(turn, 0.5, 1.0)}, MotionFault::kMoves},
+      {0.0, {part_of(turn, 0.0, 0.5), stand_in_turn}, MotionFault::kYawRateJump},
+      {0.0, {part_of(turn, 0.0, 0.5), part_of(turn, 0.5, 2.0)}, MotionFault::kNone},
       {0.0, {begins}, MotionFault::kMoves},
   };
   std::set<std::string> words;
@@ -62,8 +67,7 @@ TEST(MotionFault, EachIsNamed) {
       EXPECT_EQ(error.what(), std::string("Motion: ") + describe(each.fault));
     }
   }
-  words.insert(describe(MotionFault::kCutTurn));
-  EXPECT_EQ(words.size(), static_cast<std::size_t>(MotionFault::kCutTurn) + 1);
+  EXPECT_EQ(words.size(), static_cast<std::size_t>(MotionFault::kMoves) + 1);
   EXPECT_EQ(words.count("unknown"), 0u);
 }
 

@@ -174,16 +174,20 @@ TEST(Stopping, CrawlingIsNoSpecialCase) {
   }
 }
 
-TEST(Stopping, FinishesTurns) {
+TEST(Stopping, EndsATurnInPlaceAndWhatComesAfterIt) {
   const DrivePhase drive = random_drive(1, 4);
   const double yaw = heading(drive, 0.0);
   const Motion motion(10.0, {TurnPhase{{Vector2::Zero(), yaw - 1.0}, 1.0, 2.0}, drive});
-  const Motion braking(12.0, brake_along(motion, 11.0, Braking(1.0)));
-  EXPECT_EQ(braking.length_m(), 0.0);
-  EXPECT_NEAR(wrap_angle(braking.end_pose().yaw_rad - yaw), 0.0, 1e-6);
-  const Motion composed = with_brake(motion, 10.0, 11.0, Braking(1.0));
-  EXPECT_EQ(composed.phases().size(), 1u);
-  EXPECT_EQ(composed.end_time(), 12.0);
+  const Braking braking(1.0, 2.0, 6.0);
+  const Motion stop(11.0, brake_along(motion, 11.0, braking));
+  EXPECT_EQ(stop.length_m(), 0.0);
+  EXPECT_LT(stop.end_time(), 11.5);
+  EXPECT_NEAR(wrap_angle(stop.at(11.0).pose.yaw_rad - motion.at(11.0).pose.yaw_rad), 0.0, 1e-9);
+  EXPECT_NEAR(stop.at(11.0 + 1e-9).yaw_rate, motion.at(11.0).yaw_rate, 1e-6);
+  const Motion composed = with_brake(motion, 10.0, 11.0, braking);
+  EXPECT_EQ(composed.phases().size(), 2u);
+  EXPECT_EQ(composed.end_time(), stop.end_time());
+  EXPECT_NEAR(composed.at(10.7).yaw_rate, motion.at(10.7).yaw_rate, 1e-9);
 }
 
 TEST(Stopping, ComposesMotionAndBrake) {

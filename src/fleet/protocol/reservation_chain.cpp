@@ -14,7 +14,7 @@ constexpr double kTolerance_m = 0.005;  // of a distance that is only reported
 /// Makes one claim of two that follow each other; false where their motions do not join.
 bool append(Reservation& reservation, const Reservation& next, double now) {
   const Motion& first = *reservation.trajectory.motion;
-  const double begin_s = std::max(first.cut_time(now), first.start_time());
+  const double begin_s = std::max(now, first.start_time());
   const double switch_s = std::max(begin_s, next.from_s);
   try {
     std::vector<Phase> phases = first.phases_between(begin_s, switch_s);

@@ -38,8 +38,13 @@ void put_phase(ByteWriter& out, const PhaseDescriptor& phase, const Counts& orig
   out.put(static_cast<std::uint8_t>(phase.kind));
   if (phase.kind != PhaseDescriptor::Kind::kDrive) {
     put_number<std::int32_t>(out, phase.yaw_start_rad, kFine, "a heading");
-    if (phase.kind == PhaseDescriptor::Kind::kTurn)
+    if (phase.kind == PhaseDescriptor::Kind::kTurn) {
       put_number<std::int32_t>(out, phase.yaw_change_rad, kFine, "a turn");
+      for (const TurnRates& rates : {phase.start_rates, phase.end_rates}) {
+        put_number<std::int32_t>(out, rates.yaw_rate, kFine, "a yaw rate");
+        put_number<std::int32_t>(out, rates.yaw_acceleration, kFine, "a yaw acceleration");
+      }
+    }
   } else {
     out.put(static_cast<std::uint8_t>(phase.direction > 0));
     out.put(count_of(phase.durations_s.size(), "pieces"));
@@ -62,8 +67,13 @@ PhaseDescriptor get_phase(ByteReader& in, const Counts& origin) {
   std::size_t points = 1;
   if (phase.kind != PhaseDescriptor::Kind::kDrive) {
     phase.yaw_start_rad = get_number<std::int32_t>(in, kFine);
-    if (phase.kind == PhaseDescriptor::Kind::kTurn)
+    if (phase.kind == PhaseDescriptor::Kind::kTurn) {
       phase.yaw_change_rad = get_number<std::int32_t>(in, kFine);
+      for (TurnRates* rates : {&phase.start_rates, &phase.end_rates}) {
+        rates->yaw_rate = get_number<std::int32_t>(in, kFine);
+        rates->yaw_acceleration = get_number<std::int32_t>(in, kFine);
+      }
+    }
   } else {
     const auto forward = in.get<std::uint8_t>();
     require_said(forward <= 1, "a drive's direction is neither 1 nor 0");

@@ -21,7 +21,7 @@ namespace mocha {
 // RobotModel::braking() needs no rounding.
 
 /// Of everything below; others are refused.
-constexpr int kWireVersion = 2;
+constexpr int kWireVersion = 3;
 
 /// What a datagram holds at most, LCM's own header with a channel of up to 15 characters included:
 /// larger ones would be cut into fragments, each of which may get lost.

@@ -48,8 +48,7 @@ double least_room_m(const Motion& motion, const std::vector<MovingThing>& moving
 
 std::vector<MovingThing> exposed_to(const ManeuverStart& start, double from_s) {
   const Motion& committed = start.committed;
-  const Motion stop =
-      with_brake(committed, committed.cut_time(from_s), from_s, start.robot.hard_braking());
+  const Motion stop = with_brake(committed, from_s, from_s, start.robot.hard_braking());
   Requirement required = start.requirements[RequirementName::kPromise].from(from_s);
   required.course = start.course;
   std::vector<MovingThing> things = kept_apart(start.scene, required);

@@ -9,8 +9,8 @@
 
 namespace mocha {
 
-/// What a maneuver begins from, and when what is decided now takes over. Absolute times; all of
-/// them are switch times of the committed motion.
+/// What a maneuver begins from, and when what is decided now takes over. Absolute times; the
+/// settled one is a switch time of the committed motion.
 struct ManeuverStart {
   const RobotModel& robot;
   const Requirements& requirements;

@@ -28,8 +28,8 @@ class Room {
   explicit Room(const ManeuverStart& start)
       : start_(start),
         things_(exposed_to(start, start.now_s)),
-        brake_m_(of(with_brake(start.committed, start.committed.cut_time(start.now_s),
-                               start.emergency_s, start.robot.hard_braking()))),
+        brake_m_(of(with_brake(start.committed, start.now_s, start.emergency_s,
+                               start.robot.hard_braking()))),
         on_m_(of(start.committed)),
         contact_m_(-(MarginBudget::of(start.robot).own_margin_m() + start.robot.moving_clearance_m +
                      kGraze_m)) {}
@@ -82,8 +82,8 @@ Maneuvers most_room(const ManeuverStart& start) {
 Maneuvers last_resort(const ManeuverStart& start) {
   const bool stands = start.committed.end_time() <= start.now_s;
   if (stands || Room(start).going_on_is_better()) return {};
-  return {whole(rest_of(with_brake(start.committed, start.committed.cut_time(start.now_s),
-                                   start.emergency_s, start.robot.hard_braking()),
+  return {whole(rest_of(with_brake(start.committed, start.now_s, start.emergency_s,
+                                   start.robot.hard_braking()),
                         start.emergency_s),
                 start.emergency_s, true, "brakes all the same")};
 }

@@ -86,6 +86,13 @@ class MovingDiscs {
   const double clearance_m_;
 };
 
+/// From the turn in place that is under way at `join_s` to rest; nothing where none is.
+std::optional<TurnPhase> stop_of_turn(const ManeuverStart& start, double join_s) {
+  const MotionState state = start.committed.at(join_s);
+  if (state.at_rest || state.velocity != Vector2::Zero()) return std::nullopt;
+  return std::get<TurnPhase>(brake_along(start.committed, join_s, start.robot.braking()).front());
+}
+
 struct Node {
   Rolling rolling;
   int step;  // from the start
@@ -106,7 +113,9 @@ class Search {
       : start_(start),
         limits_(options.limits),
         join_s_(options.join_s),
-        state_(start.committed.at(join_s_)),
+        stop_(stop_of_turn(start, join_s_)),
+        state_(stop_ ? Motion(join_s_, {*stop_}).at(join_s_ + stop_->duration_s)
+                     : start.committed.at(join_s_)),
         steps_(kStepsPerEdge *
                static_cast<int>(std::lround(options.duration_s / (kStepsPerEdge * kStep_s)))),
         stands_s_(options.stands_s),
@@ -143,9 +152,10 @@ class Search {
       add({Rolling::from(state_), 0, -1, 0.0, 0.0});
       return;
     }
+    const double stop_s = stop_ ? stop_->duration_s : 0.0;
     for (int i = 0; i < kHeadings; ++i) {
       const double change = wrap_angle(2.0 * M_PI * i / kHeadings);
-      const int steps = static_cast<int>(std::ceil(turn_s(change) / kStep_s));
+      const int steps = static_cast<int>(std::ceil((stop_s + turn_s(change)) / kStep_s));
       if (stays_clear(state_.pose.position, 1, steps))
         add({Rolling::setting_off(state_.pose, change, limits_), steps, -1, 0.0, 0.0});
     }
@@ -237,11 +247,15 @@ class Search {
   std::optional<Motion> assembled(const Node& first, const std::vector<Vector2>& places,
                                   double final_course_rad) const {
     std::vector<Phase> phases;
+    if (stop_) phases.emplace_back(*stop_);
     MotionState from = state_;
     const double change = wrap_angle(first.rolling.course_rad - state_.pose.yaw_rad);
+    const double left_s = first.step * kStep_s - (stop_ ? stop_->duration_s : 0.0);
     if (state_.at_rest && std::abs(change) > 1e-6) {
-      phases.emplace_back(TurnPhase{state_.pose, change, first.step * kStep_s});
+      phases.emplace_back(TurnPhase{state_.pose, change, left_s});
       from.pose.yaw_rad = wrap_angle(state_.pose.yaw_rad + change);
+    } else if (stop_) {
+      phases.emplace_back(StandPhase{state_.pose, left_s});
     }
     phases.emplace_back(drive_through(from, places, kStep_s, final_course_rad, limits_));
     auto motion = Motion::make(join_s_, std::move(phases));
@@ -252,8 +266,9 @@ class Search {
   const ManeuverStart& start_;
   const MotionLimits limits_;
   const double join_s_;
-  const MotionState state_;
-  const int steps_;  // of a way
+  const std::optional<TurnPhase> stop_;  // of the turn that is under way
+  const MotionState state_;              // after it
+  const int steps_;                      // of a way
   const double stands_s_;
   const double clear_m_;
   const MovingDiscs discs_;

@@ -24,7 +24,8 @@ struct RollingSearchOptions {
 /// Ways between all that moves and what stands or was not seen, by a search in space and time over
 /// what a unicycle can do (hybrid A*, Dolgov et al. 2010), forward only: turning to either side,
 /// faster, at its speed or braking, again and again, and at last braking to rest. From rest it
-/// turns in place first. Of what it is too near already, it keeps the distance that there is.
+/// turns in place first; a turn that is under way it ends before. Of what it is too near already,
+/// it keeps the distance that there is.
 ///
 /// Returns the first few of them, those that get the nearest to the target first, with the first
 /// keeping that has any; empty where there is none, and where the robot drives backward.

@@ -87,8 +87,8 @@ void LocalReplanner::stop_here(double now_s, const RobotState& measured, Output&
 
 std::optional<Motion> LocalReplanner::sooner_stop(double now_s) const {
   const bool stands = committed_.at(now_s).at_rest;
-  const double brake_s = stands ? now_s : committed_.switch_time(now_s + options_.emergency_s);
-  const Motion stop = with_brake(committed_, committed_.cut_time(now_s), brake_s, robot_.braking());
+  const double brake_s = stands ? now_s : now_s + options_.emergency_s;
+  const Motion stop = with_brake(committed_, now_s, brake_s, robot_.braking());
   const Motion& next = proposals_.pending(now_s) ? proposals_.newest() : committed_;
   if (stop.end_time() >= next.end_time() - kSooner_s) return std::nullopt;
   return rest_of(stop, brake_s);

@@ -21,6 +21,16 @@ void get_derivatives(const std::vector<double>& values, Eigen::Matrix2d& derivat
   std::copy(values.begin(), values.end(), derivatives.data());
 }
 
+std::vector<double> values_of(const TurnRates& rates) {
+  return {rates.yaw_rate, rates.yaw_acceleration};
+}
+
+TurnRates rates_of(const std::vector<double>& values) {
+  if (values.size() != 2)
+    throw std::invalid_argument("Trajectory: a turn's derivatives need 2 values");
+  return {values[0], values[1]};
+}
+
 mocha_ugv::MotionPhase to_message(const PhaseDescriptor& phase) {
   mocha_ugv::MotionPhase message;
   message.kind = static_cast<uint8_t>(phase.kind);
@@ -35,6 +45,9 @@ mocha_ugv::MotionPhase to_message(const PhaseDescriptor& phase) {
   if (phase.kind == PhaseDescriptor::Kind::kDrive) {
     put_derivatives(phase.start_derivatives, message.start_derivatives);
     put_derivatives(phase.end_derivatives, message.end_derivatives);
+  } else if (phase.kind == PhaseDescriptor::Kind::kTurn) {
+    message.start_derivatives = values_of(phase.start_rates);
+    message.end_derivatives = values_of(phase.end_rates);
   }
   return message;
 }
@@ -58,6 +71,9 @@ PhaseDescriptor from_message(const mocha_ugv::MotionPhase& message) {
   if (phase.kind == PhaseDescriptor::Kind::kDrive) {
     get_derivatives(message.start_derivatives, phase.start_derivatives);
     get_derivatives(message.end_derivatives, phase.end_derivatives);
+  } else if (phase.kind == PhaseDescriptor::Kind::kTurn) {
+    phase.start_rates = rates_of(message.start_derivatives);
+    phase.end_rates = rates_of(message.end_derivatives);
   }
   return phase;
 }

@@ -57,15 +57,16 @@ Motion varied(std::mt19937& random, double start_s) {
   return Motion(start_s, std::move(phases));
 }
 
-/// The rest of such a motion from the midst of its drive on.
-Motion rolling(std::mt19937& random, double start_s) {
+/// The rest of such a motion from the midst of one of its phases on.
+Motion under_way(int phase, std::mt19937& random, double start_s) {
   const Motion whole = varied(random, start_s);
-  const double cut_s = whole.phase_start_time(1) + 0.4 * duration_s(whole.phases()[1]);
+  const double cut_s = whole.phase_start_time(phase) + 0.4 * duration_s(whole.phases()[phase]);
   return Motion(cut_s, whole.phases_between(cut_s, whole.end_time()));
 }
 
+/// Whole, or begun in the midst of its first turn or of its drive.
 Motion any(int number, std::mt19937& random, double start_s) {
-  return number % 2 == 0 ? varied(random, start_s) : rolling(random, start_s);
+  return number % 3 == 0 ? varied(random, start_s) : under_way(number % 3 - 1, random, start_s);
 }
 
 Heartbeat heartbeat() {
@@ -102,6 +103,7 @@ TEST(WireFormat, GivesBackPromisesButForTheQuantisation) {
       const MotionState b = sent.motion->at(t);
       ASSERT_LT((a.pose.position - b.pose.position).norm(), kSameMotion_m);
       ASSERT_LT((a.velocity - b.velocity).norm(), 5e-4);
+      ASSERT_LT(std::abs(wrap_angle(a.pose.yaw_rad - b.pose.yaw_rad)), 2e-3);
     }
   }
 }
@@ -441,7 +443,7 @@ TEST(WireFormat, DISABLED_WriteVectors) {
   file << "# A promise a line: its datagram in hexadecimal, then x and y [m] of its motion 0.35 s "
           "after its start and every 0.7 s on.\n"
           "# Written by test_fleet --gtest_also_run_disabled_tests --gtest_filter=*WriteVectors; "
-          "format version 2.\n";
+          "format version 3.\n";
   for (int i = 0; i < 6; ++i) {
     const CommittedTrajectory trajectory =
         quantised(trajectory_of(any(i, random, kNow_s + 0.1234567 * i)));

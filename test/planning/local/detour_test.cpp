@@ -87,7 +87,7 @@ TEST_F(DetourTest, ComesBackToThePlanItLeftNotToTheDetour) {
 TEST_F(DetourTest, KnowsItsSideThoughItHadToBrake) {
   const Motion driven = taken_detour();
   const double brake_s = driven.switch_time(begin_s_ + 0.6);
-  const Motion brakes = with_brake(driven, driven.cut_time(begin_s_ + 0.4), brake_s, Braking(0.5));
+  const Motion brakes = with_brake(driven, begin_s_ + 0.4, brake_s, Braking(0.5));
   // As far as the tracker can tell, he stands a little on the other side of the plan now.
   const auto again = detour_.around({brake_s, brake_s + kSettle_s, brakes, taken_.motion, false},
                                     scene(brake_s, -0.05));

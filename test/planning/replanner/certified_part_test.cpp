@@ -19,9 +19,8 @@ class CertifiedPartTest : public ManeuverTest {
   std::optional<CertifiedPart> longest(const Motion& committed, const LocalScene& scene,
                                        double now_s, double earliest_s, double latest_s) const {
     const ManeuverStart start = start_of(committed, scene, now_s);
-    const double join_s = committed.switch_time(now_s);
-    const Maneuver goes_on{join_s,     rest_of(committed, join_s), earliest_s, latest_s,
-                           earliest_s, robot_.braking(),           false,      Follows::kCommitted,
+    const Maneuver goes_on{now_s,      rest_of(committed, now_s), earliest_s, latest_s,
+                           earliest_s, robot_.braking(),          false,      Follows::kCommitted,
                            "goes on"};
     return certified_part(start, goes_on, RequirementName::kPromise);
   }
@@ -174,7 +173,7 @@ TEST_F(CertifiedPartTest, NothingWhereNotEvenBrakingIsCertified) {
   EXPECT_TRUE(longest(ahead_, scene, now_s - 1.5, now_s - 1.2, now_s + 4.0));
 }
 
-TEST_F(CertifiedPartTest, TurnsInPlaceAreNotCut) {
+TEST_F(CertifiedPartTest, ATurnInPlaceIsEndedAndWhatComesAfterItNotBegun) {
   const TurnPhase turn{{{0.0, 0.0}, -2.0}, 2.0, turn_duration_s(2.0, 1.5, 4.0)};
   const Motion motion(kStart_s,
                       {turn, straight_drive(0.0, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5).phases()[0]});
@@ -182,8 +181,8 @@ TEST_F(CertifiedPartTest, TurnsInPlaceAreNotCut) {
   const LocalScene scene = scene_of(open_);
   const auto promise = longest(motion, scene, middle_s, middle_s + 0.1, middle_s + 0.2);
   ASSERT_TRUE(promise);
-  EXPECT_NEAR(promise->motion.start_time(), kStart_s + turn.duration_s, 1e-6);
-  EXPECT_NEAR(promise->motion.end_pose().yaw_rad, 0.0, 1e-9);
+  EXPECT_LT(promise->motion.end_time(), kStart_s + turn.duration_s);
+  EXPECT_LT(promise->motion.end_pose().yaw_rad, -0.1);
   EXPECT_LT(end(*promise).norm(), 1e-9);
 }
 

@@ -47,6 +47,15 @@ TEST(Conversions, MotionsGoThereAndBackAtEpochTimes) {
   }
 }
 
+TEST(Conversions, TurnsThatAreUnderWayGoThereAndBack) {
+  const Motion whole = example(4, kEpoch_s);
+  const double begin_s = kEpoch_s + 0.5;
+  const Motion part(begin_s, whole.phases_between(begin_s, whole.end_time()));
+  expect_same(part, over_the_wire(part), 1e-9);
+  EXPECT_NEAR(over_the_wire(part).at(begin_s + 0.1).yaw_rate, part.at(begin_s + 0.1).yaw_rate,
+              1e-6);
+}
+
 TEST(Conversions, BackwardDrivesStayBackward) {
   const Motion motion(kEpoch_s, {random_drive(3, 4, -1)});
   expect_same(motion, over_the_wire(motion), 1e-9);
@@ -118,6 +127,9 @@ TEST(Conversions, MalformedMotionsAreRefused) {
   refuses("duration not finite", [](Message& m) { m.phases[1].durations[2] = kNan; });
   refuses("place not finite", [](Message& m) { m.phases[1].x[3] = kNan; });
   refuses("place infinite", [](Message& m) { m.phases[1].y[1] = INFINITY; });
+  refuses("a turn without rates", [](Message& m) { m.phases[0].start_derivatives.clear(); });
+  refuses("a turn's rate not finite", [](Message& m) { m.phases[0].end_derivatives[0] = kNan; });
+  refuses("a turn's acceleration", [](Message& m) { m.phases[0].start_derivatives[1] = kNan; });
   refuses("no start derivatives", [](Message& m) { m.phases[1].start_derivatives.clear(); });
   refuses("no end derivatives", [](Message& m) { m.phases[1].end_derivatives.clear(); });
   refuses("too many derivatives", [](Message& m) { m.phases[1].end_derivatives.push_back(0.0); });
