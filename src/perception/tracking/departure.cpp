@@ -8,14 +8,17 @@
 namespace mocha {
 namespace {
 
-constexpr double kFreeShare = 0.5;       // of the former hits that are passed
+constexpr double kMost = 0.5;            // of the former hits
 constexpr std::size_t kMostHits = 8;     // that are looked at
 constexpr double kBesideBeam_m = 0.075;  // a beam so near to a place tells whether that is free
 constexpr double kBeyond_m = 0.15;       // it passes if it ends so much farther away
 
-/// Some beams lead there, and all of these pass. At a slanted wall some would end before.
-bool is_passed(const Vector2& place, const std::vector<Beam>& beams) {
-  bool any = false;
+/// Free where some beams lead there, and all of these pass: at a slanted wall some would end there.
+/// Hidden where all end before, unseen where none leads there.
+View view_at(const Vector2& place, const std::vector<Beam>& beams) {
+  int passing = 0;
+  int before = 0;
+  int all = 0;
   for (const Beam& beam : beams) {
     const Vector2 to = place - beam.origin.head<2>();
     const Vector2 ray = (beam.end - beam.origin).head<2>();
@@ -23,21 +26,29 @@ bool is_passed(const Vector2& place, const std::vector<Beam>& beams) {
     const double along_m = to.dot(ray) / length_m;
     const double off_m = std::abs(cross(to, ray)) / length_m;
     if (!(along_m > 0.0 && off_m < kBesideBeam_m)) continue;  // also a length that is not finite
-    if (length_m < along_m + kBeyond_m) return false;
-    any = true;
+    ++all;
+    passing += length_m >= along_m + kBeyond_m ? 1 : 0;
+    before += length_m <= along_m - kBeyond_m ? 1 : 0;
   }
-  return any;
+  if (all == 0) return View::kUnseen;
+  if (passing == all) return View::kFree;
+  return before == all ? View::kHidden : View::kTaken;
 }
 
-bool is_free(const std::vector<Vector2>& hits, const std::vector<Beam>& beams) {
-  const std::size_t step = (hits.size() + kMostHits - 1) / kMostHits;
-  std::size_t looked_at = 0;
-  std::size_t passed = 0;
-  for (std::size_t i = 0; i < hits.size(); i += step) {
+/// What most of these places are: free, unseen (or hidden), or else taken.
+View view_of_most(const std::vector<Vector2>& places, const std::vector<Beam>& beams) {
+  const std::size_t step = (places.size() + kMostHits - 1) / kMostHits;
+  int looked_at = 0;
+  int free = 0;
+  int unseen = 0;
+  for (std::size_t i = 0; i < places.size(); i += step) {
+    const View view = view_at(places[i], beams);
     ++looked_at;
-    passed += is_passed(hits[i], beams) ? 1 : 0;
+    free += view == View::kFree ? 1 : 0;
+    unseen += view == View::kUnseen || view == View::kHidden ? 1 : 0;
   }
-  return static_cast<double>(passed) >= kFreeShare * static_cast<double>(looked_at);
+  if (free >= kMost * looked_at) return View::kFree;
+  return unseen > kMost * looked_at ? View::kUnseen : View::kTaken;
 }
 
 bool hides(const Detection& now, const Vector2& centre, const Vector2& place) {
@@ -50,14 +61,17 @@ bool hides(const Detection& now, const Vector2& centre, const Vector2& place) {
 
 }  // namespace
 
-bool has_left(const SeenPlace& place, const Detection& now, const Vector2& centre,
-              const std::vector<Beam>& beams) {
+Departure departure(const SeenPlace& place, const Detection& now, const Vector2& centre,
+                    const std::vector<Beam>& beams) {
   for (const Vector2& hit : now.hits) {
     for (const Vector2& former : place.hits) {
-      if ((hit - former).squaredNorm() < kDepartureGap_m * kDepartureGap_m) return false;
+      if ((hit - former).squaredNorm() < kDepartureGap_m * kDepartureGap_m) return Departure::kNone;
     }
   }
-  return hides(now, centre, place.centre) || is_free(place.hits, beams);
+  if (hides(now, centre, place.centre)) return Departure::kLeft;
+  const View view = view_of_most(place.hits, beams);
+  if (view == View::kFree) return Departure::kLeft;
+  return view == View::kUnseen ? Departure::kUntold : Departure::kNone;
 }
 
 }  // namespace mocha

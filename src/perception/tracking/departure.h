@@ -15,11 +15,17 @@ struct SeenPlace {
 /// What is so near to what was hit before may be on the same thing, at the same place.
 constexpr double kDepartureGap_m = 0.2;
 
-/// Whether a thing that is `now` at `centre` has left a place where it was seen before: none of it
-/// is within kDepartureGap_m of what was hit then, and most of that is passed by beams, or hidden
-/// by the thing itself that has come nearer. Walls of which a scan shows another part than the
-/// scans before, and things that are believed in a slightly wrong place, have not.
-bool has_left(const SeenPlace& place, const Detection& now, const Vector2& centre,
-              const std::vector<Beam>& beams);
+/// What became of a thing that was seen at a place before.
+enum class Departure {
+  kNone,  ///< it is still there, or something is
+  kLeft,  ///< none of it is within kDepartureGap_m of what was hit then, and most of that is passed
+          ///< by beams, or hidden by the thing itself that has come nearer
+  kUntold,  ///< none of it is near, but nothing shows what is at the place now
+};
+
+/// Of a thing that is `now` at `centre`. Walls of which a scan shows another part than the scans
+/// before, and things that are believed in a slightly wrong place, have not left.
+Departure departure(const SeenPlace& place, const Detection& now, const Vector2& centre,
+                    const std::vector<Beam>& beams);
 
 }  // namespace mocha

@@ -159,13 +159,24 @@ void ObstacleTracker::see(Track& track, const Detection& detection,
   track.has_come = detection.has_come;
   track.leg_pairs += detection.legs == 2 ? 1 : 0;
   ++track.detections;
-  if (!detection.is_continued && has_left(track.place, detection, seen.centre, beams)) {
-    ++track.departures;
-    track.place = {seen.centre, detection.hits};
-    track.arrived_s = detection.time_s;
-  }
+  if (!detection.is_continued) look_for_departure(track, detection, seen.centre, beams);
   const bool is_known = track.detections >= options_.confirmation_hits || is_mover(track);
   if (track.id == 0 && is_known) track.id = ++last_id_;
+}
+
+/// Of what has gone farther than it is wide, while nothing showed its place, the next place will
+/// tell; what stands has to be seen leaving.
+void ObstacleTracker::look_for_departure(Track& track, const Detection& detection,
+                                         const Vector2& centre,
+                                         const std::vector<Beam>& beams) const {
+  const Departure left = departure(track.place, detection, centre, beams);
+  if (left == Departure::kNone) return;
+  const double gone_m = (centre - track.place.centre).norm();
+  const bool has_gone = !stands(track) && gone_m > 2.0 * track.radius_m + kDepartureGap_m;
+  if (left == Departure::kUntold && !has_gone) return;
+  if (left == Departure::kLeft) ++track.departures;
+  track.place = {centre, detection.hits};
+  track.arrived_s = detection.time_s;
 }
 
 void ObstacleTracker::resize(Track& track, const Detection& detection) const {

@@ -78,6 +78,8 @@ class ObstacleTracker {
   std::vector<int> associate(const std::vector<Detection>& detections) const;
   void follow_turns(const std::vector<Detection>& detections, std::vector<int>& partners);
   void see(Track& track, const Detection& detection, const std::vector<Beam>& beams);
+  void look_for_departure(Track& track, const Detection& detection, const Vector2& centre,
+                          const std::vector<Beam>& beams) const;
   void resize(Track& track, const Detection& detection) const;
   void miss(Track& track, const std::vector<Beam>& beams, double time_s) const;
   void begin(const Detection& detection);

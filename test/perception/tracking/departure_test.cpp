@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "perception/room.h"
@@ -49,23 +50,42 @@ std::vector<Beam> disc_at(const Vector2& centre, double radius_m) {
   });
 }
 
-bool disc_has_left(const Vector2& from, const Vector2& to, double radius_m = 0.2) {
+Departure departure_of_disc(const Vector2& from, const Vector2& to, double radius_m = 0.2) {
   const Detection before = detected(disc_at(from, radius_m), 4.9);
   const std::vector<Beam> beams = disc_at(to, radius_m);
-  return has_left({from, before.hits}, detected(beams, 4.9), to, beams);
+  return departure({from, before.hits}, detected(beams, 4.9), to, beams);
 }
 
-TEST(HasLeft, WhatGoesAnyWay) {
+TEST(Departure, WhatGoesAnyWay) {
   const Vector2 here(3.0, 0.0);
-  EXPECT_FALSE(disc_has_left(here, here));
-  EXPECT_FALSE(disc_has_left(here, {3.05, 0.1})) << "an error of the pose";
-  EXPECT_TRUE(disc_has_left(here, {3.0, 0.6}));
-  EXPECT_TRUE(disc_has_left(here, {3.0, -0.6}));
-  EXPECT_TRUE(disc_has_left(here, {2.6, 0.0})) << "its place is hidden by itself";
-  EXPECT_TRUE(disc_has_left(here, {3.4, 0.0})) << "its place is passed";
+  EXPECT_EQ(departure_of_disc(here, here), Departure::kNone);
+  EXPECT_EQ(departure_of_disc(here, {3.05, 0.1}), Departure::kNone) << "an error of the pose";
+  EXPECT_EQ(departure_of_disc(here, {3.0, 0.6}), Departure::kLeft);
+  EXPECT_EQ(departure_of_disc(here, {3.0, -0.6}), Departure::kLeft);
+  EXPECT_EQ(departure_of_disc(here, {2.6, 0.0}), Departure::kLeft)
+      << "its place is hidden by itself";
+  EXPECT_EQ(departure_of_disc(here, {3.4, 0.0}), Departure::kLeft) << "its place is passed";
 }
 
-TEST(HasLeft, NotAPieceOfAWallOfWhichAnotherPartIsSeen) {
+TEST(Departure, IsUntoldWhereNothingShowsThePlace) {
+  const Vector2 from(3.0, 0.0);
+  const Vector2 to(3.0, 1.0);
+  const Detection before = detected(disc_at(from, 0.2), 4.9);
+  std::vector<Beam> beams = disc_at(to, 0.2);
+  const Detection now = detected(beams, 4.9);
+  EXPECT_EQ(departure({from, before.hits}, now, to, beams), Departure::kLeft);
+  const std::vector<Beam> other = disc_at({1.5, 0.0}, 0.3);  // has come between
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    if (other[i].end.norm() < beams[i].end.norm()) beams[i] = other[i];
+  }
+  EXPECT_EQ(departure({from, before.hits}, now, to, beams), Departure::kUntold);
+  beams.erase(std::remove_if(beams.begin(), beams.end(),
+                             [](const Beam& beam) { return beam.end.norm() < 2.0; }),
+              beams.end());
+  EXPECT_EQ(departure({from, before.hits}, now, to, beams), Departure::kUntold) << "unseen";
+}
+
+TEST(Departure, NotOfAPieceOfAWallOfWhichAnotherPartIsSeen) {
   // Beside the robot, seen at a slant; a piece of it before, and one farther on now.
   const auto wall = beams_to(
       [](double angle_rad) { return std::min(8.0, 1.0 / std::max(1e-6, std::sin(angle_rad))); });
@@ -82,7 +102,7 @@ TEST(HasLeft, NotAPieceOfAWallOfWhichAnotherPartIsSeen) {
   const Detection now = piece(2.2, 3.2);
   ASSERT_GT(before.hits.size(), 3u);
   ASSERT_GT(now.hits.size(), 3u);
-  EXPECT_FALSE(has_left({{1.4, 1.0}, before.hits}, now, {2.7, 1.0}, wall));
+  EXPECT_EQ(departure({{1.4, 1.0}, before.hits}, now, {2.7, 1.0}, wall), Departure::kNone);
 }
 
 }  // namespace

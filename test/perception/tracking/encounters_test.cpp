@@ -69,5 +69,27 @@ TEST(MovingObjectFilter, WhatIsSuddenlyBesideAKnownThingTakesNothingFromIt) {
   }
 }
 
+/// Where it was seen first, somebody nearer goes past behind it: nothing shows that it left.
+TEST(MovingObjectFilter, WhatMovesDoesNotStandAlsoWhereNobodySawItLeave) {
+  Watch watch{{{-10.0, -10.0}, {10.0, 10.0}, {}}};
+  watch.look_for(1.0);
+  const double begun_s = watch.time_s;
+  const Walker far = walker(0.3, {6.0, 0.0}, {0.0, 1.3}, begun_s);
+  const Walker near = walker(0.5, {3.0, -0.7}, {0.0, 0.6}, begun_s);
+  watch.walkers = {far, near};
+  for (int scan = 0; scan < 22; ++scan) {
+    watch.look();
+    if (scan < 15) continue;
+    const Vector2 place = far.at(watch.time_s - 0.1);
+    const auto tracks = watch.tracks();
+    const auto seen = std::find_if(tracks.begin(), tracks.end(), [&](const TrackedObstacle& track) {
+      return (track.position - place).norm() < 0.2;
+    });
+    ASSERT_NE(seen, tracks.end()) << scan;
+    EXPECT_FALSE(seen->stands) << scan;
+    EXPECT_EQ(watch.occupied_within(place, 0.6), 0) << scan;
+  }
+}
+
 }  // namespace
 }  // namespace mocha
