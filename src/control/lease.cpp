@@ -24,8 +24,10 @@ bool stops_alike(const Motion& motion, const Motion& stop) {
 Motion stop_at_lease_end(const Motion& motion, double lease_end_s, double now_s,
                          const Braking& braking) {
   const double t = motion.clean_cut(std::max(lease_end_s, now_s - kNoticedAfter_s));
-  if (t < motion.start_time()) return Motion(t, {StandPhase{motion.at(t).pose, kStand_s}});
-  return with_brake(motion, t, t, braking);
+  if (t >= motion.start_time()) {
+    if (MotionOrFault stop = try_brake(motion, t, t, braking)) return std::move(stop.motion);
+  }
+  return Motion(t, {StandPhase{motion.at(t).pose, kStand_s}});
 }
 
 void LeaseWatch::commit(const MotionId& id, Motion motion, double lease_end_s) {

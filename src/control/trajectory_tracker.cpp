@@ -120,10 +120,11 @@ void TrajectoryTracker::take_up_offer(double t, const Pose& pose, double speed) 
   CommitmentProtocol next = *std::exchange(offer_, std::nullopt);
   std::string why;
   if (next.motion.start_time() > t) {
-    const double start_speed = next.motion.at(next.motion.start_time()).velocity.norm();
-    if (start_speed > kRestSpeed) {
-      why = format("it starts %.2f s from now, already at %.2f m/s", next.motion.start_time() - t,
-                   start_speed);
+    const MotionState start = next.motion.at(next.motion.start_time());
+    const bool turns = start.velocity.isZero() && !start.at_rest;
+    if (start.velocity.norm() > kRestSpeed || turns) {
+      why = format("it starts %.2f s from now, already at %.2f m/s and %.2f rad/s",
+                   next.motion.start_time() - t, start.speed, start.yaw_rate);
     }
     if (!active_.motion.empty()) {
       MotionOrFault joined = splice(active_.motion, t, next.motion.start_time(), next.motion);

@@ -25,8 +25,8 @@ Braking::Braking(double deceleration, double max_acceleration, double yaw_decele
   require(deceleration > 0.0 && std::isfinite(deceleration), "deceleration", deceleration, "m/s^2",
           "a finite value above 0");
   require(max_acceleration > 0.0, "max_acceleration", max_acceleration, "m/s^2", "a value above 0");
-  require(yaw_deceleration >= 0.0 && std::isfinite(yaw_deceleration), "yaw_deceleration",
-          yaw_deceleration, "rad/s^2", "a finite value of at least 0");
+  require(yaw_deceleration > 0.0 && std::isfinite(yaw_deceleration), "yaw_deceleration",
+          yaw_deceleration, "rad/s^2", "a finite value above 0");
 }
 
 double Braking::beside(double lateral) const {

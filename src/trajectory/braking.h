@@ -9,13 +9,11 @@ class Braking {
  public:
   /// `deceleration` [m/s^2]: along the path, at most. `max_acceleration` [m/s^2]: along and across
   /// the path together; without it, bends change nothing. `yaw_deceleration` [rad/s^2]: of turns in
-  /// place, at least; they are ended about as hard as they are turned in any case, and what peers
-  /// are told does not hold it, as it moves no disc. Throws std::invalid_argument for a
-  /// deceleration that is not positive and finite, a limit that is not positive, and a yaw
-  /// deceleration that is negative or not finite.
+  /// place; peers are not told it, as it moves no disc. Throws std::invalid_argument for
+  /// decelerations that are not positive and finite, and a limit that is not positive.
   explicit Braking(double deceleration,
                    double max_acceleration = std::numeric_limits<double>::infinity(),
-                   double yaw_deceleration = 0.0);
+                   double yaw_deceleration = 1.0);
 
   double deceleration() const { return deceleration_; }
   double max_acceleration() const { return max_acceleration_; }

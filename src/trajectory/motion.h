@@ -86,6 +86,9 @@ class Motion {
   /// Holds every place that the motion comes to [m]; a little more than is needed.
   const Eigen::AlignedBox2d& box() const { return box_; }
 
+  /// Which of the phases is under way at absolute time t; the first before all, the last after all.
+  int phase_at(double t) const;
+
   /// The first time >= t at which no turn in place is under way: t itself while driving or
   /// standing, else the end of the turn.
   double switch_time(double t) const;
@@ -101,7 +104,6 @@ class Motion {
  private:
   MotionFault index();
   MotionFault index_phase(std::size_t i);
-  int phase_at(double t) const;
 
   double start_time_s_ = 0.0;
   std::vector<Phase> phases_;

@@ -13,8 +13,10 @@
 namespace mocha {
 namespace {
 
-constexpr double kSlowest = 1e-3;  // [m/s] slower is rest
-constexpr double kRamp_s = 0.2;    // longest time from the present acceleration to the deceleration
+constexpr double kSlowest = 1e-3;   // [m/s] slower is rest
+constexpr double kRestTurn = 1e-4;  // [rad/s] the same of a turn in place
+constexpr double kNoTurn = 0.05;    // [rad/s] of a robot that stands, as it is measured
+constexpr double kRamp_s = 0.2;  // longest time from the present acceleration to the deceleration
 constexpr double kKnotSpacing_s = 0.2;
 constexpr double kStand_s = 0.1;
 constexpr double kSliver_s = 2e-3;  // of a drive, before the braking: of no use
@@ -134,16 +136,16 @@ double before_crawling(const Motion& motion, double t) {
   return t;
 }
 
-/// From the turn in place that is under way at t to rest; nothing where none is.
-std::optional<TurnPhase> turn_to_rest(const Motion& motion, double t, const Braking& braking) {
+/// From the turn in place that is under way at t to rest, or what is left of it where that is at
+/// rest no later; nothing where none is.
+std::optional<TurnPhase> end_of_turn(const Motion& motion, double t, const Braking& braking) {
   if (motion.at(t).at_rest) return std::nullopt;
-  for (int i = 0; i < static_cast<int>(motion.phases().size()); ++i) {
-    const auto* turn = std::get_if<TurnPhase>(&motion.phases()[i]);
-    const double since_s = t - motion.phase_start_time(i);
-    if (turn != nullptr && since_s >= 0.0 && since_s < turn->duration_s)
-      return braking_turn(*turn, since_s, braking.yaw_deceleration());
-  }
-  return std::nullopt;
+  const int i = motion.phase_at(t);
+  const auto* turn = std::get_if<TurnPhase>(&motion.phases()[i]);
+  if (turn == nullptr) return std::nullopt;
+  const TurnPhase left = part_of(*turn, t - motion.phase_start_time(i), turn->duration_s);
+  const TurnPhase stop = turn_to_rest(left.start, left.from, braking.yaw_deceleration());
+  return std::abs(left.to.yaw_rate) < kRestTurn && left.duration_s <= stop.duration_s ? left : stop;
 }
 
 /// A circle driven at constant speed, or a straight line.
@@ -168,7 +170,7 @@ MotionState on_circle(const Pose& pose, double speed, double yaw_rate, double t)
 
 std::vector<Phase> brake_along(const Motion& motion, double t, const Braking& braking) {
   const MotionState now = motion.at(t);
-  if (const auto turning = turn_to_rest(motion, t, braking)) return {*turning};
+  if (const auto turning = end_of_turn(motion, t, braking)) return {*turning};
   if (now.velocity.norm() < kSlowest) return {StandPhase{now.pose, kStand_s}};
   const Track track{[&motion](double when) { return motion.at(when); },
                     [&motion](double when) { return motion.velocity(when).norm(); }, t,
@@ -180,7 +182,10 @@ std::vector<Phase> brake_along(const Motion& motion, double t, const Braking& br
 
 std::vector<Phase> brake_from(const Pose& pose, double speed, double yaw_rate,
                               const Braking& braking) {
-  if (std::abs(speed) < kSlowest) return {StandPhase{pose, kStand_s}};
+  if (std::abs(speed) < kSlowest) {
+    if (std::abs(yaw_rate) < kNoTurn) return {StandPhase{pose, kStand_s}};
+    return {turn_to_rest(pose, {yaw_rate, 0.0}, braking.yaw_deceleration())};
+  }
   const Track track{[&](double t) { return on_circle(pose, speed, yaw_rate, t); },
                     [speed](double) { return std::abs(speed); }, 0.0,
                     std::numeric_limits<double>::infinity()};

@@ -17,13 +17,13 @@ namespace mocha {
 
 /// From the motion's state at absolute time t to rest along its own path, never faster than the
 /// motion itself is at the same place. Where the motion comes to rest no later on the path, that is
-/// what is returned, exactly. A turn in place that is under way is ended (braking_turn()). At rest,
+/// what is returned, exactly. A turn in place that is under way is ended (turn_to_rest()). At rest,
 /// or slower than 1 mm/s: a short stand.
 std::vector<Phase> brake_along(const Motion& motion, double t, const Braking& braking);
 
 /// For a robot off its motion: from `speed` [m/s] (negative: backward) to rest. It stays on the
 /// circle on which it is by `yaw_rate` [rad/s], which dies with the speed; straight ahead if that
-/// is 0.
+/// is 0. Slower than 1 mm/s, it ends a turn in place, or stands.
 std::vector<Phase> brake_from(const Pose& pose, double speed, double yaw_rate,
                               const Braking& braking);
 

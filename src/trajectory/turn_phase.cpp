@@ -67,19 +67,16 @@ TurnPhase part_of(const TurnPhase& turn, double from_s, double until_s) {
           state_of(turn, until_s).rates};
 }
 
-TurnPhase braking_turn(const TurnPhase& turn, double t, double deceleration) {
+TurnPhase turn_to_rest(const Pose& pose, const TurnRates& rates, double deceleration) {
   constexpr double kPeak = 1.5;  // of a cubic from a steady rate to rest, against its mean
   constexpr double kLonger = 1.1;
   constexpr double kLeast_s = 0.02;  // messages round what is shorter too much
-  const TurnPhase rest = part_of(turn, t, turn.duration_s);
-  const double most = std::max(hardest(turn), deceleration);
-  double duration_s = std::max(kLeast_s, kPeak * std::abs(rest.from.yaw_rate) / most);
-  while (duration_s < rest.duration_s) {
-    const TurnPhase braking = to_rest(rest.start, rest.from, duration_s);
-    if (hardest(braking) <= most) return braking;
-    duration_s *= kLonger;
-  }
-  return rest;
+  constexpr double kRounding = 1.0 + 1e-9;
+  const double most = kRounding * std::max(deceleration, std::abs(rates.yaw_acceleration));
+  double duration_s = std::max(kLeast_s, kPeak * std::abs(rates.yaw_rate) / most);
+  TurnPhase braking = to_rest(pose, rates, duration_s);
+  while (hardest(braking) > most) braking = to_rest(pose, rates, duration_s *= kLonger);
+  return braking;
 }
 
 double turn_duration_s(double yaw_change_rad, double max_yaw_rate, double max_yaw_acceleration) {

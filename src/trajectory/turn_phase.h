@@ -34,9 +34,9 @@ TurnState state_of(const TurnPhase& turn, double t);
 /// The turn between two times within it [s]; `from_s` is less than `until_s`.
 TurnPhase part_of(const TurnPhase& turn, double from_s, double until_s);
 
-/// From time t within the turn to rest, at a deceleration [rad/s^2], but at least about as hard as
-/// the turn's own rate changes at most; the rest of the turn where that is at rest no later.
-TurnPhase braking_turn(const TurnPhase& turn, double t, double deceleration);
+/// From a turn that is under way to rest, to the same side: at `deceleration` [rad/s^2], which is
+/// above 0, or as hard as its rate changes already, where that is harder.
+TurnPhase turn_to_rest(const Pose& pose, const TurnRates& rates, double deceleration);
 
 /// Duration of the quintic turn by `yaw_change_rad` from rest to rest within the limits of rate
 /// [rad/s] and acceleration [rad/s^2], with a thousandth to spare for what messages round.

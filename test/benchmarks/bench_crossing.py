@@ -13,6 +13,7 @@ LIMIT_S = 120.0
 
 def add_arguments(parser):
     parser.add_argument("--runs", type=int, default=20, metavar="N", help="halls, seeds from 1 on (default 20)")
+    parser.add_argument("--turn", type=float, default=0.0, metavar="S", help="so long people stand where they turn round (default 0)")
     parser.add_argument("--rate", type=float, default=0.0,
                         help="simulated seconds per second at most; 0: as fast as possible (default)")
     parser.add_argument("--jobs", type=int, default=1, help="drives at the same time (default 1)")
@@ -28,11 +29,11 @@ def drive_world(job):
     return {key: robot[key] for key in ("reached", "contacts", "time_s")}, why
 
 
-def write_worlds(seed, out):
+def write_worlds(seed, out, turn_s=0.0):
     """The hall with people and the same without."""
     import yaml
     from benchmarks.crossing_worlds import crossing_world
-    world = crossing_world(seed)
+    world = crossing_world(seed, turn_s)
     paths = [os.path.join(out, f"crossing_{seed:03}{kind}.yaml") for kind in ("", "_empty")]
     for path, content in zip(paths, (world, {key: value for key, value in world.items() if key != "moving"})):
         with open(path, "w") as file:
@@ -53,7 +54,7 @@ def shown(value, unit):
 def run(options):
     os.makedirs(options.out, exist_ok=True)
     seeds = range(1, options.runs + 1)
-    paths = [path for seed in seeds for path in write_worlds(seed, options.out)]
+    paths = [path for seed in seeds for path in write_worlds(seed, options.out, options.turn)]
     rows = []
     # A process a drive: a ROS node cannot change its master.
     with multiprocessing.get_context("spawn").Pool(options.jobs, maxtasksperchild=1) as pool:

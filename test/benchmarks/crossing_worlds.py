@@ -25,27 +25,30 @@ def passing_time_s(x):
 
 
 class Walk:
-    """There and back between two points, beginning so as to be at `meeting` (0 to 1 of the way there) at a time."""
+    """There and back between two points, standing at each for `turn_s`; begins so as to be at `meeting` (0 to 1 of the way there)
+    at a time, if it stands nowhere before."""
 
-    def __init__(self, radius, speed, ends, meeting, meet_s):
+    def __init__(self, radius, speed, ends, meeting, meet_s, turn_s):
         self.radius, self.speed, self.ends = radius, speed, ends
-        self.length_m = math.dist(*ends)
-        self.ahead_m = (meeting * self.length_m - speed * meet_s) % (2.0 * self.length_m)
+        self.walk_s = math.dist(*ends) / speed
+        self.leg_s = self.walk_s + turn_s
+        self.begin_s = (meeting * self.walk_s - meet_s) % (2.0 * self.leg_s)
 
     def place(self, t):
-        along = (self.ahead_m + self.speed * t) % (2.0 * self.length_m)
-        share = min(along, 2.0 * self.length_m - along) / self.length_m
-        return tuple(a + share * (b - a) for a, b in zip(*self.ends))
+        leg, since_s = divmod((self.begin_s + t) % (2.0 * self.leg_s), self.leg_s)
+        share = min(1.0, since_s / self.walk_s)
+        return tuple(a + share * (b - a) for a, b in zip(*(self.ends if leg == 0 else self.ends[::-1])))
 
     def as_dict(self):
-        """As a loop of three points: where it sets out, and the two where it turns, the one ahead first."""
-        turns = [self.ends[1], self.ends[0]] if self.ahead_m < self.length_m else list(self.ends)
-        path = [self.place(0.0)] + turns
-        return {"radius": round(self.radius, 3), "speed": round(self.speed, 3), "loop": True,
-                "path": [[round(x, 3), round(y, 3)] for x, y in path]}
+        """With a keyframe wherever it stops or sets off."""
+        again_s = 2.0 * self.leg_s
+        changes_s = (0.0, self.walk_s, self.leg_s, self.leg_s + self.walk_s)
+        times_s = {0.0, round(again_s, 3)} | {round((change_s - self.begin_s) % again_s, 3) for change_s in changes_s}
+        return {"radius": round(self.radius, 3), "repeat": True,
+                "keyframes": [[t, *(round(value, 3) for value in self.place(t))] for t in sorted(times_s)]}
 
 
-def draw_walk(draw, goal):
+def draw_walk(draw, goal, turn_s):
     kind = draw.choice(KINDS)
     radius, speed = draw.uniform(0.25, 0.3), draw.uniform(0.4, 1.2)
     x = draw.uniform(4.5, 11.5)
@@ -63,7 +66,7 @@ def draw_walk(draw, goal):
         else:
             speed = draw.uniform(0.4, 0.6)
         meeting = (x - ends[0][0]) / (ends[1][0] - ends[0][0])
-    return Walk(radius, speed, ends, meeting, passing_time_s(x) + draw.uniform(-0.5, 0.5))
+    return Walk(radius, speed, ends, meeting, passing_time_s(x) + draw.uniform(-0.5, 0.5), turn_s)
 
 
 def fair(walk, others, goal):
@@ -84,13 +87,13 @@ def draw_box(draw, walks):
             return box(x, y, x + width, y + depth)
 
 
-def crossing_world(seed):
-    """The contents of a world file."""
+def crossing_world(seed, turn_s=0.0):
+    """The contents of a world file whose people stand for `turn_s` where they turn round."""
     draw = random.Random(seed)
     goal = (GOAL_X, round(draw.uniform(-1.0, 1.0), 2))
     walks = []
     while len(walks) < PEOPLE:
-        walk = draw_walk(draw, goal)
+        walk = draw_walk(draw, goal, turn_s)
         if fair(walk, walks, goal):
             walks.append(walk)
     boxes = [draw_box(draw, walks) for _ in range(BOXES)]

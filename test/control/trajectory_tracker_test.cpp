@@ -175,6 +175,15 @@ TEST(TrajectoryTracker, ExpiredLeaseStopsATurn) {
   EXPECT_LT(std::abs(samples.back().twist.yaw_rate), 1e-3);
 }
 
+TEST(TrajectoryTracker, ATurnThatIsUnderWayBeforeItCanBeTakenUpIsRefused) {
+  const TurnPhase turn{{}, 2.0, 3.0};
+  ClosedLoop loop(rover(), {}, 1);
+  loop.tracker.offer({1, 1}, Motion(0.5, {part_of(turn, 1.0, 3.0)}), 10.0);
+  const auto samples = loop.run(4.0);
+  EXPECT_EQ(loop.tracker.refused(), 1);
+  EXPECT_LT(std::abs(samples.back().pose.yaw_rad), 0.01);
+}
+
 TEST(TrajectoryTracker, LostPoseStopsAndTheRobotStaysWithoutALease) {
   const Motion motion(0.0, {straight({}, 1, 4.0, 9.0)});
   ClosedLoop loop(rover(), {}, 1);

@@ -32,8 +32,9 @@ Motion winding(int seed) {
   const TurnPhase last{end, -2.5, 3.0};
   if (seed % 4 == 0) return Motion(100.0, {begin, drive, last});
   const double ended_s = 0.6 * (seed % 4);
-  return Motion(100.0,
-                {begin, drive, part_of(last, 0.0, ended_s), braking_turn(last, ended_s, 4.0)});
+  const TurnState turned = state_of(last, ended_s);
+  return Motion(100.0, {begin, drive, part_of(last, 0.0, ended_s),
+                        turn_to_rest({end.position, turned.yaw_rad}, turned.rates, 4.0)});
 }
 
 CircleField clutter(const Motion& motion, int seed, double gap_m) {

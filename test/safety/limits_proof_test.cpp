@@ -363,7 +363,8 @@ TEST(LimitsProof, TurnsThatAreUnderWayAndEnded) {
     for (const double share : {0.1, 0.4, 0.6, 0.9}) {
       const double t = share * turn.duration_s;
       EXPECT_FALSE(check_limits(Motion(t, {part_of(turn, t, turn.duration_s)}), kLimits, t));
-      TurnPhase stop = braking_turn(turn, t, 3.9);
+      const TurnState state = state_of(turn, t);
+      TurnPhase stop = turn_to_rest({{}, state.yaw_rad}, state.rates, 3.9);
       EXPECT_FALSE(check_limits(Motion(t, {stop}), kLimits, t)) << change << " " << share;
       if (share > 0.5) continue;
       stop.yaw_change_rad *= 0.8;

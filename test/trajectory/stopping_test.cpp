@@ -190,6 +190,33 @@ TEST(Stopping, EndsATurnInPlaceAndWhatComesAfterIt) {
   EXPECT_NEAR(composed.at(10.7).yaw_rate, motion.at(10.7).yaw_rate, 1e-9);
 }
 
+TEST(Stopping, EndsATurnWherePartsOfItWereJoined) {
+  const double start_s = 1.7e9 + 0.1234567;
+  const Braking braking(1.0, 2.0, 3.9);
+  const Motion whole(start_s, {TurnPhase{{}, 3.0, turn_duration_s(3.0, 1.5, 4.0)}});
+  std::vector<Phase> parts = whole.phases_between(start_s + 0.4, start_s + 0.5);
+  for (const Phase& part : whole.phases_between(start_s + 0.5, start_s + 1.1))
+    parts.push_back(part);
+  for (const Phase& stop : brake_along(whole, start_s + 1.1, braking)) parts.push_back(stop);
+  const Motion joined(start_s + 0.4, parts);
+  ASSERT_EQ(joined.phases().size(), 3u);
+  for (double t = joined.start_time(); t < joined.end_time() + 0.05; t += 0.01) {
+    const Motion stop = with_brake(joined, joined.start_time(), t, braking);
+    EXPECT_LE(stop.end_time(), std::max(joined.end_time(), t) + 0.11) << t - start_s;
+    EXPECT_LT(stop.end_time(), t + 0.7) << t - start_s;
+  }
+}
+
+TEST(Stopping, OffTheMotionATurnInPlaceIsEnded) {
+  const Pose pose{{1.0, 2.0}, 0.5};
+  const Motion stop(0.0, brake_from(pose, 0.0, -1.5, Braking(1.0, 2.0, 4.0)));
+  EXPECT_NEAR(stop.at(1e-6).yaw_rate, -1.5, 1e-4);
+  EXPECT_LT(stop.end_time(), 0.7);
+  EXPECT_LT(stop.end_pose().yaw_rad, 0.3);
+  const Motion stand(0.0, brake_from(pose, 0.0, 0.02, Braking(1.0)));
+  EXPECT_TRUE(std::holds_alternative<StandPhase>(stand.phases().front()));
+}
+
 TEST(Stopping, ComposesMotionAndBrake) {
   const Motion motion = within(random_drive(9, 10), {1.5, 2.0, 2.0}, 20.0);
   const double t0 = 21.0;

@@ -26,10 +26,6 @@ std::vector<TurnPhase> turns() {
   return turns;
 }
 
-double turned_rad(const TurnPhase& turn, double t) {
-  return wrap_angle(state_of(turn, t).yaw_rad - turn.start.yaw_rad);
-}
-
 TEST(TurnPhase, RatesAreTheDerivativesOfTheHeading) {
   for (const TurnPhase& turn : turns()) {
     for (const double share : {0.1, 0.35, 0.5, 0.8}) {
@@ -83,38 +79,44 @@ double hardest(const TurnPhase& turn) {
   return most;
 }
 
-TEST(TurnPhase, BrakesAsHardAsItTurnsAndNotBack) {
+/// From time t within the turn.
+TurnPhase ended(const TurnPhase& turn, double t, double deceleration) {
+  const TurnState state = state_of(turn, t);
+  return turn_to_rest({turn.start.position, state.yaw_rad}, state.rates, deceleration);
+}
+
+TEST(TurnPhase, ComesToRestToTheSameSideAsHardAsItMay) {
   for (const double change_rad : {0.2, -1.0, 3.0, -6.0}) {
     const TurnPhase turn{{}, change_rad, turn_duration_s(change_rad, 1.5, 4.0)};
     const double side = std::copysign(1.0, change_rad);
-    for (double t = 0.02; t < turn.duration_s - 0.01; t += 0.03) {
-      const TurnPhase stop = braking_turn(turn, t, 0.0);
-      const TurnRates begin = state_of(turn, t).rates;
-      EXPECT_NEAR(stop.start.yaw_rad, state_of(turn, t).yaw_rad, 1e-12);
-      EXPECT_EQ(stop.from.yaw_rate, begin.yaw_rate);
-      EXPECT_EQ(stop.from.yaw_acceleration, begin.yaw_acceleration);
-      EXPECT_NEAR(stop.to.yaw_rate, 0.0, 1e-12);
-      EXPECT_NEAR(stop.to.yaw_acceleration, 0.0, 1e-9);
-      EXPECT_LE(stop.duration_s, turn.duration_s - t + 1e-12);
-      EXPECT_LE(hardest(stop), 1.01 * hardest(turn)) << change_rad << " " << t;
-      for (double after_s = 0.0; after_s < stop.duration_s; after_s += 0.01)
-        EXPECT_GT(side * state_of(stop, after_s).rates.yaw_rate, -1e-9) << change_rad << " " << t;
+    for (const double deceleration : {0.5, 4.0}) {
+      for (double t = 0.02; t < turn.duration_s - 0.01; t += 0.03) {
+        const TurnPhase stop = ended(turn, t, deceleration);
+        const TurnRates begin = state_of(turn, t).rates;
+        EXPECT_EQ(stop.from.yaw_rate, begin.yaw_rate);
+        EXPECT_EQ(stop.from.yaw_acceleration, begin.yaw_acceleration);
+        EXPECT_EQ(stop.to.yaw_rate, 0.0);
+        EXPECT_EQ(stop.to.yaw_acceleration, 0.0);
+        EXPECT_NEAR(state_of(stop, stop.duration_s).rates.yaw_rate, 0.0, 1e-9);
+        EXPECT_LE(hardest(stop), 1.01 * std::max(deceleration, std::abs(begin.yaw_acceleration)))
+            << change_rad << " " << t;
+        EXPECT_LT(stop.duration_s, 2.2 * std::abs(begin.yaw_rate) / deceleration + 0.5);
+        for (double after_s = 0.0; after_s < stop.duration_s; after_s += 0.01)
+          EXPECT_GT(side * state_of(stop, after_s).rates.yaw_rate, -1e-9) << change_rad << " " << t;
+      }
     }
   }
 }
 
-TEST(TurnPhase, BrakesAsHardAsItMay) {
-  const TurnPhase turn{{}, 3.0, turn_duration_s(3.0, 1.5, 4.0)};  // 3.75 s, at 1.23 rad/s^2
-  for (double t = 0.3; t < 3.4; t += 0.1) {
-    const TurnPhase stop = braking_turn(turn, t, 4.0);
-    EXPECT_LE(hardest(stop), 4.0) << t;
-    EXPECT_LT(stop.duration_s, 0.7) << t;
-    EXPECT_NEAR(turned_rad(stop, stop.duration_s), stop.yaw_change_rad, 1e-12) << t;
+TEST(TurnPhase, ComesToRestAlsoAtItsHardestAndHardlyTurning) {
+  for (const double yaw_rate : {0.0, 1e-6, 0.3, -1.5}) {
+    for (const double yaw_acceleration : {0.0, 1e-6, 4.0, -4.0, 9.0}) {
+      const TurnPhase stop = turn_to_rest({}, {yaw_rate, yaw_acceleration}, 4.0);
+      EXPECT_GE(stop.duration_s, 0.02);
+      EXPECT_LT(stop.duration_s, 3.0);
+      EXPECT_LE(hardest(stop), 1.01 * std::max(4.0, std::abs(yaw_acceleration)));
+    }
   }
-  const TurnPhase at_its_end = braking_turn(turn, turn.duration_s - 0.05, 4.0);
-  EXPECT_NEAR(at_its_end.duration_s, 0.02, 1e-12);
-  const TurnPhase in_its_end = braking_turn(turn, turn.duration_s - 0.01, 4.0);
-  EXPECT_NEAR(in_its_end.duration_s, 0.01, 1e-12) << "it comes to rest as soon by itself";
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ namespace mocha {
 constexpr double kTimes = 1e6;       // in [s]
 constexpr double kPlaces = 1e5;      // in [m]
 constexpr double kFine = 1e5;        // in [rad], [m/s], [m/s^2]
+constexpr double kFiner = 1e7;       // in [rad], of short turns
 constexpr double kRadii = 1e3;       // in [m]
 constexpr double kBrakings = 1e3;    // in [m/s^2]
 constexpr double kMostCount = 9e15;  // doubles hold whole numbers exactly up to about here

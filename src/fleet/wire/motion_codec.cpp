@@ -39,7 +39,7 @@ void put_phase(ByteWriter& out, const PhaseDescriptor& phase, const Counts& orig
   if (phase.kind != PhaseDescriptor::Kind::kDrive) {
     put_number<std::int32_t>(out, phase.yaw_start_rad, kFine, "a heading");
     if (phase.kind == PhaseDescriptor::Kind::kTurn) {
-      put_number<std::int32_t>(out, phase.yaw_change_rad, kFine, "a turn");
+      put_number<std::int32_t>(out, phase.yaw_change_rad, kFiner, "a turn");
       for (const TurnRates& rates : {phase.start_rates, phase.end_rates}) {
         put_number<std::int32_t>(out, rates.yaw_rate, kFine, "a yaw rate");
         put_number<std::int32_t>(out, rates.yaw_acceleration, kFine, "a yaw acceleration");
@@ -68,7 +68,7 @@ PhaseDescriptor get_phase(ByteReader& in, const Counts& origin) {
   if (phase.kind != PhaseDescriptor::Kind::kDrive) {
     phase.yaw_start_rad = get_number<std::int32_t>(in, kFine);
     if (phase.kind == PhaseDescriptor::Kind::kTurn) {
-      phase.yaw_change_rad = get_number<std::int32_t>(in, kFine);
+      phase.yaw_change_rad = get_number<std::int32_t>(in, kFiner);
       for (TurnRates* rates : {&phase.start_rates, &phase.end_rates}) {
         rates->yaw_rate = get_number<std::int32_t>(in, kFine);
         rates->yaw_acceleration = get_number<std::int32_t>(in, kFine);

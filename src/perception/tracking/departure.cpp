@@ -13,11 +13,10 @@ constexpr std::size_t kMostHits = 8;     // that are looked at
 constexpr double kBesideBeam_m = 0.075;  // a beam so near to a place tells whether that is free
 constexpr double kBeyond_m = 0.15;       // it passes if it ends so much farther away
 
-/// Free where some beams lead there, and all of these pass: at a slanted wall some would end there.
-/// Hidden where all end before, unseen where none leads there.
+/// Taken where some beams end there, as at a slanted wall; free where all that lead there pass.
 View view_at(const Vector2& place, const std::vector<Beam>& beams) {
   int passing = 0;
-  int before = 0;
+  int there = 0;
   int all = 0;
   for (const Beam& beam : beams) {
     const Vector2 to = place - beam.origin.head<2>();
@@ -28,27 +27,27 @@ View view_at(const Vector2& place, const std::vector<Beam>& beams) {
     if (!(along_m > 0.0 && off_m < kBesideBeam_m)) continue;  // also a length that is not finite
     ++all;
     passing += length_m >= along_m + kBeyond_m ? 1 : 0;
-    before += length_m <= along_m - kBeyond_m ? 1 : 0;
+    there += std::abs(length_m - along_m) < kBeyond_m ? 1 : 0;
   }
   if (all == 0) return View::kUnseen;
-  if (passing == all) return View::kFree;
-  return before == all ? View::kHidden : View::kTaken;
+  if (there > 0) return View::kTaken;
+  return passing == all ? View::kFree : View::kHidden;
 }
 
-/// What most of these places are: free, unseen (or hidden), or else taken.
+/// Whether most of these places are free or, else, taken; unseen where neither.
 View view_of_most(const std::vector<Vector2>& places, const std::vector<Beam>& beams) {
   const std::size_t step = (places.size() + kMostHits - 1) / kMostHits;
   int looked_at = 0;
   int free = 0;
-  int unseen = 0;
+  int taken = 0;
   for (std::size_t i = 0; i < places.size(); i += step) {
     const View view = view_at(places[i], beams);
     ++looked_at;
     free += view == View::kFree ? 1 : 0;
-    unseen += view == View::kUnseen || view == View::kHidden ? 1 : 0;
+    taken += view == View::kTaken ? 1 : 0;
   }
   if (free >= kMost * looked_at) return View::kFree;
-  return unseen > kMost * looked_at ? View::kUnseen : View::kTaken;
+  return taken >= kMost * looked_at ? View::kTaken : View::kUnseen;
 }
 
 bool hides(const Detection& now, const Vector2& centre, const Vector2& place) {

@@ -174,7 +174,10 @@ void ObstacleTracker::look_for_departure(Track& track, const Detection& detectio
   const double gone_m = (centre - track.place.centre).norm();
   const bool has_gone = !stands(track) && gone_m > 2.0 * track.radius_m + kDepartureGap_m;
   if (left == Departure::kUntold && !has_gone) return;
-  if (left == Departure::kLeft) ++track.departures;
+  if (left == Departure::kLeft) {
+    ++track.departures;
+    track.left_s = detection.time_s;
+  }
   track.place = {centre, detection.hits};
   track.arrived_s = detection.time_s;
 }
@@ -200,7 +203,7 @@ bool ObstacleTracker::stands(const Track& track) const {
 bool ObstacleTracker::is_mover(const Track& track) const {
   if (track.leg_pairs >= kLegPairs) return true;
   if (track.departures > 1) return !stands(track);
-  return track.departures == 1 && track.seen_s - track.arrived_s < kMoment_s;
+  return track.departures == 1 && track.seen_s - track.left_s < kMoment_s;
 }
 
 void ObstacleTracker::miss(Track& track, const std::vector<Beam>& beams, double time_s) const {

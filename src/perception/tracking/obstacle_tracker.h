@@ -66,7 +66,8 @@ class ObstacleTracker {
     bool has_come;      ///< where it was seen last, the map was free
     int leg_pairs;      ///< detections that looked like two legs
     int detections = 1;
-    int departures = 0;                 ///< places that it has left
+    int departures = 0;                 ///< places that it was seen to have left ...
+    double left_s = 0.0;                ///< ... the last of them then
     double seen_s = 0.0;                ///< last ...
     Vector2 seen_at = Vector2::Zero();  ///< ... and where
     int missing = 0;                    ///< scans in a row that saw its place free

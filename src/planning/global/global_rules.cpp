@@ -16,7 +16,7 @@ constexpr double kStep_s = 0.05;
 constexpr double kWorkPerSecond = 5e5;  // evaluations of single pieces, by a slow core
 
 /// When a motion from rest has moved a point of the body, `arm_m` off the base at most, so far; not
-/// within a turn in place, which is begun only where it can be ended.
+/// within a turn in place: a plan that begins with one is to come to its end.
 double set_off_s(const Motion& motion, double arm_m) {
   Pose pose = motion.at(motion.start_time()).pose;
   double t = motion.start_time();

@@ -88,9 +88,9 @@ class MovingDiscs {
 
 /// From the turn in place that is under way at `join_s` to rest; nothing where none is.
 std::optional<TurnPhase> stop_of_turn(const ManeuverStart& start, double join_s) {
-  const MotionState state = start.committed.at(join_s);
-  if (state.at_rest || state.velocity != Vector2::Zero()) return std::nullopt;
-  return std::get<TurnPhase>(brake_along(start.committed, join_s, start.robot.braking()).front());
+  const Phase stop = brake_along(start.committed, join_s, start.robot.braking()).front();
+  const auto* turn = std::get_if<TurnPhase>(&stop);
+  return turn != nullptr ? std::make_optional(*turn) : std::nullopt;
 }
 
 struct Node {

@@ -66,7 +66,8 @@ LocalReplanner::Output LocalReplanner::decide(double now_s, const RobotState& me
   Step step{start_at(now_s, scene), {}, {}, false, proposals_.pending(now_s), false,
             std::move(output)};
   assess(step);
-  // A promise that holds is not left in the middle of a turn, which would have to be braked.
+  // Where the promise holds, no maneuver leaves it in the middle of a turn, which it would have to
+  // brake.
   if (!step.output.renew_lease)
     step.start.emergency_s = committed_.clean_cut(now_s + options_.emergency_s);
   if (has_nothing_to_drive_to() && go_down_the_ladder(Situation::kNoGoal, step))

@@ -26,8 +26,9 @@ std::vector<double> values_of(const TurnRates& rates) {
 }
 
 TurnRates rates_of(const std::vector<double>& values) {
+  if (values.empty()) return {};
   if (values.size() != 2)
-    throw std::invalid_argument("Trajectory: a turn's derivatives need 2 values");
+    throw std::invalid_argument("Trajectory: a turn's derivatives need 2 values or none");
   return {values[0], values[1]};
 }
 

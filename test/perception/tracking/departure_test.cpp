@@ -79,6 +79,10 @@ TEST(Departure, IsUntoldWhereNothingShowsThePlace) {
     if (other[i].end.norm() < beams[i].end.norm()) beams[i] = other[i];
   }
   EXPECT_EQ(departure({from, before.hits}, now, to, beams), Departure::kUntold);
+  std::vector<Beam> edge = beams;  // beside which a part of the place is seen
+  const std::vector<Beam> wall = beams_to([](double) { return 5.0; });
+  std::copy_n(wall.begin(), wall.size() / 2 - 2, edge.begin());
+  EXPECT_EQ(departure({from, before.hits}, now, to, edge), Departure::kUntold);
   beams.erase(std::remove_if(beams.begin(), beams.end(),
                              [](const Beam& beam) { return beam.end.norm() < 2.0; }),
               beams.end());

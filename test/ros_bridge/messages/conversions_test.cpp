@@ -56,6 +56,15 @@ TEST(Conversions, TurnsThatAreUnderWayGoThereAndBack) {
               1e-6);
 }
 
+TEST(Conversions, TurnsWithoutDerivativesAreFromRestToRest) {
+  const Motion motion(kEpoch_s, {TurnPhase{{{1.0, 2.0}, 0.3}, 1.2, 1.7}});
+  mocha_ugv::Trajectory message;
+  to_message(motion, message);
+  message.phases[0].start_derivatives.clear();
+  message.phases[0].end_derivatives.clear();
+  expect_same(motion, from_message(message), 1e-9);
+}
+
 TEST(Conversions, BackwardDrivesStayBackward) {
   const Motion motion(kEpoch_s, {random_drive(3, 4, -1)});
   expect_same(motion, over_the_wire(motion), 1e-9);
@@ -127,7 +136,7 @@ TEST(Conversions, MalformedMotionsAreRefused) {
   refuses("duration not finite", [](Message& m) { m.phases[1].durations[2] = kNan; });
   refuses("place not finite", [](Message& m) { m.phases[1].x[3] = kNan; });
   refuses("place infinite", [](Message& m) { m.phases[1].y[1] = INFINITY; });
-  refuses("a turn without rates", [](Message& m) { m.phases[0].start_derivatives.clear(); });
+  refuses("half a turn's rates", [](Message& m) { m.phases[0].start_derivatives.pop_back(); });
   refuses("a turn's rate not finite", [](Message& m) { m.phases[0].end_derivatives[0] = kNan; });
   refuses("a turn's acceleration", [](Message& m) { m.phases[0].start_derivatives[1] = kNan; });
   refuses("no start derivatives", [](Message& m) { m.phases[1].start_derivatives.clear(); });
