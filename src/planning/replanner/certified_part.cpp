@@ -59,10 +59,13 @@ class Cutter {
     return std::nullopt;
   }
 
+  /// What is to be driven on from later does not end in the midst of a turn in place: it would have
+  /// to begin anew there.
   std::optional<CertifiedPart> braking_at(double t, const Violation& cut_by) {
+    const double brake_s = maneuver_.at_once ? t : onward_.switch_time(t);
     const MotionOrFault braked =
-        try_brake(onward_, onward_.start_time(), t, maneuver_.braking.value());
-    return braked ? promised(braked.motion, t, cut_by) : std::nullopt;
+        try_brake(onward_, onward_.start_time(), brake_s, maneuver_.braking.value());
+    return braked ? promised(braked.motion, brake_s, cut_by) : std::nullopt;
   }
 
   /// A motion from the maneuver's joining on, as it will be heard, if it is certified.

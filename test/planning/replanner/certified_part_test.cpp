@@ -17,10 +17,11 @@ class CertifiedPartTest : public ManeuverTest {
  protected:
   /// Of what is committed, when braking begins in a window of time.
   std::optional<CertifiedPart> longest(const Motion& committed, const LocalScene& scene,
-                                       double now_s, double earliest_s, double latest_s) const {
+                                       double now_s, double earliest_s, double latest_s,
+                                       bool at_once = false) const {
     const ManeuverStart start = start_of(committed, scene, now_s);
     const Maneuver goes_on{now_s,      rest_of(committed, now_s), earliest_s, latest_s,
-                           earliest_s, robot_.braking(),          false,      Follows::kCommitted,
+                           earliest_s, robot_.braking(),          at_once,    Follows::kCommitted,
                            "goes on"};
     return certified_part(start, goes_on, RequirementName::kPromise);
   }
@@ -173,17 +174,23 @@ TEST_F(CertifiedPartTest, NothingWhereNotEvenBrakingIsCertified) {
   EXPECT_TRUE(longest(ahead_, scene, now_s - 1.5, now_s - 1.2, now_s + 4.0));
 }
 
-TEST_F(CertifiedPartTest, ATurnInPlaceIsEndedAndWhatComesAfterItNotBegun) {
+TEST_F(CertifiedPartTest, ATurnInPlaceIsEndedInItsMidstAtOnceOnly) {
   const TurnPhase turn{{{0.0, 0.0}, -2.0}, 2.0, turn_duration_s(2.0, 1.5, 4.0)};
   const Motion motion(kStart_s,
                       {turn, straight_drive(0.0, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5).phases()[0]});
   const double middle_s = kStart_s + 0.5 * turn.duration_s;
+  const double end_s = kStart_s + turn.duration_s;
   const LocalScene scene = scene_of(open_);
-  const auto promise = longest(motion, scene, middle_s, middle_s + 0.1, middle_s + 0.2);
-  ASSERT_TRUE(promise);
-  EXPECT_LT(promise->motion.end_time(), kStart_s + turn.duration_s);
-  EXPECT_LT(promise->motion.end_pose().yaw_rad, -0.1);
-  EXPECT_LT(end(*promise).norm(), 1e-9);
+  const auto settled = longest(motion, scene, middle_s, middle_s + 0.1, middle_s + 0.2);
+  ASSERT_TRUE(settled);
+  EXPECT_NEAR(settled->motion.at(end_s).pose.yaw_rad, 0.0, 1e-4)
+      << "the drive can follow from there";
+  EXPECT_NEAR(settled->follows_until_s, end_s, 1e-6);
+  const auto emergency = longest(motion, scene, middle_s, middle_s + 0.1, middle_s + 0.2, true);
+  ASSERT_TRUE(emergency);
+  EXPECT_LT(emergency->motion.end_time(), end_s);
+  EXPECT_LT(emergency->motion.end_pose().yaw_rad, -0.1);
+  for (const auto& promise : {settled, emergency}) EXPECT_LT(end(*promise).norm(), 1e-9);
 }
 
 TEST_F(CertifiedPartTest, ARobotThatStandsMayGoOnStanding) {
