@@ -136,8 +136,8 @@ double before_crawling(const Motion& motion, double t) {
   return t;
 }
 
-/// From the turn in place that is under way at t to rest, or what is left of it where that is at
-/// rest no later; nothing where none is.
+/// Returns how the turn in place that is under way at t comes to rest: braking, or by what is left
+/// of it where that takes no longer. Nothing where no turn is under way.
 std::optional<TurnPhase> end_of_turn(const Motion& motion, double t, const Braking& braking) {
   if (motion.at(t).at_rest) return std::nullopt;
   const int i = motion.phase_at(t);

@@ -13,7 +13,7 @@ double value_at(const Bernstein<1, N>& control, double u) {
   return split(control, u).second[0];
 }
 
-/// The highest yaw acceleration of the turn, about.
+/// Returns about the highest yaw acceleration of the turn [rad/s^2].
 double hardest(const TurnPhase& turn) {
   constexpr int kLooks = 32;
   const Bernstein<1, 3> acceleration = derivative(derivative(yaw_change(turn)));
@@ -23,7 +23,7 @@ double hardest(const TurnPhase& turn) {
   return most / (turn.duration_s * turn.duration_s);
 }
 
-/// To rest within that time; the rate follows the cubic between the ends.
+/// Returns the turn to rest within that time; its rate follows the cubic between the ends.
 TurnPhase to_rest(const Pose& pose, const TurnRates& rates, double duration_s) {
   const double change_rad =
       duration_s * (rates.yaw_rate / 2.0 + rates.yaw_acceleration * duration_s / 12.0);

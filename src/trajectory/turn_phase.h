@@ -21,7 +21,7 @@ struct TurnPhase {
   TurnRates to = {};    ///< at its end
 };
 
-/// The change of heading since the start [rad], over the turn's time in [0, 1].
+/// Returns the change of heading since the start [rad], over the turn's time in [0, 1].
 Bernstein<1, 5> yaw_change(const TurnPhase& turn);
 
 /// The heading [rad], wrapped into (-pi, pi], and how it changes at time t [s] within the turn.
@@ -31,15 +31,15 @@ struct TurnState {
 };
 TurnState state_of(const TurnPhase& turn, double t);
 
-/// The turn between two times within it [s]; `from_s` is less than `until_s`.
+/// Returns the turn between two times within it [s]; `from_s` is less than `until_s`.
 TurnPhase part_of(const TurnPhase& turn, double from_s, double until_s);
 
-/// From a turn that is under way to rest, to the same side: at `deceleration` [rad/s^2], which is
-/// above 0, or as hard as its rate changes already, where that is harder.
+/// Returns how a turn that is under way comes to rest, to the same side: at `deceleration`
+/// [rad/s^2], which is above 0, or as hard as its rate changes already, where that is harder.
 TurnPhase turn_to_rest(const Pose& pose, const TurnRates& rates, double deceleration);
 
-/// Duration of the quintic turn by `yaw_change_rad` from rest to rest within the limits of rate
-/// [rad/s] and acceleration [rad/s^2], with a thousandth to spare for what messages round.
+/// Returns the duration of the quintic turn by `yaw_change_rad` from rest to rest within the limits
+/// of rate [rad/s] and acceleration [rad/s^2], with a thousandth to spare for what messages round.
 double turn_duration_s(double yaw_change_rad, double max_yaw_rate, double max_yaw_acceleration);
 
 }  // namespace mocha

@@ -1,10 +1,10 @@
 #include "fleet/protocol/reservation_chain.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "trajectory/separation.h"
+#include "trajectory/splice.h"
 
 namespace mocha {
 namespace {
@@ -14,29 +14,16 @@ constexpr double kTolerance_m = 0.005;  // of a distance that is only reported
 /// Makes one claim of two that follow each other; false where their motions do not join.
 bool append(Reservation& reservation, const Reservation& next, double now) {
   const Motion& first = *reservation.trajectory.motion;
-  const double begin_s = std::max(now, first.start_time());
-  const double switch_s = std::max(begin_s, next.from_s);
-  try {
-    std::vector<Phase> phases = first.phases_between(begin_s, switch_s);
-    const double stands_from_s = std::max(begin_s, first.end_time());
-    if (stands_from_s < switch_s)
-      phases.emplace_back(StandPhase{first.end_pose(), switch_s - stands_from_s});
-    const Motion& second = *next.trajectory.motion;
-    const auto onward = switch_s > second.start_time()
-                            ? second.phases_between(switch_s, second.end_time())
-                            : second.phases();
-    phases.insert(phases.end(), onward.begin(), onward.end());
-    auto joined = std::make_shared<const Motion>(begin_s, std::move(phases));
-    const double radius_m =
-        std::max(reservation.trajectory.footprint_radius_m, next.trajectory.footprint_radius_m);
-    reservation.trajectory = next.trajectory;
-    reservation.trajectory.motion = std::move(joined);
-    reservation.trajectory.footprint_radius_m = radius_m;
-    reservation.until_s = next.until_s;
-    return true;
-  } catch (const std::invalid_argument&) {
-    return false;
-  }
+  const double switch_s = std::max({now, first.start_time(), next.from_s});
+  MotionOrFault joined = splice(first, now, switch_s, *next.trajectory.motion);
+  if (!joined) return false;
+  const double radius_m =
+      std::max(reservation.trajectory.footprint_radius_m, next.trajectory.footprint_radius_m);
+  reservation.trajectory = next.trajectory;
+  reservation.trajectory.motion = std::make_shared<const Motion>(std::move(joined.motion));
+  reservation.trajectory.footprint_radius_m = radius_m;
+  reservation.until_s = next.until_s;
+  return true;
 }
 
 }  // namespace

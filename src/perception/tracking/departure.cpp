@@ -13,7 +13,8 @@ constexpr std::size_t kMostHits = 8;     // that are looked at
 constexpr double kBesideBeam_m = 0.075;  // a beam so near to a place tells whether that is free
 constexpr double kBeyond_m = 0.15;       // it passes if it ends so much farther away
 
-/// Taken where some beams end there, as at a slanted wall; free where all that lead there pass.
+/// Returns taken where some beams end there, as at a slanted wall; free where all that lead there
+/// pass.
 View view_at(const Vector2& place, const std::vector<Beam>& beams) {
   int passing = 0;
   int there = 0;
@@ -34,7 +35,7 @@ View view_at(const Vector2& place, const std::vector<Beam>& beams) {
   return passing == all ? View::kFree : View::kHidden;
 }
 
-/// Whether most of these places are free or, else, taken; unseen where neither.
+/// Returns free or taken where half of these places are, and unseen where neither.
 View view_of_most(const std::vector<Vector2>& places, const std::vector<Beam>& beams) {
   const std::size_t step = (places.size() + kMostHits - 1) / kMostHits;
   int looked_at = 0;

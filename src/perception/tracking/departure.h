@@ -23,9 +23,9 @@ enum class Departure {
   kUntold,  ///< none of it is near, but nothing shows what is at the place now
 };
 
-/// Of a thing that is `now` at `centre`. Walls of which a scan shows another part than the scans
-/// before, and things that are believed in a slightly wrong place, have not left; where the part
-/// before is out of sight, that is untold.
+/// Returns what became of a thing that is `now` at `centre`. Walls of which a scan shows another
+/// part than the scans before, and things that are believed in a slightly wrong place, have not
+/// left; where the part before is out of sight, that is untold.
 Departure departure(const SeenPlace& place, const Detection& now, const Vector2& centre,
                     const std::vector<Beam>& beams);
 

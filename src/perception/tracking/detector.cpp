@@ -111,8 +111,8 @@ std::vector<bool> Detector::on_large_surfaces(const std::vector<ScanSegment>& se
   return large;
 }
 
-/// Returns whether the beam hits a known person who stands, or close to one. Such a person may be
-/// in the map already; when it sets off, only the leg that moves looks new.
+/// Returns whether the beam ends on a known person who stands, or close by. The map may hold that
+/// person already; when it sets off, only the leg that moves is new.
 bool Detector::is_on_standing_person(const Beam& beam,
                                      const std::vector<TrackedObstacle>& lively) const {
   return std::any_of(lively.begin(), lively.end(), [&](const TrackedObstacle& thing) {

@@ -16,9 +16,8 @@ struct DetectorOptions {
 };
 
 /// Finds what may move among the hits of a scan: what has come to where the map was free, what is
-/// known and stands, and what looks like legs. A thing is called lively if it moves or is a person;
-/// a person who stands is lively, too. Surfaces that are too large to move are no things, and
-/// neither are parts of them.
+/// known and stands, and what looks like legs. A lively thing moves, or is a person, who may stand.
+/// Hits on surfaces that are too large to move make no thing.
 class Detector {
  public:
   explicit Detector(const DetectorOptions& options) : options_(options) {}

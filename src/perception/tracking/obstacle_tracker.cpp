@@ -164,8 +164,8 @@ void ObstacleTracker::see(Track& track, const Detection& detection,
   if (track.id == 0 && is_known) track.id = ++last_id_;
 }
 
-/// Of what has gone farther than it is wide, while nothing showed its place, the next place will
-/// tell; what stands has to be seen leaving.
+/// Counts a place that was seen to be left. Where nothing shows the place, a thing that has gone
+/// farther than it is wide is watched from its new place on, unless it stands: that has to be seen.
 void ObstacleTracker::look_for_departure(Track& track, const Detection& detection,
                                          const Vector2& centre,
                                          const std::vector<Beam>& beams) const {

@@ -86,7 +86,7 @@ class MovingDiscs {
   const double clearance_m_;
 };
 
-/// From the turn in place that is under way at `join_s` to rest; nothing where none is.
+/// Returns how the turn in place that is under way at `join_s` is ended; nothing where none is.
 std::optional<TurnPhase> stop_of_turn(const ManeuverStart& start, double join_s) {
   const Phase stop = brake_along(start.committed, join_s, start.robot.braking()).front();
   const auto* turn = std::get_if<TurnPhase>(&stop);
