@@ -23,7 +23,7 @@ LEVELS = [["config", "trajectory"],
           ["nodes"]]
 LEVEL = {folder: level for level, folders in enumerate(LEVELS) for folder in folders}
 # The same for the rooms of a folder.
-ROOM_LEVELS = {"planning": [["candidates"], ["global", "local", "maneuvers"], ["executive", "replanner"]]}
+ROOM_LEVELS = {"planning": [["candidates", "passing"], ["global", "local", "maneuvers"], ["executive", "replanner"]]}
 ROOM_LEVEL = {f"{folder}/{room}": level for folder, levels in ROOM_LEVELS.items() for level, rooms in enumerate(levels) for room in rooms}
 WITH_ROS = {"ros_bridge", "nodes"}
 
@@ -48,6 +48,7 @@ ROOMS = {
     "planning/global": "The path to the goal: seeds of several classes, and the rules by which the pipeline makes plans of them.",
     "planning/local": "The detour in space-time around what moves, and back to the plan.",
     "planning/maneuvers": "One maneuver a file: each only generates candidate motions.",
+    "planning/passing": "In which order robots that stand in each other's way pass, and by which places.",
     "planning/replanner": "Which maneuver is driven, proved how, promised how.",
     "ros_bridge/inputs": "What is heard from topics and services, checked, until a node asks for it.",
     "ros_bridge/messages": "Conversions between messages and the core's types.",

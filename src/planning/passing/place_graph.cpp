@@ -1,0 +1,210 @@
+#include "planning/passing/place_graph.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
+#include <queue>
+#include <utility>
+
+#include "planning/passing/place_packing.h"
+#include "topology/paths/path_shortcutting.h"
+#include "topology/static_map/lattice.h"
+#include "world/obstacle.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kSame_m = 1e-3;
+
+/// Nodes by their distance, nearest first.
+using NearestFirst = std::priority_queue<std::pair<double, int>,
+                                         std::vector<std::pair<double, int>>, std::greater<>>;
+
+/// The lattice within a window, and how far each of its nodes is from the nearest of some places.
+class Surroundings {
+ public:
+  Surroundings(const StaticMap& static_map, const Eigen::AlignedBox2d& window,
+               const PlaceGraphOptions& options)
+      : window_(window),
+        lattice_(static_map, options.lattice_m),
+        cost_(static_map, Vector2::Zero(), {}, without_escape(options.travel)) {}
+
+  /// Grows from all places at once; what they reach is nearest to the place `owner`.
+  void grow(const std::vector<Vector2>& places) {
+    reached_m_.assign(lattice_.size(), kInfinity);
+    owner_.assign(lattice_.size(), -1);
+    parent_.assign(lattice_.size(), -1);
+    NearestFirst queue;
+    for (int i = 0; i < static_cast<int>(places.size()); ++i) enter(places[i], i, queue);
+    while (!queue.empty()) {
+      const auto [reached_m, node] = queue.top();
+      queue.pop();
+      if (reached_m > reached_m_[node]) continue;
+      lattice_.visit_neighbours(node, [&](int next, double length_m) {
+        if (!joined(node, next)) return;
+        if (!improve(next, reached_m + length_m, owner_[node], node)) return;
+        queue.emplace(reached_m + length_m, next);
+      });
+    }
+  }
+
+  /// All that was reached.
+  std::vector<Vector2> reached() const {
+    std::vector<Vector2> found;
+    for (int node = 0; node < static_cast<int>(lattice_.size()); ++node) {
+      if (owner_[node] >= 0) found.push_back(lattice_.position(node));
+    }
+    return found;
+  }
+
+  /// The shortest path between each two places of which the surroundings meet, through where they
+  /// do.
+  std::map<std::pair<int, int>, std::vector<Vector2>> paths(
+      const std::vector<Vector2>& places) const {
+    struct Meeting {
+      double length_m = kInfinity;
+      int here = -1;
+      int there = -1;
+    };
+    std::map<std::pair<int, int>, Meeting> meetings;
+    for (int node = 0; node < static_cast<int>(lattice_.size()); ++node) {
+      if (owner_[node] < 0) continue;
+      lattice_.visit_neighbours(node, [&](int next, double length_m) {
+        if (owner_[next] <= owner_[node] || !joined(node, next)) return;
+        Meeting& meeting = meetings[{owner_[node], owner_[next]}];
+        const double through_m = reached_m_[node] + length_m + reached_m_[next];
+        if (through_m < meeting.length_m) meeting = {through_m, node, next};
+      });
+    }
+    std::map<std::pair<int, int>, std::vector<Vector2>> paths;
+    for (const auto& [pair, meeting] : meetings) {
+      std::vector<Vector2> path = traced(meeting.here, places[pair.first]);
+      std::reverse(path.begin(), path.end());
+      const std::vector<Vector2> rest = traced(meeting.there, places[pair.second]);
+      path.insert(path.end(), rest.begin(), rest.end());
+      paths[pair] = with_shortcuts(path, cost_, Cuts<2>({}));
+    }
+    return paths;
+  }
+
+ private:
+  static TravelOptions without_escape(TravelOptions options) {
+    options.escape_radius_m = 0.0;
+    return options;
+  }
+
+  bool is_free(int node) const {
+    const Vector2 place = lattice_.position(node);
+    return window_.contains(place) && cost_.at(place) < kInfinity;
+  }
+
+  bool joined(int a, int b) const {
+    return is_free(b) && cost_.of_line(lattice_.position(a), lattice_.position(b)) < kInfinity;
+  }
+
+  /// By the corners of the square that it is in, whatever is between: robots may stand anywhere.
+  void enter(const Vector2& place, int number, NearestFirst& queue) {
+    for (int which = 0; which < 4; ++which) {
+      const int node = lattice_.corner(place, which);
+      const double length_m = (lattice_.position(node) - place).norm();
+      if (is_free(node) && improve(node, length_m, number, node)) queue.emplace(length_m, node);
+    }
+  }
+
+  bool improve(int node, double reached_m, int owner, int parent) {
+    if (!(reached_m < reached_m_[node])) return false;
+    reached_m_[node] = reached_m;
+    owner_[node] = owner;
+    parent_[node] = parent;
+    return true;
+  }
+
+  /// From a node back to its place.
+  std::vector<Vector2> traced(int node, const Vector2& place) const {
+    std::vector<Vector2> path = {lattice_.position(node)};
+    for (; parent_[node] != node; node = parent_[node])
+      path.push_back(lattice_.position(parent_[node]));
+    if ((path.back() - place).norm() < kSame_m) path.pop_back();
+    path.push_back(place);
+    return path;
+  }
+
+  const Eigen::AlignedBox2d window_;
+  const Lattice lattice_;
+  const TravelCost cost_;
+  std::vector<double> reached_m_;
+  std::vector<int> owner_;
+  std::vector<int> parent_;  // towards the place; itself beside it
+};
+
+double length_of(const std::vector<Vector2>& path) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i] - path[i - 1]).norm();
+  return length_m;
+}
+
+double distance_m(const Vector2& place, const std::vector<Vector2>& path) {
+  double least_m = (place - path.front()).norm();
+  for (std::size_t i = 1; i < path.size(); ++i)
+    least_m = std::min(least_m, (place - nearest_on_segment(place, path[i - 1], path[i])).norm());
+  return least_m;
+}
+
+/// What is too close to where the robot begins is in its way only if it comes closer still.
+std::vector<int> blocking(const std::vector<Vector2>& places, int from, int to,
+                          const std::vector<Vector2>& path, double apart_m) {
+  std::vector<int> blocking;
+  for (int i = 0; i < static_cast<int>(places.size()); ++i) {
+    const double keep_m = std::min(apart_m, (places[i] - places[from]).norm()) - kSame_m;
+    const bool in_the_way = distance_m(places[i], path) < keep_m;
+    if (i == to || (i != from && in_the_way)) blocking.push_back(i);
+  }
+  return blocking;
+}
+
+}  // namespace
+
+PlaceGraph make_place_graph(const StaticMap& static_map, const Eigen::AlignedBox2d& window,
+                            const std::vector<Vector2>& fixed, const PlaceGraphOptions& options) {
+  Surroundings surroundings(static_map, window, options);
+  surroundings.grow(fixed);
+  const std::vector<Vector2> candidates = surroundings.reached();
+  PlaceGraph graph;
+  graph.places = fixed;
+  for (const int i : packed(candidates, fixed, options.apart_m))
+    graph.places.push_back(candidates[i]);
+  surroundings.grow(graph.places);
+  graph.moves.resize(graph.places.size());
+  for (auto& [pair, path] : surroundings.paths(graph.places)) {
+    const auto [a, b] = pair;
+    const double length_m = length_of(path);
+    const std::vector<Vector2> back(path.rbegin(), path.rend());
+    graph.moves[a].push_back(
+        {b, length_m, path, blocking(graph.places, a, b, path, options.apart_m)});
+    graph.moves[b].push_back(
+        {a, length_m, back, blocking(graph.places, b, a, back, options.apart_m)});
+  }
+  return graph;
+}
+
+std::vector<double> distances_to(const PlaceGraph& graph, int goal) {
+  std::vector<double> distances_m(graph.places.size(), kInfinity);
+  distances_m[goal] = 0.0;
+  NearestFirst queue;
+  queue.emplace(0.0, goal);
+  while (!queue.empty()) {
+    const auto [reached_m, place] = queue.top();
+    queue.pop();
+    if (reached_m > distances_m[place]) continue;
+    for (const PlaceMove& move : graph.moves[place]) {
+      if (!(reached_m + move.length_m < distances_m[move.to])) continue;
+      distances_m[move.to] = reached_m + move.length_m;
+      queue.emplace(distances_m[move.to], move.to);
+    }
+  }
+  return distances_m;
+}
+
+}  // namespace mocha

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "topology/static_map/travel_cost.h"
+
+namespace mocha {
+
+/// A way from one place of a PlaceGraph to a neighbour.
+struct PlaceMove {
+  int to;
+  double length_m;
+  std::vector<Vector2> path;    ///< from place to place, straight between
+  std::vector<int> blocked_by;  ///< sorted: while a robot stands at one of these places, no other
+                                ///< can go this way; `to` is one of them, `from` is not
+};
+
+/// Places for the centres of robots of one size, and the ways between them: pebble motion on this
+/// graph is what a group of robots can do one by one, whatever their promises keep.
+struct PlaceGraph {
+  std::vector<Vector2> places;                ///< map frame [m]
+  std::vector<std::vector<PlaceMove>> moves;  ///< of each place
+
+  int size() const { return static_cast<int>(places.size()); }
+};
+
+/// How a PlaceGraph is made.
+struct PlaceGraphOptions {
+  TravelOptions travel;
+  double apart_m;          ///< two robots keep between their centres
+  double lattice_m = 0.1;  ///< of the paths
+};
+
+/// The graph of the free space within `window` that can be reached from the places of `fixed`,
+/// which are its first places, in this order: where robots are, and where they are to be. Other
+/// places are added as long as they are `apart_m` from all others; narrow ends first, so that
+/// corridors hold as many as they can. Neighbours are places of which the surroundings meet. Robots
+/// that are closer than `apart_m` at their places can still leave each other.
+PlaceGraph make_place_graph(const StaticMap& static_map, const Eigen::AlignedBox2d& window,
+                            const std::vector<Vector2>& fixed, const PlaceGraphOptions& options);
+
+/// How far it is from each place to `goal` along the graph, other robots aside [m]; infinite where
+/// there is no way. Ways are as long there as back.
+std::vector<double> distances_to(const PlaceGraph& graph, int goal);
+
+}  // namespace mocha

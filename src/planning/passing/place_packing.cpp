@@ -1,0 +1,86 @@
+#include "planning/passing/place_packing.h"
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace mocha {
+namespace {
+
+/// Points by square cells as wide as the distance that matters.
+class Buckets {
+ public:
+  explicit Buckets(double width_m) : width_m_(width_m) {}
+
+  void add(int number, const Vector2& place) { cells_[cell(place)].push_back({number, place}); }
+
+  /// Calls visit(number) for all points closer to `place` than the width.
+  template <typename Visit>
+  void visit_near(const Vector2& place, const Visit& visit) const {
+    const auto [column, row] = cell(place);
+    for (std::int64_t y = row - 1; y <= row + 1; ++y) {
+      for (std::int64_t x = column - 1; x <= column + 1; ++x) {
+        const auto found = cells_.find({x, y});
+        if (found == cells_.end()) continue;
+        for (const auto& [number, other] : found->second) {
+          if ((other - place).norm() < width_m_) visit(number);
+        }
+      }
+    }
+  }
+
+ private:
+  using Cell = std::pair<std::int64_t, std::int64_t>;
+  Cell cell(const Vector2& place) const {
+    return {std::llround(std::floor(place.x() / width_m_)),
+            std::llround(std::floor(place.y() / width_m_))};
+  }
+
+  double width_m_;
+  std::map<Cell, std::vector<std::pair<int, Vector2>>> cells_;
+};
+
+}  // namespace
+
+std::vector<int> packed(const std::vector<Vector2>& candidates, const std::vector<Vector2>& fixed,
+                        double apart_m) {
+  const int count = static_cast<int>(candidates.size());
+  Buckets buckets(apart_m);
+  for (int i = 0; i < count; ++i) buckets.add(i, candidates[i]);
+  std::vector<bool> open(count, true);
+  for (const Vector2& place : fixed) buckets.visit_near(place, [&](int i) { open[i] = false; });
+  std::vector<int> rivals(count, 0);
+  std::set<std::pair<int, int>> fewest_first;
+  for (int i = 0; i < count; ++i) {
+    if (!open[i]) continue;
+    buckets.visit_near(candidates[i], [&](int j) { rivals[i] += open[j] && j != i; });
+    fewest_first.emplace(rivals[i], i);
+  }
+  const auto close = [&](int i) {
+    open[i] = false;
+    fewest_first.erase({rivals[i], i});
+  };
+  std::vector<int> chosen;
+  while (!fewest_first.empty()) {
+    const int next = fewest_first.begin()->second;
+    chosen.push_back(next);
+    close(next);
+    std::vector<int> closed;
+    buckets.visit_near(candidates[next], [&](int i) {
+      if (open[i]) closed.push_back(i);
+    });
+    for (const int i : closed) close(i);
+    for (const int i : closed) {
+      buckets.visit_near(candidates[i], [&](int j) {
+        if (!open[j]) return;
+        fewest_first.erase({rivals[j], j});
+        fewest_first.emplace(--rivals[j], j);
+      });
+    }
+  }
+  return chosen;
+}
+
+}  // namespace mocha

@@ -1,0 +1,113 @@
+#include "planning/passing/place_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "planning/passing/cell_world.h"
+#include "world/obstacle.h"
+
+namespace mocha {
+namespace {
+
+using test::kApart_m;
+using test::kClearance_m;
+
+double gap_m(const Vector2& place, const std::vector<Vector2>& path) {
+  double least_m = (place - path.front()).norm();
+  for (std::size_t i = 1; i < path.size(); ++i)
+    least_m = std::min(least_m, (place - nearest_on_segment(place, path[i - 1], path[i])).norm());
+  return least_m;
+}
+
+const PlaceMove* move_between(const PlaceGraph& graph, int from, int to) {
+  for (const PlaceMove& move : graph.moves[from]) {
+    if (move.to == to) return &move;
+  }
+  return nullptr;
+}
+
+TEST(PlaceGraph, PathsAreFreeAndSayWhoIsInTheirWay) {
+  for (const auto& puzzle : test::puzzles()) {
+    const PassingProblem problem = test::in_space(puzzle);
+    const auto static_map = test::static_map_of_cells(puzzle.starts);
+    const PlaceGraph& graph = problem.graph;
+    int moves = 0;
+    for (int from = 0; from < graph.size(); ++from) {
+      for (const PlaceMove& move : graph.moves[from]) {
+        ++moves;
+        EXPECT_EQ(move.path.front(), graph.places[from]);
+        EXPECT_EQ(move.path.back(), graph.places[move.to]);
+        EXPECT_GE(move.length_m + 1e-9, (graph.places[from] - graph.places[move.to]).norm());
+        for (std::size_t i = 1; i < move.path.size(); ++i) {
+          for (double share = 0.0; share <= 1.0; share += 0.1) {
+            const Vector2 p = move.path[i - 1] + share * (move.path[i] - move.path[i - 1]);
+            EXPECT_GE(static_map->field().sample(p).distance_m, kClearance_m - 0.02);
+          }
+        }
+        for (int other = 0; other < graph.size(); ++other) {
+          const bool blocks =
+              std::binary_search(move.blocked_by.begin(), move.blocked_by.end(), other);
+          if (other == from || other == move.to) {
+            EXPECT_EQ(blocks, other == move.to);
+            continue;
+          }
+          const double keep_m =
+              std::min(kApart_m, (graph.places[other] - graph.places[from]).norm());
+          EXPECT_EQ(blocks, gap_m(graph.places[other], move.path) < keep_m - 1e-3);
+        }
+        const PlaceMove* back = move_between(graph, move.to, from);
+        ASSERT_NE(back, nullptr);
+        EXPECT_DOUBLE_EQ(back->length_m, move.length_m);
+      }
+    }
+    EXPECT_GT(moves, 2 * graph.size() - 3) << puzzle.name;  // a tree at least
+  }
+}
+
+TEST(PlaceGraph, WhatIsConnectedInSpaceIsConnectedInTheGraph) {
+  const test::CellPuzzle maze = {
+      "maze", {"a.#...", ".##.#.", "..#.#.", "#...#b"}, {"a.#...", ".##.#.", "..#.#.", "#...#b"}};
+  const PassingProblem problem = test::in_space(maze);
+  const auto distances_m = distances_to(problem.graph, problem.goals[1]);
+  for (int place = 0; place < problem.graph.size(); ++place)
+    EXPECT_TRUE(std::isfinite(distances_m[place])) << problem.graph.places[place].transpose();
+  // Down two cells and to the right, along, up three, over two and down three.
+  EXPECT_NEAR(distances_m[problem.starts[0]], 13.0 * test::kCell_m, 4.0);
+}
+
+TEST(PlaceGraph, WallsPart) {
+  const test::CellPuzzle rooms = {"rooms", {"a.#..", "..#.b"}, {"a.#..", "..#.b"}};
+  const PassingProblem problem = test::in_space(rooms);
+  EXPECT_TRUE(std::isinf(distances_to(problem.graph, problem.goals[1])[problem.starts[0]]));
+}
+
+TEST(PlaceGraph, StaysInsideItsWindow) {
+  const std::vector<std::string> rows = {".....", "....."};
+  const auto static_map = test::static_map_of_cells(rows);
+  const Eigen::AlignedBox2d window(Vector2(0.0, 0.0), Vector2(3.0, 2.4));
+  const PlaceGraph graph =
+      make_place_graph(*static_map, window, {{0.6, 0.6}}, test::graph_options());
+  EXPECT_GE(graph.size(), 5);
+  for (const Vector2& place : graph.places) EXPECT_TRUE(window.contains(place));
+}
+
+TEST(PlaceGraph, RobotsThatAreTooCloseCanLeaveEachOther) {
+  const std::vector<std::string> rows = {"....."};
+  const auto static_map = test::static_map_of_cells(rows);
+  const PlaceGraph graph = make_place_graph(*static_map, static_map->bounds(),
+                                            {{2.7, 0.6}, {3.3, 0.6}}, test::graph_options());
+  ASSERT_FALSE(graph.moves[0].empty());
+  bool leaves = false;
+  for (const PlaceMove& move : graph.moves[0]) {
+    const bool blocked = std::binary_search(move.blocked_by.begin(), move.blocked_by.end(), 1);
+    const bool away = graph.places[move.to].x() < 2.7;
+    EXPECT_EQ(blocked, !away);
+    leaves = leaves || away;
+  }
+  EXPECT_TRUE(leaves);
+}
+
+}  // namespace
+}  // namespace mocha

@@ -1,0 +1,65 @@
+#include "planning/passing/place_packing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace mocha {
+namespace {
+
+std::vector<Vector2> lattice(double width_m, double height_m) {
+  std::vector<Vector2> points;
+  for (int y = 0; 0.1 * y < height_m + 1e-9; ++y) {
+    for (int x = 0; 0.1 * x < width_m + 1e-9; ++x) points.emplace_back(0.1 * x, 0.1 * y);
+  }
+  return points;
+}
+
+double least_gap_m(const std::vector<Vector2>& points) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) least_m = std::min(least_m, (points[i] - points[j]).norm());
+  }
+  return least_m;
+}
+
+std::vector<Vector2> chosen(const std::vector<Vector2>& candidates,
+                            const std::vector<Vector2>& fixed, double apart_m) {
+  std::vector<Vector2> points = fixed;
+  for (const int i : packed(candidates, fixed, apart_m)) points.push_back(candidates[i]);
+  return points;
+}
+
+TEST(PlacePacking, CorridorIsFilledWithoutGaps) {
+  for (const double length_m : {2.95, 3.95, 7.25, 12.05}) {
+    const auto points = chosen(lattice(length_m, 0.3), {}, 0.95);
+    // As many as fit on a line of a lattice of 0.1 m, where each takes 1 m.
+    EXPECT_GE(static_cast<int>(points.size()), static_cast<int>(length_m) + 1) << length_m;
+    EXPECT_GE(least_gap_m(points), 0.95);
+  }
+}
+
+TEST(PlacePacking, EveryCandidateIsNearAChosenOne) {
+  const auto candidates = lattice(6.0, 4.0);
+  const std::vector<Vector2> fixed = {{1.234, 2.345}, {1.9, 2.345}};  // closer than asked
+  const auto points = chosen(candidates, fixed, 0.95);
+  for (const Vector2& candidate : candidates) {
+    const auto gap_m = [&](const Vector2& point) { return (point - candidate).norm(); };
+    const auto nearest =
+        std::min_element(points.begin(), points.end(),
+                         [&](const Vector2& a, const Vector2& b) { return gap_m(a) < gap_m(b); });
+    EXPECT_LT(gap_m(*nearest), 0.95);
+  }
+  const std::vector<Vector2> added(points.begin() + 1, points.end());
+  EXPECT_GE(least_gap_m(added), 0.95);
+  EXPECT_GT(points.size(), 20u);
+}
+
+TEST(PlacePacking, NothingToChooseFrom) {
+  EXPECT_TRUE(packed({}, {}, 1.0).empty());
+  EXPECT_TRUE(packed({{0.0, 0.0}, {0.3, 0.0}}, {{0.1, 0.0}}, 1.0).empty());
+}
+
+}  // namespace
+}  // namespace mocha
