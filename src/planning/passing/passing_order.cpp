@@ -32,7 +32,9 @@ PassingOrder order_of(const PassingSequence& sequence, int robots) {
       for (int other = 0; other < robots; ++other) {
         int moves = other == robot ? 0 : static_cast<int>(made[other].size());
         while (moves > 0 && !has_to_follow(next, made[other][moves - 1])) --moves;
-        if (moves > 0) turn.after.push_back({other, moves});
+        if (moves == 0) continue;
+        turn.after.push_back(
+            {static_cast<std::uint32_t>(other), static_cast<std::uint32_t>(moves)});
       }
       made[robot].push_back(next);
       order[robot].push_back(std::move(turn));

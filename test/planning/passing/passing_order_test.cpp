@@ -24,8 +24,8 @@ const PlaceMove& move_of(const PlaceGraph& graph, int from, const std::vector<Ve
 }
 
 bool may_begin(const PassingTurn& turn, const std::vector<int>& made) {
-  return std::all_of(turn.after.begin(), turn.after.end(), [&](const Progress& progress) {
-    return made[progress.robot] >= progress.moves;
+  return std::all_of(turn.after.begin(), turn.after.end(), [&](const PassingProgress& progress) {
+    return made[progress.robot] >= static_cast<int>(progress.moves);
   });
 }
 
