@@ -12,14 +12,15 @@
 
 namespace mocha {
 
-/// Which order of passing: the robot that made it, in which epoch, and a number that it counts up.
+/// Which order of passing: the robot that made it, and a number that it counts up, also over its
+/// starts.
 struct PassingOrderId {
   std::string leader;
-  std::uint32_t epoch = 0;
+  std::uint32_t epoch = 0;   ///< of the leader where it sends the order; does not tell orders apart
   std::uint32_t number = 0;  ///< from 1; 0: none
 
   bool operator==(const PassingOrderId& other) const {
-    return std::tie(leader, epoch, number) == std::tie(other.leader, other.epoch, other.number);
+    return std::tie(leader, number) == std::tie(other.leader, other.number);
   }
   bool operator!=(const PassingOrderId& other) const { return !(*this == other); }
 };

@@ -23,6 +23,11 @@ class ByteWriter {
     put(static_cast<std::uint8_t>(text.size()));
     bytes_.insert(bytes_.end(), text.begin(), text.end());
   }
+  /// Seven bits a byte: the smaller the number, the shorter.
+  void put_varint(std::uint64_t value) {
+    for (; value >= 0x80; value >>= 7) put(static_cast<std::uint8_t>(value | 0x80));
+    put(static_cast<std::uint8_t>(value));
+  }
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
 
  private:
@@ -49,6 +54,15 @@ class ByteReader {
     std::string text(data_, data_ + size);
     skip(size);
     return text;
+  }
+  std::uint64_t get_varint() {
+    std::uint64_t value = 0;
+    for (int shift = 0; shift < 64; shift += 7) {
+      const std::uint64_t byte = get<std::uint8_t>();
+      value |= (byte & 0x7f) << shift;
+      if (byte < 0x80) return value;
+    }
+    throw std::invalid_argument("a number has too many bytes");
   }
   std::size_t left() const { return left_; }
 

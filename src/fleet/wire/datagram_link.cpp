@@ -12,8 +12,10 @@ constexpr std::size_t kRemembered = 64;  // own datagrams that may still come ba
 std::pair<std::string, std::uint32_t> sender_of(const FleetMessage& message) {
   if (const auto* trajectory = std::get_if<CommittedTrajectory>(&message))
     return {trajectory->agent, trajectory->id.epoch};
-  if (const auto* request = std::get_if<YieldRequest>(&message))
-    return {request->agent, request->epoch};
+  if (const auto* intent = std::get_if<PassingIntent>(&message))
+    return {intent->agent, intent->epoch};
+  if (const auto* instruction = std::get_if<PassingInstruction>(&message))
+    return {instruction->id.leader, instruction->id.epoch};
   if (const auto* stops = std::get_if<FleetStops>(&message)) return {stops->agent, stops->epoch};
   const Heartbeat& heartbeat = std::get<Heartbeat>(message);
   return {heartbeat.agent, heartbeat.epoch};

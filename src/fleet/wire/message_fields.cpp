@@ -5,6 +5,8 @@
 namespace mocha {
 namespace {
 
+constexpr char kBeyondMap[] = "a place is out of range";
+
 void check_name(const std::string& name) {
   require_said(!name.empty() && name.size() <= kMostName,
                "a name has no or more than 63 characters");
@@ -21,6 +23,18 @@ double get_time(ByteReader& in) {
   const auto count = in.get<std::int64_t>();
   require_said(std::abs(static_cast<double>(count)) < kMostCount, "a time is out of range");
   return static_cast<double>(count) / kTimes;
+}
+
+PlaceCounts counts_of(const Vector2& place) {
+  const Vector2 counts = kPlaces * place;
+  require_said(counts.cwiseAbs().maxCoeff() < kMostPlaceCount, kBeyondMap);
+  return {std::llround(counts.x()), std::llround(counts.y())};
+}
+
+Vector2 place_of(const PlaceCounts& counts) {
+  const Vector2 place(static_cast<double>(counts.x), static_cast<double>(counts.y));
+  require_said(place.cwiseAbs().maxCoeff() < kMostPlaceCount, kBeyondMap);
+  return place / kPlaces;
 }
 
 void put_name(ByteWriter& out, const std::string& name) {

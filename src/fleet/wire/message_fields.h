@@ -8,11 +8,12 @@
 #include <string>
 
 #include "fleet/wire/byte_codec.h"
+#include "trajectory/motion.h"
 
 namespace mocha {
 
-// What the parts of a message have in common: numbers as integers, times, names. Everything throws
-// std::invalid_argument, saying what is wrong, for values that cannot be encoded or decoded.
+// What the parts of a message have in common: numbers as integers, times, places, names. Everything
+// throws std::invalid_argument, saying what is wrong, for values that cannot be encoded or decoded.
 
 // What an integer counts, in one second, metre, and so on. Whole numbers: so the nearest double to
 // a decimal number comes back as it went.
@@ -23,6 +24,7 @@ constexpr double kFiner = 1e7;       // in [rad], of short turns
 constexpr double kRadii = 1e3;       // in [m]
 constexpr double kBrakings = 1e3;    // in [m/s^2]
 constexpr double kMostCount = 9e15;  // doubles hold whole numbers exactly up to about here
+constexpr double kMostPlaceCount = kMostCount / 4.0;  // place_of() loses none up to here
 
 constexpr std::size_t kMostName = 63;
 
@@ -47,6 +49,16 @@ double get_number(ByteReader& in, double counts) {
 
 /// Of either sign, as put_number() takes it.
 double get_time(ByteReader& in);
+
+/// A place of the map, which may begin far away.
+struct PlaceCounts {
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+};
+
+PlaceCounts counts_of(const Vector2& place);
+/// The place of which these are the counts.
+Vector2 place_of(const PlaceCounts& counts);
 
 /// Names of robots are words of letters, digits, "_" and "/".
 void put_name(ByteWriter& out, const std::string& name);

@@ -10,31 +10,20 @@ namespace {
 
 constexpr std::uint16_t kNoLimit = 0xffff;  // of the acceleration, while a robot brakes
 
-/// Counted from the beginning of the motion, which may be far from the origin of the map.
-struct Counts {
-  std::int64_t x = 0;
-  std::int64_t y = 0;
-};
-
-Counts counts_of(const Vector2& place) {
-  const Vector2 counts = kPlaces * place;
-  require_said(counts.cwiseAbs().maxCoeff() < kMostCount / 2.0, "a place is out of range");
-  return {std::llround(counts.x()), std::llround(counts.y())};
-}
-
-void put_place(ByteWriter& out, const Vector2& place, const Counts& origin) {
-  const Counts counts = counts_of(place);
+/// Counted from the beginning of the motion.
+void put_place(ByteWriter& out, const Vector2& place, const PlaceCounts& origin) {
+  const PlaceCounts counts = counts_of(place);
   put_number<std::int32_t>(out, static_cast<double>(counts.x - origin.x), 1.0, "x");
   put_number<std::int32_t>(out, static_cast<double>(counts.y - origin.y), 1.0, "y");
 }
 
-Vector2 get_place(ByteReader& in, const Counts& origin) {
+Vector2 get_place(ByteReader& in, const PlaceCounts& origin) {
   const std::int64_t x = origin.x + in.get<std::int32_t>();
   const std::int64_t y = origin.y + in.get<std::int32_t>();
-  return Vector2(static_cast<double>(x), static_cast<double>(y)) / kPlaces;
+  return place_of({x, y});
 }
 
-void put_phase(ByteWriter& out, const PhaseDescriptor& phase, const Counts& origin) {
+void put_phase(ByteWriter& out, const PhaseDescriptor& phase, const PlaceCounts& origin) {
   out.put(static_cast<std::uint8_t>(phase.kind));
   if (phase.kind != PhaseDescriptor::Kind::kDrive) {
     put_number<std::int32_t>(out, phase.yaw_start_rad, kFine, "a heading");
@@ -57,7 +46,7 @@ void put_phase(ByteWriter& out, const PhaseDescriptor& phase, const Counts& orig
   for (const Vector2& point : phase.points) put_place(out, point, origin);
 }
 
-PhaseDescriptor get_phase(ByteReader& in, const Counts& origin) {
+PhaseDescriptor get_phase(ByteReader& in, const PlaceCounts& origin) {
   PhaseDescriptor phase;
   const auto kind = in.get<std::uint8_t>();
   require_said(kind <= static_cast<int>(PhaseDescriptor::Kind::kStand),
@@ -110,7 +99,7 @@ void put_motion(ByteWriter& out, const Motion& motion) {
   const MotionDescriptor descriptor = describe(motion);
   put_number<std::int64_t>(out, descriptor.start_time_s, kTimes, "the start");
   out.put(count_of(descriptor.phases.size(), "phases"));
-  const Counts origin = counts_of(descriptor.phases.front().points.front());
+  const PlaceCounts origin = counts_of(descriptor.phases.front().points.front());
   out.put(origin.x);
   out.put(origin.y);
   for (const PhaseDescriptor& phase : descriptor.phases) put_phase(out, phase, origin);
@@ -120,10 +109,9 @@ std::shared_ptr<const Motion> get_motion(ByteReader& in) {
   MotionDescriptor descriptor;
   descriptor.start_time_s = get_time(in);
   const std::size_t phases = in.get<std::uint8_t>();
-  const Counts origin{in.get<std::int64_t>(), in.get<std::int64_t>()};
+  const PlaceCounts origin{in.get<std::int64_t>(), in.get<std::int64_t>()};
   for (const std::int64_t count : {origin.x, origin.y})
-    require_said(std::abs(static_cast<double>(count)) < kMostCount / 2.0,
-                 "a place is out of range");
+    require_said(std::abs(static_cast<double>(count)) < kMostPlaceCount, "x or y is out of range");
   for (std::size_t i = 0; i < phases; ++i) descriptor.phases.push_back(get_phase(in, origin));
   return std::make_shared<const Motion>(rebuild(descriptor));
 }

@@ -10,6 +10,7 @@
 #include "fleet/wire/byte_codec.h"
 #include "fleet/wire/message_fields.h"
 #include "fleet/wire/motion_codec.h"
+#include "fleet/wire/passing_codec.h"
 #include "fleet/wire/stop_codec.h"
 
 namespace mocha {
@@ -25,8 +26,9 @@ constexpr std::size_t kMostBody = kMostDatagramBytes - kLcmHeader - kFrame;
 enum class Kind : std::uint8_t {
   kTrajectory = 1,
   kHeartbeat = 2,
-  kYieldRequest = 3,
-  kFleetStops = 4
+  kPassingIntent = 3,
+  kPassingInstruction = 4,
+  kFleetStops = 5
 };
 
 TrajectoryState get_state(ByteReader& in) {
@@ -122,48 +124,20 @@ Heartbeat get_heartbeat(ByteReader& in, std::string agent, std::uint32_t epoch) 
   return heartbeat;
 }
 
-void put_request(ByteWriter& out, const YieldRequest& request, std::uint32_t number) {
-  put_head(out, Kind::kYieldRequest, request.agent, request.epoch, number);
-  out.put(static_cast<std::uint8_t>(request.rank.stuck));
-  out.put(static_cast<std::int32_t>(request.rank.priority));
-  put_name(out, request.rank.agent);
-  put_number<std::uint16_t>(out, request.radius_m, kRadii, "the radius of a yield request");
-  put_number<std::uint16_t>(out, request.speed_mps, kRadii, "the speed of a yield request");
-  out.put(count_of(request.path.size(), "places"));
-  for (const Vector2& place : request.path) {
-    put_number<std::int32_t>(out, place.x(), kPlaces, "a place of a path");
-    put_number<std::int32_t>(out, place.y(), kPlaces, "a place of a path");
-  }
-}
-
-YieldRequest get_request(ByteReader& in, std::string agent, std::uint32_t epoch) {
-  YieldRequest request;
-  request.agent = std::move(agent);
-  request.epoch = epoch;
-  const auto stuck = in.get<std::uint8_t>();
-  require_said(stuck <= 1, "is neither stuck nor not");
-  request.rank.stuck = stuck == 1;
-  request.rank.priority = in.get<std::int32_t>();
-  request.rank.agent = get_name(in);
-  request.radius_m = get_number<std::uint16_t>(in, kRadii);
-  request.speed_mps = get_number<std::uint16_t>(in, kRadii);
-  const std::size_t places = in.get<std::uint8_t>();
-  for (std::size_t i = 0; i < places; ++i) {
-    const double x = get_number<std::int32_t>(in, kPlaces);
-    request.path.emplace_back(x, get_number<std::int32_t>(in, kPlaces));
-  }
-  validate(request);
-  return request;
-}
-
 ByteWriter body_of(const Datagram& datagram) {
   ByteWriter body;
   if (const auto* trajectory = std::get_if<CommittedTrajectory>(&datagram.message)) {
     validate(*trajectory);
     put_trajectory(body, *trajectory, datagram.number);
-  } else if (const auto* request = std::get_if<YieldRequest>(&datagram.message)) {
-    validate(*request);
-    put_request(body, *request, datagram.number);
+  } else if (const auto* intent = std::get_if<PassingIntent>(&datagram.message)) {
+    validate(*intent);
+    put_head(body, Kind::kPassingIntent, intent->agent, intent->epoch, datagram.number);
+    put_intent(body, *intent);
+  } else if (const auto* instruction = std::get_if<PassingInstruction>(&datagram.message)) {
+    validate(*instruction);
+    put_head(body, Kind::kPassingInstruction, instruction->id.leader, instruction->id.epoch,
+             datagram.number);
+    put_instruction(body, *instruction);
   } else if (const auto* stops = std::get_if<FleetStops>(&datagram.message)) {
     validate(*stops);
     put_head(body, Kind::kFleetStops, stops->agent, stops->epoch, datagram.number);
@@ -183,8 +157,10 @@ Datagram from_body(ByteReader in) {
   datagram.number = in.get<std::uint32_t>();
   if (kind == Kind::kTrajectory) {
     datagram.message = get_trajectory(in, std::move(agent), epoch);
-  } else if (kind == Kind::kYieldRequest) {
-    datagram.message = get_request(in, std::move(agent), epoch);
+  } else if (kind == Kind::kPassingIntent) {
+    datagram.message = get_intent(in, std::move(agent), epoch);
+  } else if (kind == Kind::kPassingInstruction) {
+    datagram.message = get_instruction(in, std::move(agent), epoch);
   } else if (kind == Kind::kFleetStops) {
     FleetStops stops{std::move(agent), epoch, get_stops(in)};
     validate(stops);
@@ -308,6 +284,10 @@ bool fits(const Motion& motion) {
     return false;
   }
   return body.bytes().size() <= kMostBody;
+}
+
+bool fits(const PassingInstruction& instruction) {
+  return body_of({0, instruction}).bytes().size() <= kMostBody;
 }
 
 }  // namespace mocha

@@ -9,25 +9,26 @@
 
 #include "fleet/protocol/committed_trajectory.h"
 #include "fleet/protocol/emergency_stop.h"
-#include "fleet/protocol/yield_request.h"
+#include "fleet/protocol/passing_messages.h"
 #include "fleet/wire/fleet_key.h"
 
 namespace mocha {
 
-// Promises, heartbeats, yield requests and emergency stops as bytes on the network: LCM messages
-// (lcm/datagram_t.lcm) of one datagram each. Numbers are quantised: times to 1 us, places to 0.01
-// mm, headings, speeds and accelerations to 1e-5 rad, m/s and m/s^2, turns in place to 1e-7 rad,
-// radii to 1 mm (up), braking to 1 mm/s^2. So that all robots hold the same motion, the one that
-// promises drives quantised(), too; RobotModel::braking() needs no rounding.
+// Promises, heartbeats, what is said about passing and emergency stops as bytes on the network: LCM
+// messages (lcm/datagram_t.lcm) of one datagram each. Numbers are quantised: times to 1 us, places
+// to 0.01 mm, headings, speeds and accelerations to 1e-5 rad, m/s and m/s^2, turns in place to 1e-7
+// rad, radii to 1 mm (up), braking to 1 mm/s^2. So that all robots hold the same motion, the one
+// that promises drives quantised(), too; RobotModel::braking() needs no rounding.
 
 /// Of everything below; others are refused.
-constexpr int kWireVersion = 3;
+constexpr int kWireVersion = 4;
 
 /// What a datagram holds at most, LCM's own header with a channel of up to 15 characters included:
 /// larger ones would be cut into fragments, each of which may get lost.
 constexpr std::size_t kMostDatagramBytes = 1400;
 
-using FleetMessage = std::variant<CommittedTrajectory, Heartbeat, YieldRequest, FleetStops>;
+using FleetMessage =
+    std::variant<CommittedTrajectory, Heartbeat, PassingIntent, PassingInstruction, FleetStops>;
 
 struct Datagram {
   std::uint32_t number = 0;  ///< the sender counts its datagrams since its start
@@ -71,5 +72,9 @@ Motion quantised(const Motion& motion);
 
 /// Whether a motion can be said in one datagram, whatever the robot's name.
 bool fits(const Motion& motion);
+
+/// Whether so much of an instruction can be said in one datagram. Throws as encode() does for what
+/// cannot be said at all.
+bool fits(const PassingInstruction& instruction);
 
 }  // namespace mocha

@@ -42,6 +42,26 @@ TEST(DatagramLink, CarriesMessagesOfOthersOnce) {
   }
 }
 
+TEST(DatagramLink, WhatIsSaidAboutPassingIsOfTheOneThatSaysIt) {
+  DatagramLink a("a", kKey);
+  DatagramLink b("b", kKey);
+  const PassingIntent intent{"a", 1, 0, true, 0.3, Vector2(1.0, 2.0), {"c", 4, 5}, 6};
+  PassingInstruction instruction;
+  instruction.id = {"a", 1, 2};
+  instruction.robots = {"a", "b"};
+  instruction.robot = "b";
+  for (const FleetMessage& message : {FleetMessage(intent), FleetMessage(instruction)}) {
+    const auto bytes = a.pack(message).at(0);
+    EXPECT_FALSE(unpacked(a, bytes));
+    const auto heard = unpacked(b, bytes);
+    ASSERT_TRUE(heard);
+    EXPECT_EQ(heard->index(), message.index());
+  }
+  EXPECT_EQ(a.counts().own, 2);
+  EXPECT_EQ(b.counts().taken, 2);
+  EXPECT_EQ(b.loss("a"), 0.0);
+}
+
 TEST(DatagramLink, ARecordingOfAFormerStartIsOver) {
   DatagramLink before("a", kKey);
   DatagramLink after("a", kKey);

@@ -76,11 +76,15 @@ Heartbeat heartbeat() {
   return heartbeat;
 }
 
-YieldRequest yield_request() {
-  YieldRequest request{"ugv1", 3, {true, -7, "ugv2"}, 0.333, 1.25, {}};
-  for (std::size_t i = 0; i < kMostPathPlaces; ++i)
-    request.path.emplace_back(-20000.0 + 0.5 * i, 12.34567 - 0.25 * i);
-  return request;
+PassingIntent passing_intent() {
+  return {"ugv1", 3, -7, true, 0.333, Vector2(-20000.0, 12.34567), {"ugv2", 1, 5}, 4};
+}
+
+PassingInstruction passing_instruction() {
+  PassingInstruction instruction{{"ugv1", 3, 5}, "ugv2", {"ugv1", "ugv2", "ugv3"}, 40, 10, {}};
+  for (std::uint32_t i = 0; i < 20; ++i)
+    instruction.part.push_back({{{0.5 * i, 12.34567}, {0.5 * i + 0.5, 12.3}}, {{0, i}, {2, 7}}});
+  return instruction;
 }
 
 TEST(WireFormat, GivesBackPromisesButForTheQuantisation) {
@@ -227,29 +231,6 @@ TEST(WireFormat, GivesBackHeartbeatsAndWithdrawals) {
   EXPECT_EQ(std::get<CommittedTrajectory>(decoded(encoded(void_one))).motion, nullptr);
 }
 
-TEST(WireFormat, GivesBackYieldRequests) {
-  YieldRequest sent = yield_request();
-  sent.agent = std::string(63, 'x');
-  sent.rank.agent = std::string(63, 'y');
-  const Bytes bytes = encoded(sent);
-  EXPECT_LE(bytes.size(), kMostDatagramBytes);
-  const YieldRequest heard = std::get<YieldRequest>(decoded(bytes));
-  EXPECT_EQ(heard.agent, sent.agent);
-  EXPECT_EQ(heard.epoch, sent.epoch);
-  EXPECT_TRUE(heard.rank.stuck);
-  EXPECT_EQ(heard.rank.priority, sent.rank.priority);
-  EXPECT_EQ(heard.rank.agent, sent.rank.agent);
-  EXPECT_DOUBLE_EQ(heard.radius_m, sent.radius_m);
-  EXPECT_DOUBLE_EQ(heard.speed_mps, sent.speed_mps);
-  ASSERT_EQ(heard.path.size(), sent.path.size());
-  for (std::size_t i = 0; i < sent.path.size(); ++i)
-    EXPECT_LT((heard.path[i] - sent.path[i]).norm(), 1e-5);
-  sent.path.clear();
-  EXPECT_TRUE(std::get<YieldRequest>(decoded(encoded(sent))).path.empty());
-  sent.speed_mps = 0.0;
-  EXPECT_THROW(encoded(sent), std::invalid_argument);
-}
-
 TEST(WireFormat, GivesBackEmergencyStops) {
   const FleetStops sent{"ugv1", 3, {{"ugv2", 7, 6, kNow_s + 0.125, "told by /joystick"}}};
   const FleetStops heard = std::get<FleetStops>(decoded(encoded(sent)));
@@ -304,8 +285,8 @@ TEST(WireFormat, RefusesWhatCannotBeSaid) {
 }
 
 TEST(WireFormat, RefusesOtherVersionsPartsAndMore) {
-  for (Bytes bytes :
-       {encoded(heartbeat()), encoded(trajectory_of(test::stand(kNow_s, {1.0, 2.0})))}) {
+  for (Bytes bytes : {encoded(heartbeat()), encoded(trajectory_of(test::stand(kNow_s, {1.0, 2.0}))),
+                      encoded(passing_intent()), encoded(passing_instruction())}) {
     for (std::size_t size = 0; size < bytes.size(); ++size)
       EXPECT_THROW(decode(bytes.data(), size), std::invalid_argument) << size;
     Bytes longer = bytes;
@@ -380,7 +361,8 @@ TEST(WireFormat, HeartbeatsThatAreTooLongAreDivided) {
 /// Whatever comes is a message that encoded() could have made, or is refused.
 TEST(WireFormat, MutantsAreRefusedOrSound) {
   std::mt19937 random(5);
-  std::vector<Bytes> seeds = {encoded(heartbeat()), encoded(yield_request())};
+  std::vector<Bytes> seeds = {encoded(heartbeat()), encoded(passing_intent()),
+                              encoded(passing_instruction())};
   for (int i = 0; i < 20; ++i) seeds.push_back(encoded(trajectory_of(any(i, random, kNow_s))));
   std::uniform_int_distribution<int> byte(0, 255);
   int refused = 0;
@@ -443,7 +425,7 @@ TEST(WireFormat, DISABLED_WriteVectors) {
   file << "# A promise a line: its datagram in hexadecimal, then x and y [m] of its motion 0.35 s "
           "after its start and every 0.7 s on.\n"
           "# Written by test_fleet --gtest_also_run_disabled_tests --gtest_filter=*WriteVectors; "
-          "format version 3.\n";
+          "format version 4.\n";
   for (int i = 0; i < 6; ++i) {
     const CommittedTrajectory trajectory =
         quantised(trajectory_of(any(i, random, kNow_s + 0.1234567 * i)));
