@@ -18,15 +18,16 @@ std::string no_progress_for(double time_s) {
 
 }  // namespace
 
-GoalPlanning::GoalPlanning(const RobotModel& robot, const ParameterTable& values, const Rank& rank,
-                           double handover_s, PlanRunner& runner, std::string map_name)
+GoalPlanning::GoalPlanning(const RobotModel& robot, const ParameterTable& values,
+                           const std::string& name, int priority, double handover_s,
+                           PlanRunner& runner, std::string map_name)
     : robot_(robot),
       handover_s_(handover_s),
       map_name_(std::move(map_name)),
       runner_(runner),
       planner_(std::make_shared<GlobalPlanner>(robot, PlannerOptions::from(values))),
       executive_(GoalExecutiveOptions::from(values, handover_s), robot,
-                 Yielding(rank, robot, PlannerOptions::from(values))),
+                 PassingPolicy(name, priority, robot, PlannerOptions::from(values))),
       goal_timeout_s_(GoalOptions::from(values).timeout_s) {}
 
 void GoalPlanning::set_options(const ParameterTable& values) {

@@ -17,11 +17,11 @@ class GoalPlanning {
  public:
   enum class StopNews { kNone, kStopped, kReset };
 
-  /// `values` are those of config/global_planner.yaml; rank: see YieldPolicy; `handover_s`: what a
-  /// plan needs until the robot is bound to it; `map_name`: where the map comes from, in messages
-  /// to people. The runner must live longer.
-  GoalPlanning(const RobotModel& robot, const ParameterTable& values, const Rank& rank,
-               double handover_s, PlanRunner& runner, std::string map_name = "map");
+  /// `values` are those of config/global_planner.yaml; name and priority: see PassingPolicy;
+  /// `handover_s`: what a plan needs until the robot is bound to it; `map_name`: where the map
+  /// comes from, in messages to people. The runner must live longer.
+  GoalPlanning(const RobotModel& robot, const ParameterTable& values, const std::string& name,
+               int priority, double handover_s, PlanRunner& runner, std::string map_name = "map");
   /// Counts for the goals that are there, too.
   void set_options(const ParameterTable& values);
 

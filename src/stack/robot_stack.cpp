@@ -19,6 +19,16 @@ CommittedTrajectory wish_of(const ProposedMotion& proposal, const std::string& a
   return wish;
 }
 
+PassingIntent of_epoch(PassingIntent intent, std::uint32_t epoch) {
+  intent.epoch = epoch;
+  return intent;
+}
+
+PassingInstruction of_epoch(PassingInstruction instruction, std::uint32_t epoch) {
+  instruction.id.epoch = epoch;
+  return instruction;
+}
+
 Answer answer_of(const Settled& settled) {
   using Kind = CommitmentEvent::Kind;
   const Kind kind = settled.event.kind;
@@ -36,8 +46,8 @@ RobotStack::RobotStack(std::string name, const RobotModel& robot, const Paramete
       radius_m_(robot.footprint.circumscribed_radius_m()),
       braking_(robot.braking()),
       protocol_(protocol),
-      planning_(robot, parameters.global_planner, {false, 0, name_},
-                handover_s(parameters.local_replanner), runner_),
+      planning_(robot, parameters.global_planner, name_, 0, handover_s(parameters.local_replanner),
+                runner_),
       replanning_(robot, parameters.local_replanner),
       keeping_(robot, parameters.local_replanner.number("lease"), protocol) {}
 
@@ -56,8 +66,10 @@ void RobotStack::pause() {
 }
 
 RobotStack::Messages RobotStack::hear(const FleetMessage& message, double now_s) {
-  if (const auto* request = std::get_if<YieldRequest>(&message)) {
-    planning_.executive().hear(*request, now_s);
+  if (const auto* intent = std::get_if<PassingIntent>(&message)) {
+    planning_.executive().hear(*intent, now_s);
+  } else if (const auto* instruction = std::get_if<PassingInstruction>(&message)) {
+    planning_.executive().hear(*instruction, now_s);
   } else if (const auto* promise = std::get_if<CommittedTrajectory>(&message)) {
     return apply(keeping_.receive(*promise, now_s));
   } else if (const auto* heartbeat = std::get_if<Heartbeat>(&message)) {
@@ -103,10 +115,12 @@ RobotStack::Messages RobotStack::pursue(double now_s, const RobotState& measured
     return PlanningScene{scene.static_map, peers_, scene.unseen};
   });
   if (pursued_.plan) replanning_.set_plan(*pursued_.plan);
-  if (!pursued_.request) return {};
-  YieldRequest request = *pursued_.request;
-  request.epoch = protocol_.epoch();
-  return {request};
+  Messages messages;
+  for (const PassingMessage& message : pursued_.messages) {
+    std::visit([&](const auto& each) { messages.emplace_back(of_epoch(each, protocol_.epoch())); },
+               message);
+  }
+  return messages;
 }
 
 RobotStack::Messages RobotStack::apply(CommitmentNews news) {

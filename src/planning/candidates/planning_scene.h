@@ -28,6 +28,9 @@ struct PlanQuery {
   Motion committed;
   Vector2 goal = Vector2::Zero();
   std::optional<double> goal_yaw_rad;
+  /// The one path to the goal that is to be driven, from where the robot is or was on it; empty:
+  /// any.
+  std::vector<Vector2> along;
   /// The plan to the same goal that is being driven, for its class; empty if there is none.
   Motion driven;
   /// How long planning may take [s]: as work (see GlobalPlanner), and as time where somebody stops

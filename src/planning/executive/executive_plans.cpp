@@ -78,6 +78,7 @@ void GoalExecutive::ask_for_plan(const Input& input, Output& output) {
   }
   PlanQuery query = query_to(target(), input.committed, input.now_s);
   query.driven = errand_.plan;
+  if (errand_.stretch) query.along = errand_.stretch->path;
   errand_.planned_s = input.now_s;
   errand_.question = std::make_shared<Question>();
   query.should_stop = [asked = std::weak_ptr(errand_.question)] { return asked.expired(); };
@@ -89,10 +90,6 @@ void GoalExecutive::consider(Planned planned, const Input& input, Output& output
   output.planned = std::move(planned);
   const PlanResult& result = output.planned->result;
   if (state_ == S::kDriving && !much_better(result, input.now_s)) return;
-  if (const auto whose = in_way_of(result.motion, input.now_s)) {
-    hold_back(*whose, input, output);
-    return;
-  }
   output.report = report(result.reason, result.message, result.violation);
   if (result.motion.empty()) {
     fail(result.reason, input, output);
@@ -103,7 +100,7 @@ void GoalExecutive::consider(Planned planned, const Input& input, Output& output
 
 /// Quicker by far; or it leads to the goal itself, or farther, than where it was occupied before.
 bool GoalExecutive::much_better(const PlanResult& result, double now_s) const {
-  if (result.motion.empty()) return false;
+  if (result.motion.empty() || errand_.stretch) return false;
   const Vector2& asked = goals_.asked().position;
   const double nearer_m = (goals_.current().position - asked).norm() - (result.goal - asked).norm();
   if (std::abs(nearer_m) > kSameGoal_m) return nearer_m > 0.0;
@@ -112,18 +109,10 @@ bool GoalExecutive::much_better(const PlanResult& result, double now_s) const {
          errand_.plan.end_time() - options_.min_improvement * remaining_s;
 }
 
-/// None while the robot makes room: what leads out of the way may begin in it.
-std::optional<Rank> GoalExecutive::in_way_of(const Motion& plan, double now_s) const {
-  if (makes_room(state_) || plan.empty()) return std::nullopt;
-  return yielding_.in_way_of(plan, now_s);
-}
-
 void GoalExecutive::adopt(const PlanResult& result, Output& output) {
-  if (makes_room(state_)) {
-    output.report->message =
-        "makes room for " + errand_.pull_over->whose.agent + ": " + result.message;
+  if (errand_.stretch) {
+    output.report->message = "passes others in turn: " + result.message;
   } else {
-    errand_.pull_over.reset();
     goals_.move_current(result.goal);
   }
   handle(E::kPlanFound);
@@ -131,27 +120,9 @@ void GoalExecutive::adopt(const PlanResult& result, Output& output) {
   output.plan = result.motion;
 }
 
-/// A plan to the goal that would get into the way of a higher rank is not driven; without another
-/// at hand, the robot waits where it comes to rest: that place is in no such way, or it would have
-/// been told to pull over.
-void GoalExecutive::hold_back(const Rank& whose, const Input& input, Output& output) {
-  if (drives_plan(state_)) {
-    handle(E::kPlanInTheWay);
-    return;
-  }
-  output.report = report(PlanReason::kPeerConflict, "waits until " + whose.agent + " has passed");
-  if (state_ == S::kWaiting) return;
-  begin_errand(E::kPlanInTheWay, PullOverPoint{input.committed.end_pose().position, whose});
-  errand_.planned_s = input.now_s;
-}
-
 void GoalExecutive::fail(PlanReason reason, const Input& input, Output& output) {
-  if (makes_room(state_)) {
-    fail_to_pull_over(input, output);
-    return;
-  }
   const S before = state_;
-  handle(failure_event(reason));
+  handle(errand_.stretch ? E::kNoPlan : failure_event(reason));
   if (drives_plan(state_)) return;
   if (state_ != before) {
     errand_.without_plan_since_s = input.now_s;
@@ -166,20 +137,6 @@ void GoalExecutive::give_up(Ending why, Output& output) {
   drop();
   output.ending = why;
   output.plan = Motion();
-}
-
-/// Stops, and looks for another place; if there is none, tries again.
-void GoalExecutive::fail_to_pull_over(const Input& input, Output& output) {
-  handle(E::kNoPlan);
-  const Motion braking = brake(input.committed, input.now_s);
-  errand_.plan = Motion();
-  output.plan = Motion();
-  const auto other =
-      yielding_.pull_over(errand_.pull_over->whose, errand_.pull_over, braking.end_pose().position,
-                          input.planner.scene, input.now_s);
-  if (!other) return;
-  follow_advice(*other, braking, output);
-  errand_.planned_s = input.now_s;
 }
 
 }  // namespace mocha

@@ -20,37 +20,33 @@ constexpr double kSooner_s = 0.1;    // by less, a stop is no sooner than what i
 }  // namespace
 
 GoalExecutive::GoalExecutive(const GoalExecutiveOptions& options, RobotModel robot,
-                             Yielding yielding)
+                             PassingPolicy passing)
     : options_(options),
       robot_(std::move(robot)),
-      yielding_(std::move(yielding), options.goals.tolerance_m),
+      passing_(std::move(passing)),
       goals_(options.goals) {}
 
 void GoalExecutive::set_options(const GoalExecutiveOptions& options,
                                 const PlannerOptions& planner) {
   options_ = options;
-  yielding_.set_options(planner, options.goals.tolerance_m);
+  passing_.set_options(planner);
   goals_.set_options(options.goals);
 }
 
 // --- goals and states ---
 
-void GoalExecutive::handle(ExecutiveEvent event) {
-  const bool made_room = makes_room(state_);
-  state_ = next_state(state_, event);
-  if (makes_room(state_) != made_room) errand_.question.reset();  // another target
-}
+void GoalExecutive::handle(ExecutiveEvent event) { state_ = next_state(state_, event); }
 
-void GoalExecutive::begin_errand(ExecutiveEvent event, std::optional<PullOverPoint> pull_over) {
+void GoalExecutive::begin_errand(ExecutiveEvent event, std::optional<PassingStretch> stretch) {
   handle(event);
   errand_ = Errand();
-  errand_.pull_over = std::move(pull_over);
-  yielding_.begin_path();
+  errand_.stretch = std::move(stretch);
 }
 
+/// What was ordered was made for another goal.
 void GoalExecutive::begin_goal(ExecutiveEvent event) {
-  begin_errand(event, std::nullopt);
-  yielding_.begin_goal(state_ == S::kParked);
+  begin_errand(event);
+  passing_.begin_goal();
 }
 
 void GoalExecutive::take(std::deque<Goal> goals, const Motion& committed, double now_s) {
@@ -86,11 +82,11 @@ void GoalExecutive::follow(Motion followed) {
 }
 
 Goal GoalExecutive::target() const {
-  return makes_room(state_) ? Goal{errand_.pull_over->position, std::nullopt} : goals_.asked();
+  return errand_.stretch ? Goal{errand_.stretch->end(), std::nullopt} : goals_.asked();
 }
 
 Vector2 GoalExecutive::destination() const {
-  return makes_room(state_) ? errand_.pull_over->position : goals_.current().position;
+  return errand_.stretch ? errand_.stretch->end() : goals_.current().position;
 }
 
 Motion GoalExecutive::brake(const Motion& committed, double now_s) const {
@@ -125,21 +121,22 @@ GoalExecutive::Output GoalExecutive::step(double now_s, const RobotState& measur
   output.ending = note_arrival(input);
   if (output.ending == Ending::kNoProgress) give_up(output.ending, output);
   note_progress(input);
-  if (planner.scene && !committed.empty()) yield(input, output);
+  if (planner.scene && !committed.empty()) pass(input, output);
   plan(input, output);
   brake_first(input, output);
-  if (planner.scene) ask(input, output);
-  if (auto withdrawal = yielding_.withdrawal()) output.request = std::move(withdrawal);
   return output;
 }
 
 GoalExecutive::Ending GoalExecutive::note_arrival(const Input& input) {
-  // Making room and pausing do not count as lack of progress.
-  if (errand_.pull_over || state_ == S::kPaused) goals_.wait(input.now_s);
-  if (state_ == S::kPaused) return Ending::kNone;
+  // Keeping to an order and pausing do not count as lack of progress, nor a goal on the way as
+  // reached.
+  if (passing_.follows() || state_ == S::kPaused) {
+    goals_.wait(input.now_s);
+    return Ending::kNone;
+  }
   switch (goals_.update(input.now_s, input.measured)) {
     case GoalQueue::Event::kAllReached:
-      begin_goal(E::kAllReached);
+      begin_errand(E::kAllReached);
       return Ending::kReached;
     case GoalQueue::Event::kReached:
       begin_goal(E::kGoalReached);
@@ -153,19 +150,9 @@ GoalExecutive::Ending GoalExecutive::note_arrival(const Input& input) {
 }
 
 void GoalExecutive::note_progress(const Input& input) {
-  if (drives_plan(state_) && input.now_s >= errand_.plan.end_time() + kAfterEnd_s) {
-    handle(E::kPlanEnded);
-    errand_.plan = Motion();
-  }
-  if (!errand_.pull_over || !stands(input.measured)) return;
-  const Vector2 off = input.measured.pose.position - errand_.pull_over->position;
-  if (off.norm() >= options_.goals.tolerance_m) {
-    handle(E::kStrayed);
-  } else if (goals_.empty()) {
-    begin_goal(E::kNoNeedToPullOver);
-  } else if (makes_room(state_)) {
-    begin_errand(E::kAtPullOverPoint, errand_.pull_over);
-  }
+  if (!drives_plan(state_) || input.now_s < errand_.plan.end_time() + kAfterEnd_s) return;
+  handle(E::kPlanEnded);
+  errand_.plan = Motion();
 }
 
 /// Says so again until the motion in force is the braking: a plan has to begin there.
@@ -177,42 +164,23 @@ void GoalExecutive::brake_first(const Input& input, Output& output) {
 
 // --- team-mates ---
 
-RobotIntent GoalExecutive::intent(const RobotState& measured) const {
-  return {measured, drives_plan(state_) ? &errand_.plan : nullptr, errand_.pull_over};
-}
-
-void GoalExecutive::yield(const Input& input, Output& output) {
-  if (!heeds(state_, E::kPullOver) || !yielding_.due(input.now_s)) return;
-  const Motion braking = brake(input.committed, input.now_s);
-  const auto advice = yielding_.advise(intent(input.measured), braking.end_pose().position,
-                                       input.planner.scene, input.now_s);
-  if (advice) follow_advice(*advice, braking, output);
-}
-
-void GoalExecutive::follow_advice(const YieldAdvice& advice, const Motion& braking,
-                                  Output& output) {
-  const bool has_goal = !goals_.empty();
-  if (advice.event == E::kWayIsClear) {
-    begin_goal(has_goal ? advice.event : E::kNoNeedToPullOver);
-    return;
+void GoalExecutive::pass(const Input& input, Output& output) {
+  if (!takes_part(state_)) return passing_.stay_out();
+  const std::optional<Vector2> goal =
+      goals_.empty() ? std::nullopt : std::optional(goals_.asked().position);
+  output.messages =
+      passing_.step({input.now_s, input.measured, input.committed, goal}, input.planner.scene);
+  const auto& stretch = passing_.stretch();
+  if (!passing_.follows()) {
+    if (state_ == S::kWaiting || errand_.stretch)
+      begin_errand(goal ? E::kPassed : E::kPassedToTheEnd);
+  } else if (!stretch) {
+    if (state_ == S::kWaiting) return;
+    begin_errand(E::kNotItsTurn);
+    output.plan = Motion();
+  } else if (!errand_.stretch || errand_.stretch->until != stretch->until) {
+    begin_errand(E::kTurn, stretch);
   }
-  if (advice.event == E::kNowhereToPullOver) {
-    begin_errand(has_goal ? advice.event : E::kNoNeedToPullOver, std::nullopt);
-    yielding_.set_stuck(has_goal);
-    return;
-  }
-  begin_errand(advice.event, advice.pull_over);
-  if (advice.event == E::kPullOverHere) {
-    errand_.plan = braking;
-    output.plan = braking;
-  }
-}
-
-void GoalExecutive::ask(const Input& input, Output& output) {
-  if (state_ == S::kIdle || state_ == S::kParked || state_ == S::kPaused || state_ == S::kWaiting)
-    return;
-  output.request =
-      yielding_.ask(intent(input.measured), destination(), input.planner.scene, input.now_s);
 }
 
 }  // namespace mocha

@@ -5,19 +5,20 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planning/executive/executive_state.h"
 #include "planning/executive/goal_executive_options.h"
 #include "planning/executive/goal_queue.h"
+#include "planning/executive/passing_policy.h"
 #include "planning/executive/planner_interface.h"
-#include "planning/executive/yield_policy.h"
 
 namespace mocha {
 
 /// Takes a robot to its goals: decides when to plan, what to ask the planner, which of its plans to
-/// drive, and when a goal is reached or given up. Makes room for team-mates of
-/// higher rank, and asks others for room, as its YieldPolicy says. What it is about is a state of
-/// executive_state.h. Pure decisions: time, measurements and plans come in.
+/// drive, and when a goal is reached or given up. Where robots stand in each other's way, it drives
+/// what its PassingPolicy says. What it is about is a state of executive_state.h. Pure decisions:
+/// time, measurements and plans come in.
 class GoalExecutive {
  public:
   enum class Ending { kNone, kReached, kNoProgress, kGoalOccupied, kUnreachable };
@@ -34,11 +35,11 @@ class GoalExecutive {
     std::optional<Planned> planned;  ///< what was found, whatever became of it
     std::optional<Report> report;
     std::optional<Motion> plan;  ///< from now on; an empty one: there is nothing to drive to
-    std::optional<YieldRequest> request;  ///< for all team-mates
-    Ending ending = Ending::kNone;        ///< of all goals
+    std::vector<PassingMessage> messages;  ///< for team-mates
+    Ending ending = Ending::kNone;         ///< of all goals
   };
 
-  GoalExecutive(const GoalExecutiveOptions& options, RobotModel robot, Yielding yielding);
+  GoalExecutive(const GoalExecutiveOptions& options, RobotModel robot, PassingPolicy passing);
   /// Counts for the goals that are there, too.
   void set_options(const GoalExecutiveOptions& options, const PlannerOptions& planner);
 
@@ -56,8 +57,8 @@ class GoalExecutive {
   /// robot is to go on.
   void pause();
   void resume();
-  /// What a team-mate asks for.
-  void hear(const YieldRequest& request, double now_s) { yielding_.hear(request, now_s); }
+  /// What a team-mate says.
+  void hear(const PassingMessage& message, double now_s) { passing_.hear(message, now_s); }
 
   /// `committed`: the motion in force, empty if there is none.
   Output step(double now_s, const RobotState& measured, const Motion& committed,
@@ -80,8 +81,8 @@ class GoalExecutive {
 
   /// Where the robot is to go now, and how far that has come; begins anew with each place.
   struct Errand {
-    std::optional<PullOverPoint> pull_over;  ///< in the states that make room or wait
-    Motion plan;                             ///< the last one that was found
+    std::optional<PassingStretch> stretch;  ///< of an order; none: to the goal
+    Motion plan;                            ///< the last one that was found
     double planned_s = -std::numeric_limits<double>::infinity();  ///< the planner was asked last
     std::shared_ptr<const Question> question;  ///< to the planner, until it is answered
     double longer = 1.0;  ///< than usual is the time that planning may take, as it did not suffice
@@ -97,38 +98,32 @@ class GoalExecutive {
   };
 
   void handle(ExecutiveEvent event);
+  void begin_errand(ExecutiveEvent event, std::optional<PassingStretch> stretch = std::nullopt);
   void begin_goal(ExecutiveEvent event);
-  void begin_errand(ExecutiveEvent event, std::optional<PullOverPoint> pull_over);
 
   // What a step does, in this order.
   Ending note_arrival(const Input& input);
   void note_progress(const Input& input);
-  void yield(const Input& input, Output& output);
+  void pass(const Input& input, Output& output);
   void plan(const Input& input, Output& output);
   void ask_for_plan(const Input& input, Output& output);
   void consider(Planned planned, const Input& input, Output& output);
   void brake_first(const Input& input, Output& output);
-  void ask(const Input& input, Output& output);
 
   Goal target() const;
   Vector2 destination() const;
-  RobotIntent intent(const RobotState& measured) const;
   Motion brake(const Motion& committed, double now_s) const;
   bool brakes(const Motion& committed, double now_s) const;
   bool has_to_brake(const Vector2& goal, const Motion& committed, double now_s) const;
   bool plan_is_due(double now_s) const;
   bool much_better(const PlanResult& result, double now_s) const;
-  std::optional<Rank> in_way_of(const Motion& plan, double now_s) const;
   void adopt(const PlanResult& result, Output& output);
-  void hold_back(const Rank& whose, const Input& input, Output& output);
   void fail(PlanReason reason, const Input& input, Output& output);
   void give_up(Ending why, Output& output);
-  void fail_to_pull_over(const Input& input, Output& output);
-  void follow_advice(const YieldAdvice& advice, const Motion& braking, Output& output);
 
   GoalExecutiveOptions options_;
   const RobotModel robot_;
-  YieldPolicy yielding_;
+  PassingPolicy passing_;
   GoalQueue goals_;
   ExecutiveState state_ = ExecutiveState::kIdle;
   Errand errand_;

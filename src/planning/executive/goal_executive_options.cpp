@@ -19,21 +19,18 @@ std::optional<double> GoalExecutiveOptions::planning_period_s(ExecutiveState sta
   switch (state) {
     case S::kPlanning:
     case S::kReplanning:
-    case S::kPlanningPullOver:
       return kSoonest_s;
     case S::kDriving:
       return replan_period_s;
     case S::kBlocked:
     case S::kGoalOccupied:
     case S::kUnreachable:
-    case S::kPullOverBlocked:
-    case S::kWaiting:
       return retry_period_s;
     case S::kIdle:
     case S::kParked:
     case S::kPaused:
     case S::kBraking:
-    case S::kPullingOver:
+    case S::kWaiting:
       break;
   }
   return std::nullopt;

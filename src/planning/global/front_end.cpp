@@ -11,6 +11,7 @@
 #include "safety/requirement.h"
 #include "trajectory/stopping.h"
 #include "world/margin_budget.h"
+#include "world/obstacle.h"
 
 namespace mocha {
 namespace {
@@ -66,6 +67,33 @@ std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_spe
   return points;
 }
 
+namespace {
+
+/// What is left of a path for who is at `from`.
+std::vector<Vector2> rest_of(const std::vector<Vector2>& path, const Vector2& from) {
+  std::size_t next = 0;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double off_m = (from - nearest_on_segment(from, path[i - 1], path[i])).norm();
+    if (!(off_m < least_m)) continue;
+    least_m = off_m;
+    next = i;
+  }
+  std::vector<Vector2> rest = {from};
+  rest.insert(rest.end(), path.begin() + static_cast<std::ptrdiff_t>(next), path.end());
+  return rest;
+}
+
+HomotopyPaths only(std::vector<Vector2> path) {
+  HomotopyPaths paths;
+  paths.outcome = GridPath::Outcome::kFound;
+  const double least_m = (path.back() - path.front()).norm();
+  paths.paths.push_back({std::move(path), least_m, least_m, {}});
+  return paths;
+}
+
+}  // namespace
+
 FrontEnd::FrontEnd(const RobotModel& robot, const PlannerOptions& options)
     : robot_(robot),
       options_(homotopy_path_options(robot, options)),
@@ -84,6 +112,7 @@ std::vector<BlockedDisc> FrontEnd::standing_peers(const PlanningScene& scene, do
 HomotopyPaths FrontEnd::paths(std::vector<Vector2> lead_in, const PlanQuery& query,
                               const PlanningScene& scene, const Vector2& goal,
                               std::optional<double> below_driven) const {
+  if (!query.along.empty()) return only(rest_of(query.along, lead_in.back()));
   HomotopyPathQuery paths;
   paths.below_driven = below_driven;
   paths.lead_in = std::move(lead_in);

@@ -7,6 +7,8 @@
 #include <queue>
 #include <utility>
 
+#include "fleet/protocol/passing_messages.h"
+#include "planning/passing/few_places.h"
 #include "planning/passing/place_packing.h"
 #include "topology/paths/path_shortcutting.h"
 #include "topology/static_map/lattice.h"
@@ -17,6 +19,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSame_m = 1e-3;
+const Vector2 kFarAway(1e6, 1e6);  // no robot leaves a wall or a disc that it is in
 
 /// Nodes by their distance, nearest first.
 using NearestFirst = std::priority_queue<std::pair<double, int>,
@@ -26,10 +29,10 @@ using NearestFirst = std::priority_queue<std::pair<double, int>,
 class Surroundings {
  public:
   Surroundings(const StaticMap& static_map, const Eigen::AlignedBox2d& window,
-               const PlaceGraphOptions& options)
+               std::vector<BlockedDisc> blocked, const PlaceGraphOptions& options)
       : window_(window),
         lattice_(static_map, options.lattice_m),
-        cost_(static_map, Vector2::Zero(), {}, without_escape(options.travel)) {}
+        cost_(static_map, kFarAway, std::move(blocked), without_escape(options.travel)) {}
 
   /// Grows from all places at once; what they reach is nearest to the place `owner`.
   void grow(const std::vector<Vector2>& places) {
@@ -84,7 +87,7 @@ class Surroundings {
       std::reverse(path.begin(), path.end());
       const std::vector<Vector2> rest = traced(meeting.there, places[pair.second]);
       path.insert(path.end(), rest.begin(), rest.end());
-      paths[pair] = with_shortcuts(path, cost_, Cuts<2>({}));
+      paths[pair] = few_places(with_shortcuts(path, cost_, Cuts<2>({})), kMostTurnPlaces);
     }
     return paths;
   }
@@ -167,8 +170,9 @@ std::vector<int> blocking(const std::vector<Vector2>& places, int from, int to,
 }  // namespace
 
 PlaceGraph make_place_graph(const StaticMap& static_map, const Eigen::AlignedBox2d& window,
-                            const std::vector<Vector2>& fixed, const PlaceGraphOptions& options) {
-  Surroundings surroundings(static_map, window, options);
+                            std::vector<BlockedDisc> blocked, const std::vector<Vector2>& fixed,
+                            const PlaceGraphOptions& options) {
+  Surroundings surroundings(static_map, window, std::move(blocked), options);
   surroundings.grow(fixed);
   const std::vector<Vector2> candidates = surroundings.reached();
   PlaceGraph graph;

@@ -38,7 +38,8 @@ struct PlaceGraphOptions {
 /// corridors hold as many as they can. Neighbours are places of which the surroundings meet. Robots
 /// that are closer than `apart_m` at their places can still leave each other.
 PlaceGraph make_place_graph(const StaticMap& static_map, const Eigen::AlignedBox2d& window,
-                            const std::vector<Vector2>& fixed, const PlaceGraphOptions& options);
+                            std::vector<BlockedDisc> blocked, const std::vector<Vector2>& fixed,
+                            const PlaceGraphOptions& options);
 
 /// How far it is from each place to `goal` along the graph, other robots aside [m]; infinite where
 /// there is no way. Ways are as long there as back.

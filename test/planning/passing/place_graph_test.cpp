@@ -88,7 +88,7 @@ TEST(PlaceGraph, StaysInsideItsWindow) {
   const auto static_map = test::static_map_of_cells(rows);
   const Eigen::AlignedBox2d window(Vector2(0.0, 0.0), Vector2(3.0, 2.4));
   const PlaceGraph graph =
-      make_place_graph(*static_map, window, {{0.6, 0.6}}, test::graph_options());
+      make_place_graph(*static_map, window, {}, {{0.6, 0.6}}, test::graph_options());
   EXPECT_GE(graph.size(), 5);
   for (const Vector2& place : graph.places) EXPECT_TRUE(window.contains(place));
 }
@@ -96,7 +96,7 @@ TEST(PlaceGraph, StaysInsideItsWindow) {
 TEST(PlaceGraph, RobotsThatAreTooCloseCanLeaveEachOther) {
   const std::vector<std::string> rows = {"....."};
   const auto static_map = test::static_map_of_cells(rows);
-  const PlaceGraph graph = make_place_graph(*static_map, static_map->bounds(),
+  const PlaceGraph graph = make_place_graph(*static_map, static_map->bounds(), {},
                                             {{2.7, 0.6}, {3.3, 0.6}}, test::graph_options());
   ASSERT_FALSE(graph.moves[0].empty());
   bool leaves = false;

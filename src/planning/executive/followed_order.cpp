@@ -1,0 +1,110 @@
+#include "planning/executive/followed_order.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trajectory/plane_vectors.h"
+#include "world/obstacle.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kAtEnd_m = 0.15;  // of a move, along its path
+constexpr double kOnPath_m = 0.5;  // a motion that ends farther off it is not of this order
+constexpr double kTurnsBack_rad = 1.9;
+
+/// How far along the path its point nearest to `place` is, and how far away.
+struct Projection {
+  double along_m = 0.0;
+  double off_m = 0.0;
+};
+
+Projection projected(const Vector2& place, const std::vector<Vector2>& path) {
+  Projection best{0.0, (place - path.front()).norm()};
+  double begin_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vector2 nearest = nearest_on_segment(place, path[i - 1], path[i]);
+    const double off_m = (place - nearest).norm();
+    if (off_m < best.off_m) best = {begin_m + (nearest - path[i - 1]).norm(), off_m};
+    begin_m += (path[i] - path[i - 1]).norm();
+  }
+  return best;
+}
+
+double length_of(const std::vector<Vector2>& path) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i] - path[i - 1]).norm();
+  return length_m;
+}
+
+bool turns_back(const std::vector<Vector2>& before, const std::vector<Vector2>& after) {
+  const Vector2 in = before.back() - before[before.size() - 2];
+  const Vector2 out = after[1] - after.front();
+  return std::abs(angle_between(in, out)) > kTurnsBack_rad;
+}
+
+}  // namespace
+
+FollowedOrder::FollowedOrder(const PassingInstruction& beginning)
+    : id_(beginning.id), robots_(beginning.robots), turns_(beginning.turns) {
+  add(beginning);
+}
+
+void FollowedOrder::add(const PassingInstruction& part) {
+  for (std::size_t i = 0; i < part.part.size() && part.first + i < turns_.size(); ++i)
+    turns_[part.first + i] = part.part[i];
+}
+
+std::optional<Vector2> FollowedOrder::start() const {
+  if (turns_.empty() || !turns_.front()) return std::nullopt;
+  return turns_.front()->path.front();
+}
+
+bool FollowedOrder::may_begin(std::size_t move, const PromisedBy& promised_by) const {
+  if (!turns_[move]) return false;
+  const auto& after = turns_[move]->after;
+  return std::all_of(after.begin(), after.end(), [&](const PassingProgress& progress) {
+    return promised_by(robots_[progress.robot]) >= progress.moves;
+  });
+}
+
+PassingStretch FollowedOrder::stretch_until(std::uint32_t until) const {
+  PassingStretch stretch{made_, until, {}};
+  for (std::uint32_t move = made_; move < until; ++move) {
+    const auto& path = turns_[move]->path;
+    stretch.path.insert(stretch.path.end(), path.begin() + (stretch.path.empty() ? 0 : 1),
+                        path.end());
+  }
+  return stretch;
+}
+
+std::optional<PassingStretch> FollowedOrder::grant(const PromisedBy& promised_by) {
+  std::uint32_t until = made_;
+  while (until < turns_.size()) {
+    if (until >= granted_ && !may_begin(until, promised_by)) break;
+    if (until > made_ && turns_back(turns_[until - 1]->path, turns_[until]->path)) break;
+    ++until;
+  }
+  granted_ = std::max(granted_, until);
+  if (until == made_) return std::nullopt;
+  return stretch_until(until);
+}
+
+void FollowedOrder::note_promise(const Motion& committed) {
+  if (committed.empty() || granted_ <= made_) return;
+  const Projection end = projected(committed.end_pose().position, stretch_until(granted_).path);
+  if (end.off_m > kOnPath_m) return;
+  double along_m = 0.0;
+  for (std::uint32_t move = made_; move < granted_; ++move) {
+    along_m += length_of(turns_[move]->path);
+    if (along_m <= end.along_m + kAtEnd_m) promised_ = std::max(promised_, move + 1);
+  }
+}
+
+void FollowedOrder::note_stand(const Vector2& place, double tolerance_m) {
+  for (std::uint32_t move = made_; move < promised_; ++move) {
+    if ((turns_[move]->path.back() - place).norm() < tolerance_m) made_ = move + 1;
+  }
+}
+
+}  // namespace mocha

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "fleet/protocol/passing_messages.h"
+#include "trajectory/motion.h"
+
+namespace mocha {
+
+/// Moves of a robot that it may make without a stop.
+struct PassingStretch {
+  std::uint32_t from = 0;     ///< number of its first move, from 0 ...
+  std::uint32_t until = 0;    ///< ... and of the one after its last
+  std::vector<Vector2> path;  ///< of the centre, straight between; map frame
+
+  const Vector2& end() const { return path.back(); }
+};
+
+/// The order that a robot keeps to: what it has been told of it, how far it has come, and what it
+/// may do next.
+class FollowedOrder {
+ public:
+  /// How many moves of this order a robot has promised, by name.
+  using PromisedBy = std::function<std::uint32_t(const std::string&)>;
+
+  /// The beginning of an order.
+  explicit FollowedOrder(const PassingInstruction& beginning);
+  /// Another part of the same.
+  void add(const PassingInstruction& part);
+
+  const PassingOrderId& id() const { return id_; }
+  const std::vector<std::string>& robots() const { return robots_; }
+  /// Where its first move begins; nothing where it has none, or not been told of it.
+  std::optional<Vector2> start() const;
+  /// All moves are made.
+  bool is_over() const { return made_ == turns_.size(); }
+  std::uint32_t promised() const { return promised_; }
+
+  /// Takes note of what is in force, and of a robot that stands at a place.
+  void note_promise(const Motion& committed);
+  void note_stand(const Vector2& place, double tolerance_m);
+
+  /// Grants the moves from the last stop on that may be made by now: none has to wait for another
+  /// robot, and they do not turn back. Nothing where it has to wait.
+  std::optional<PassingStretch> grant(const PromisedBy& promised_by);
+
+ private:
+  bool may_begin(std::size_t move, const PromisedBy& promised_by) const;
+  PassingStretch stretch_until(std::uint32_t until) const;
+
+  PassingOrderId id_;
+  std::vector<std::string> robots_;
+  std::vector<std::optional<PassingTurn>> turns_;
+  std::uint32_t made_ = 0;      // before it stood last
+  std::uint32_t promised_ = 0;  // made ones among them
+  std::uint32_t granted_ = 0;   // the same
+};
+
+}  // namespace mocha

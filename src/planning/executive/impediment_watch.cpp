@@ -1,0 +1,43 @@
+#include "planning/executive/impediment_watch.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "planning/candidates/peer_discs.h"
+#include "topology/paths/grid_path.h"
+#include "world/obstacle.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kPatience_s = 1.5;  // of standing
+constexpr double kPeriod_s = 0.5;
+constexpr double kLattice_m = 0.1;
+
+bool passes(const std::vector<Vector2>& path, const BlockedDisc& disc) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vector2 nearest = nearest_on_segment(disc.centre, path[i - 1], path[i]);
+    if ((disc.centre - nearest).norm() < disc.radius_m) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool ImpedimentWatch::is_impeded(bool stands, const Vector2& here, const Vector2& goal,
+                                 const PlanningScene& scene, const RobotModel& robot,
+                                 const TravelOptions& travel, double now_s) {
+  if (!stands) reset();
+  if (!stands_since_s_) stands_since_s_ = now_s;
+  if (!stands || now_s < *stands_since_s_ + kPatience_s) return false;
+  if (now_s < looked_s_ + kPeriod_s) return is_impeded_;
+  looked_s_ = now_s;
+  const TravelCost cost(*scene.static_map, here, {}, travel);
+  const auto path = find_grid_path(*scene.static_map, here, goal, cost, kLattice_m).points;
+  is_impeded_ = std::any_of(scene.peers.begin(), scene.peers.end(), [&](const auto& peer) {
+    return passes(path, peer_keep_out(*peer, now_s, robot, 0.0));
+  });
+  return is_impeded_;
+}
+
+}  // namespace mocha

@@ -1,0 +1,254 @@
+#include "planning/executive/passing_policy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fleet/wire/passing_parts.h"
+#include "planning/candidates/peer_discs.h"
+#include "planning/global/front_end.h"
+#include "planning/passing/group_order.h"
+#include "safety/requirement.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kSayAgain_s = 0.3;
+constexpr double kLapse_s = 1.5;  // of what is not heard any more
+constexpr double kGather_s =
+    0.5;  // from the first call on, until all have said where they are to get
+constexpr double kMakeAgain_s = 2.0;  // an order that is not kept to
+constexpr double kStuck_s = 6.0;      // nobody of the order gets on
+constexpr double kAtPlace_m = 0.15;
+constexpr double kSpare_m = 0.02;  // more than promises keep
+
+/// Where a team-mate will come to rest, by its promise.
+Vector2 rest_place(const MovingObstacle& peer) { return peer.at(peer.rest_time()).centre; }
+
+}  // namespace
+
+PassingPolicy::PassingPolicy(std::string name, int priority, RobotModel robot,
+                             const PlannerOptions& options)
+    : name_(std::move(name)),
+      priority_(priority),
+      robot_(std::move(robot)),
+      travel_(homotopy_path_options(robot_, options).travel) {}
+
+void PassingPolicy::set_options(const PlannerOptions& options) {
+  travel_ = homotopy_path_options(robot_, options).travel;
+}
+
+void PassingPolicy::begin_goal() {
+  leave_order();
+  offered_.reset();
+  led_.reset();
+  finished_ = PassingOrderId();
+  calls_ = false;
+}
+
+void PassingPolicy::leave_order() {
+  followed_.reset();
+  stretch_.reset();
+  impediment_.reset();
+}
+
+// --- what others say ---
+
+void PassingPolicy::hear(const PassingMessage& message, double now_s) {
+  if (const auto* instruction = std::get_if<PassingInstruction>(&message)) {
+    if (instruction->robot == name_ && instruction->id.leader != name_) follow(*instruction, now_s);
+    return;
+  }
+  const auto& intent = std::get<PassingIntent>(message);
+  for (auto it = heard_.begin(); it != heard_.end();)
+    it = now_s < it->second.time_s + kLapse_s ? std::next(it) : heard_.erase(it);
+  const bool has_room = heard_.size() < kMostPassing || heard_.count(intent.agent) > 0;
+  if (intent.agent != name_ && has_room) heard_[intent.agent] = {intent, now_s};
+}
+
+/// Of a new order the first part, with which the robot can begin; or more of what it follows.
+void PassingPolicy::follow(const PassingInstruction& instruction, double now_s) {
+  if (followed_ && followed_->id() == instruction.id) {
+    followed_->add(instruction);
+    return;
+  }
+  if (instruction.first != 0) return;
+  offered_ = instruction;
+  progressed_s_ = now_s;
+}
+
+std::vector<PassingIntent> PassingPolicy::others(double now_s) const {
+  std::vector<PassingIntent> fresh;
+  for (const auto& [name, heard] : heard_) {
+    if (now_s < heard.time_s + kLapse_s) fresh.push_back(heard.intent);
+  }
+  return fresh;
+}
+
+bool PassingPolicy::somebody_calls(double now_s) const {
+  const auto fresh = others(now_s);
+  return std::any_of(fresh.begin(), fresh.end(), [](const PassingIntent& intent) {
+    return intent.calls || intent.follows.number > 0;
+  });
+}
+
+std::uint32_t PassingPolicy::promised_by(const std::string& name) const {
+  if (name == name_) return followed_->promised();
+  const auto found = heard_.find(name);
+  const bool keeps_to_it = found != heard_.end() && found->second.intent.follows == followed_->id();
+  return keeps_to_it ? found->second.intent.moves : 0;
+}
+
+// --- what the robot does ---
+
+std::vector<PassingMessage> PassingPolicy::step(const PassingSituation& situation,
+                                                const SceneSource& scene) {
+  const double now_s = situation.now_s;
+  progress(situation);
+  watch(situation, scene);
+  std::vector<PassingMessage> messages;
+  if (leads(now_s)) lead(situation, scene({situation.measured.pose.position}));
+  const PassingIntent now = intent(situation);
+  const bool is_news =
+      now.calls != said_.calls || now.follows != said_.follows || now.moves != said_.moves;
+  const bool takes_part = calls_ || follows() || somebody_calls(now_s);
+  if (!takes_part || (!is_news && now_s < said_s_ + kSayAgain_s)) return messages;
+  said_ = now;
+  said_s_ = now_s;
+  messages = instructions(now_s);
+  messages.emplace_back(now);
+  return messages;
+}
+
+/// Takes up a new order where it comes to rest at its beginning, and gets on with it.
+void PassingPolicy::progress(const PassingSituation& situation) {
+  const Vector2 rest = situation.committed.end_pose().position;
+  if (offered_) {
+    FollowedOrder order(*offered_);
+    const auto start = order.start();
+    if (order.is_over() || (start && (*start - rest).norm() < kAtPlace_m)) {
+      leave_order();
+      followed_ = std::move(order);
+      finished_ = PassingOrderId();
+      calls_ = false;
+      progressed_s_ = situation.now_s;
+    }
+    offered_.reset();
+  }
+  if (!followed_) return;
+  followed_->note_promise(situation.committed);
+  if (stands(situation.measured))
+    followed_->note_stand(situation.measured.pose.position, kAtPlace_m);
+  stretch_ = followed_->grant([this](const std::string& name) { return promised_by(name); });
+  std::uint32_t moves = 0;
+  for (const std::string& robot : followed_->robots()) moves += promised_by(robot);
+  if (moves != seen_moves_ || !stands(situation.measured)) progressed_s_ = situation.now_s;
+  seen_moves_ = moves;
+  if (!followed_->is_over()) return;
+  finished_ = followed_->id();
+  finished_moves_ = followed_->promised();
+  leave_order();
+}
+
+bool PassingPolicy::is_stuck(const PassingSituation& situation) const {
+  return follows() && situation.now_s > progressed_s_ + kStuck_s;
+}
+
+void PassingPolicy::watch(const PassingSituation& situation, const SceneSource& scene) {
+  const bool called = calls_;
+  if (is_stuck(situation)) {
+    leave_order();
+    calls_ = situation.goal.has_value();
+  } else if (!follows() && situation.goal) {
+    const Vector2& here = situation.measured.pose.position;
+    calls_ =
+        impediment_.is_impeded(stands(situation.measured), here, *situation.goal,
+                               scene({here, *situation.goal}), robot_, travel_, situation.now_s);
+  }
+  if (calls_ && !called) calls_since_s_ = situation.now_s;
+}
+
+PassingIntent PassingPolicy::intent(const PassingSituation& situation) const {
+  PassingIntent intent;
+  intent.agent = name_;
+  intent.priority = priority_;
+  intent.calls = calls_;
+  intent.radius_m = robot_.footprint.circumscribed_radius_m();
+  intent.goal = situation.goal;
+  intent.follows = followed_ ? followed_->id() : finished_;
+  intent.moves = followed_ ? followed_->promised() : finished_moves_;
+  return intent;
+}
+
+// --- what the caller of the highest rank does ---
+
+bool PassingPolicy::leads(double now_s) const {
+  if (!calls_ || now_s < calls_since_s_ + kGather_s) return false;
+  if (led_ && now_s < led_->made_s + kMakeAgain_s) return false;
+  PassingIntent own;
+  own.agent = name_;
+  own.priority = priority_;
+  const auto fresh = others(now_s);
+  return std::none_of(fresh.begin(), fresh.end(), [&](const PassingIntent& other) {
+    return other.calls && outranks(other, own);
+  });
+}
+
+void PassingPolicy::lead(const PassingSituation& situation, const PlanningScene& scene) {
+  std::vector<PassingIntent> intents = others(situation.now_s);
+  intents.push_back(intent(situation));
+  std::sort(intents.begin(), intents.end(), outranks);
+  std::vector<PassingMember> members;
+  double radius_m = 0.0;
+  std::vector<BlockedDisc> blocked;
+  for (const PassingIntent& member : intents) {
+    const auto peer = std::find_if(scene.peers.begin(), scene.peers.end(),
+                                   [&](const auto& each) { return each->name() == member.agent; });
+    const bool is_own = member.agent == name_;
+    if (!is_own && peer == scene.peers.end()) continue;
+    const Vector2 place = is_own ? situation.committed.end_pose().position : rest_place(**peer);
+    members.push_back({member.agent, place, member.goal});
+    radius_m = std::max(radius_m, member.radius_m);
+  }
+  for (const auto& peer : scene.peers) {
+    const bool is_member =
+        std::any_of(members.begin(), members.end(),
+                    [&](const PassingMember& member) { return member.name == peer->name(); });
+    if (!is_member) blocked.push_back(peer_keep_out(*peer, peer->rest_time(), robot_, 0.0));
+  }
+  // Counts on over a restart.
+  number_ = std::max(number_ + 1, static_cast<std::uint32_t>(std::fmod(situation.now_s, 1e9)));
+  led_ = Led{{name_, 0, number_}, {}, situation.now_s};
+  const double apart_m = radius_m + distance_to_peers_m(robot_) + kSpare_m;
+  const auto group =
+      order_group(*scene.static_map, std::move(blocked), members, {travel_, apart_m});
+  if (!group) return;
+  std::vector<std::string> names;
+  for (const PassingMember& member : members) names.push_back(member.name);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const auto turns = static_cast<std::uint32_t>(group->order[i].size());
+    led_->instructions[names[i]] = {led_->id, names[i], names, turns, 0, group->order[i]};
+  }
+  offered_ = led_->instructions[name_];
+  said_s_ = -std::numeric_limits<double>::infinity();
+}
+
+/// Again and again to whoever does not keep to it yet, or has more to be told of it.
+std::vector<PassingMessage> PassingPolicy::instructions(double now_s) const {
+  std::vector<PassingMessage> messages;
+  if (!led_) return messages;
+  for (const auto& [robot, whole] : led_->instructions) {
+    const auto found = heard_.find(robot);
+    if (found == heard_.end() || now_s > found->second.time_s + kLapse_s) continue;
+    const PassingIntent& said = found->second.intent;
+    const bool follows = said.follows == led_->id;
+    const bool may_be_late = now_s > led_->made_s + kMakeAgain_s;
+    if (!follows && may_be_late) continue;
+    const std::uint32_t first = follows ? said.moves : 0;
+    if (follows && first >= whole.turns) continue;
+    messages.emplace_back(fitting_part(whole, first));
+  }
+  return messages;
+}
+
+}  // namespace mocha

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/robot_state.h"
+#include "fleet/protocol/passing_messages.h"
+#include "planning/executive/followed_order.h"
+#include "planning/executive/impediment_watch.h"
+#include "planning/executive/planner_interface.h"
+#include "planning/global/planner_options.h"
+#include "world/robot_model.h"
+
+namespace mocha {
+
+/// What a robot does, as far as it matters to those that it is to pass.
+struct PassingSituation {
+  double now_s;
+  const RobotState& measured;
+  const Motion& committed;      ///< not empty
+  std::optional<Vector2> goal;  ///< none: it has reached all
+};
+
+/// How a robot and its team-mates get past each other. One that they keep from getting on calls for
+/// an order, and all about it say where they are to get. The caller of the highest rank works out
+/// in which order all pass, by which places (order_group()), and tells each its moves; who has been
+/// told goes on move by move, each as soon as those before it are promised.
+///
+/// What follows. An order that was made leads all that it is for to their goals, whatever their
+/// timing, as long as they keep to it (PassingOrder) and the map holds; where not all can get
+/// there, the highest ranks do. Who strays, gets stuck for long, or takes another goal leaves the
+/// order, and calls anew if need be. Orders bind nobody: what may be driven is settled by promises
+/// alone.
+class PassingPolicy {
+ public:
+  PassingPolicy(std::string name, int priority, RobotModel robot, const PlannerOptions& options);
+  void set_options(const PlannerOptions& options);
+
+  /// What a team-mate says.
+  void hear(const PassingMessage& message, double now_s);
+  /// The robot has another goal, or none: what was ordered is void.
+  void begin_goal();
+
+  /// To be called in each step of a robot that takes part; returns what is to be said.
+  std::vector<PassingMessage> step(const PassingSituation& situation, const SceneSource& scene);
+  /// The same for one that does not: it says nothing, and keeps to no order.
+  void stay_out() { begin_goal(); }
+
+  /// Whether it keeps to an order; then, what it may drive; nothing where it has to wait.
+  bool follows() const { return followed_.has_value(); }
+  const std::optional<PassingStretch>& stretch() const { return stretch_; }
+
+ private:
+  struct Heard {
+    PassingIntent intent;
+    double time_s;
+  };
+  /// An order that this robot has made.
+  struct Led {
+    PassingOrderId id;
+    std::map<std::string, PassingInstruction> instructions;  ///< of each robot
+    double made_s;
+  };
+
+  void follow(const PassingInstruction& instruction, double now_s);
+  void leave_order();
+  void progress(const PassingSituation& situation);
+  void watch(const PassingSituation& situation, const SceneSource& scene);
+  bool is_stuck(const PassingSituation& situation) const;
+  bool leads(double now_s) const;
+  void lead(const PassingSituation& situation, const PlanningScene& scene);
+  std::vector<PassingMessage> instructions(double now_s) const;
+  PassingIntent intent(const PassingSituation& situation) const;
+  std::vector<PassingIntent> others(double now_s) const;
+  bool somebody_calls(double now_s) const;
+  std::uint32_t promised_by(const std::string& name) const;
+
+  const std::string name_;
+  const int priority_;
+  const RobotModel robot_;
+  TravelOptions travel_;
+  std::map<std::string, Heard> heard_;
+  ImpedimentWatch impediment_;
+  bool calls_ = false;
+  double calls_since_s_ = 0.0;
+  std::optional<FollowedOrder> followed_;
+  PassingOrderId finished_;  // all its moves are made; others may wait for that
+  std::uint32_t finished_moves_ = 0;
+  std::optional<PassingInstruction> offered_;  // not taken up yet
+  std::optional<PassingStretch> stretch_;
+  double progressed_s_ = 0.0;  // it, or who it waits for, got on last
+  std::uint32_t seen_moves_ = 0;
+  std::optional<Led> led_;
+  std::uint32_t number_ = 0;  // of the orders that it has made
+  double said_s_ = -std::numeric_limits<double>::infinity();
+  PassingIntent said_;
+};
+
+}  // namespace mocha

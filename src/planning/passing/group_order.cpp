@@ -1,0 +1,118 @@
+#include "planning/passing/group_order.h"
+
+#include <cmath>
+#include <utility>
+
+namespace mocha {
+namespace {
+
+constexpr double kAround_m = 8.0;  // of the group, in which it looks for room first
+constexpr double kSamePlace_m = 0.02;
+constexpr PassingEffort kEffort = {100000, 3000};
+
+class Grouping {
+ public:
+  Grouping(const StaticMap& static_map, std::vector<BlockedDisc> blocked,
+           const std::vector<PassingMember>& members, const PlaceGraphOptions& options,
+           const Eigen::AlignedBox2d& window)
+      : members_(members), options_(options) {
+    for (const PassingMember& member : members) problem_.starts.push_back(number_of(member.place));
+    for (const PassingMember& member : members)
+      problem_.goals.push_back(member.goal ? number_of(*member.goal) : PassingProblem::kAnywhere);
+    problem_.graph = make_place_graph(static_map, window, std::move(blocked), fixed_, options);
+    give_up_what_is_out_of_reach();
+  }
+
+  /// Gives up goals from the lowest rank on, until the others can be reached.
+  std::optional<GroupOrder> order(const std::function<bool()>& should_stop) {
+    for (;;) {
+      const PassingSequence sequence = find_passing(problem_, kEffort, should_stop);
+      if (sequence.outcome == PassingSequence::Outcome::kFound) return found(sequence);
+      if (should_stop() || !give_up_lowest()) return std::nullopt;
+    }
+  }
+
+ private:
+  int number_of(const Vector2& place) {
+    for (std::size_t i = 0; i < fixed_.size(); ++i) {
+      if ((fixed_[i] - place).norm() < kSamePlace_m) return static_cast<int>(i);
+    }
+    fixed_.push_back(place);
+    return static_cast<int>(fixed_.size()) - 1;
+  }
+
+  bool has_goal(std::size_t member) const {
+    return problem_.goals[member] != PassingProblem::kAnywhere;
+  }
+
+  /// Also where a higher rank is to stand so near that both cannot.
+  void give_up_what_is_out_of_reach() {
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      if (!has_goal(i)) continue;
+      const int goal = problem_.goals[i];
+      bool possible = std::isfinite(distances_to(problem_.graph, goal)[problem_.starts[i]]);
+      for (std::size_t j = 0; j < i && possible; ++j) {
+        if (!has_goal(j)) continue;
+        const Vector2 apart = fixed_[problem_.goals[j]] - fixed_[goal];
+        possible = problem_.goals[j] != goal && apart.norm() >= options_.apart_m;
+      }
+      if (!possible) problem_.goals[i] = PassingProblem::kAnywhere;
+    }
+  }
+
+  bool give_up_lowest() {
+    std::size_t last = members_.size();
+    std::size_t goals = 0;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      if (!has_goal(i)) continue;
+      last = i;
+      ++goals;
+    }
+    if (goals <= 1) return false;
+    problem_.goals[last] = PassingProblem::kAnywhere;
+    return true;
+  }
+
+  GroupOrder found(const PassingSequence& sequence) const {
+    GroupOrder group;
+    group.order = order_of(sequence, static_cast<int>(members_.size()));
+    for (std::size_t i = 0; i < members_.size(); ++i)
+      group.gets_there.push_back(members_[i].goal && has_goal(i));
+    return group;
+  }
+
+  const std::vector<PassingMember>& members_;
+  const PlaceGraphOptions options_;
+  std::vector<Vector2> fixed_;
+  PassingProblem problem_;
+};
+
+}  // namespace
+
+std::optional<GroupOrder> order_group(const StaticMap& static_map, std::vector<BlockedDisc> blocked,
+                                      const std::vector<PassingMember>& members,
+                                      const PlaceGraphOptions& options,
+                                      const std::function<bool()>& should_stop) {
+  if (members.empty() || static_cast<int>(members.size()) > JointStep::kMostRobots)
+    return std::nullopt;
+  Eigen::AlignedBox2d near(members.front().place);
+  for (const PassingMember& member : members) {
+    near.extend(member.place);
+    if (member.goal) near.extend(*member.goal);
+  }
+  near.extend(near.min() - Vector2::Constant(kAround_m));
+  near.extend(near.max() + Vector2::Constant(kAround_m));
+  auto order = Grouping(static_map, blocked, members, options, near).order(should_stop);
+  const auto all_get_there = [&] {
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (members[i].goal && !order->gets_there[i]) return false;
+    }
+    return true;
+  };
+  if ((order && all_get_there()) || near.contains(static_map.bounds())) return order;
+  auto farther =
+      Grouping(static_map, blocked, members, options, static_map.bounds()).order(should_stop);
+  return farther ? farther : order;
+}
+
+}  // namespace mocha

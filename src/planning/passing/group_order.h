@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planning/passing/passing_order.h"
+
+namespace mocha {
+
+/// A robot of a group that is to pass.
+struct PassingMember {
+  std::string name;
+  Vector2 place;                ///< where it rests, or will come to rest; map frame
+  std::optional<Vector2> goal;  ///< none: it makes room as it likes
+};
+
+struct GroupOrder {
+  PassingOrder order;
+  /// Of each member: whether it gets to its goal. All do where that is possible.
+  std::vector<bool> gets_there;
+};
+
+/// In which order a group passes; the members highest rank first. Where not all can get to their
+/// goals, those of the lowest rank give theirs up, and make room. Where `blocked`, nobody can go;
+/// `static_map` must live as long as the call. Nothing where not even the first can get to its
+/// goal, there are more than JointStep::kMostRobots, or it was stopped.
+std::optional<GroupOrder> order_group(
+    const StaticMap& static_map, std::vector<BlockedDisc> blocked,
+    const std::vector<PassingMember>& members, const PlaceGraphOptions& options,
+    const std::function<bool()>& should_stop = [] { return false; });
+
+}  // namespace mocha
