@@ -100,7 +100,7 @@ void GoalExecutive::consider(Planned planned, const Input& input, Output& output
 
 /// Quicker by far; or it leads to the goal itself, or farther, than where it was occupied before.
 bool GoalExecutive::much_better(const PlanResult& result, double now_s) const {
-  if (result.motion.empty() || errand_.stretch) return false;
+  if (result.motion.empty() || !is_to_goal()) return false;
   const Vector2& asked = goals_.asked().position;
   const double nearer_m = (goals_.current().position - asked).norm() - (result.goal - asked).norm();
   if (std::abs(nearer_m) > kSameGoal_m) return nearer_m > 0.0;
@@ -110,7 +110,7 @@ bool GoalExecutive::much_better(const PlanResult& result, double now_s) const {
 }
 
 void GoalExecutive::adopt(const PlanResult& result, Output& output) {
-  if (errand_.stretch) {
+  if (!is_to_goal()) {
     output.report->message = "passes others in turn: " + result.message;
   } else {
     goals_.move_current(result.goal);
@@ -122,7 +122,7 @@ void GoalExecutive::adopt(const PlanResult& result, Output& output) {
 
 void GoalExecutive::fail(PlanReason reason, const Input& input, Output& output) {
   const S before = state_;
-  handle(errand_.stretch ? E::kNoPlan : failure_event(reason));
+  handle(is_to_goal() ? failure_event(reason) : E::kNoPlan);
   if (drives_plan(state_)) return;
   if (state_ != before) {
     errand_.without_plan_since_s = input.now_s;

@@ -90,6 +90,13 @@ std::optional<PassingStretch> FollowedOrder::grant(const PromisedBy& promised_by
   return stretch_until(until);
 }
 
+std::optional<double> FollowedOrder::next_heading_rad() const {
+  if (made_ == turns_.size() || !turns_[made_]) return std::nullopt;
+  const auto& path = turns_[made_]->path;
+  const Vector2 along = path[1] - path[0];
+  return std::atan2(along.y(), along.x());
+}
+
 void FollowedOrder::note_promise(const Motion& committed) {
   if (committed.empty() || granted_ <= made_) return;
   const Projection end = projected(committed.end_pose().position, stretch_until(granted_).path);

@@ -46,6 +46,9 @@ class FollowedOrder {
   /// Grants the moves from the last stop on that may be made by now: none has to wait for another
   /// robot, and they do not turn back. Nothing where it has to wait.
   std::optional<PassingStretch> grant(const PromisedBy& promised_by);
+  /// Which way the move after the last stop begins [rad]: a robot that waits can turn there.
+  /// Nothing where there is none, or the robot was not told of it.
+  std::optional<double> next_heading_rad() const;
 
  private:
   bool may_begin(std::size_t move, const PromisedBy& promised_by) const;

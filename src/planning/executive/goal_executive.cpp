@@ -16,6 +16,7 @@ using E = ExecutiveEvent;
 constexpr double kSamePlace_m = 0.5;
 constexpr double kAfterEnd_s = 0.5;  // a plan that ended this long ago without arrival has failed
 constexpr double kSooner_s = 0.1;    // by less, a stop is no sooner than what is in force
+constexpr double kTurned_rad = 0.1;
 
 }  // namespace
 
@@ -37,10 +38,9 @@ void GoalExecutive::set_options(const GoalExecutiveOptions& options,
 
 void GoalExecutive::handle(ExecutiveEvent event) { state_ = next_state(state_, event); }
 
-void GoalExecutive::begin_errand(ExecutiveEvent event, std::optional<PassingStretch> stretch) {
+void GoalExecutive::begin_errand(ExecutiveEvent event) {
   handle(event);
   errand_ = Errand();
-  errand_.stretch = std::move(stretch);
 }
 
 /// What was ordered was made for another goal.
@@ -82,10 +82,12 @@ void GoalExecutive::follow(Motion followed) {
 }
 
 Goal GoalExecutive::target() const {
+  if (errand_.turns_at) return *errand_.turns_at;
   return errand_.stretch ? Goal{errand_.stretch->end(), std::nullopt} : goals_.asked();
 }
 
 Vector2 GoalExecutive::destination() const {
+  if (errand_.turns_at) return errand_.turns_at->position;
   return errand_.stretch ? errand_.stretch->end() : goals_.current().position;
 }
 
@@ -172,14 +174,30 @@ void GoalExecutive::pass(const Input& input, Output& output) {
       passing_.step({input.now_s, input.measured, input.committed, goal}, input.planner.scene);
   const auto& stretch = passing_.stretch();
   if (!passing_.follows()) {
-    if (state_ == S::kWaiting || errand_.stretch)
+    if (state_ == S::kWaiting || !is_to_goal())
       begin_errand(goal ? E::kPassed : E::kPassedToTheEnd);
   } else if (!stretch) {
+    wait_for_turn(input, output);
+  } else if (!errand_.stretch || errand_.stretch->until != stretch->until) {
+    begin_errand(E::kTurn);
+    errand_.stretch = stretch;
+  }
+}
+
+/// Turns to where it will go on.
+void GoalExecutive::wait_for_turn(const Input& input, Output& output) {
+  const auto heading_rad = passing_.next_heading_rad();
+  const Pose& pose = input.measured.pose;
+  const bool is_turned =
+      !heading_rad || std::abs(wrap_angle(*heading_rad - pose.yaw_rad)) < kTurned_rad;
+  const bool may_turn = stands(input.measured) && input.committed.at(input.now_s).at_rest;
+  if (is_turned || (!may_turn && !errand_.turns_at)) {
     if (state_ == S::kWaiting) return;
     begin_errand(E::kNotItsTurn);
     output.plan = Motion();
-  } else if (!errand_.stretch || errand_.stretch->until != stretch->until) {
-    begin_errand(E::kTurn, stretch);
+  } else if (!errand_.turns_at) {
+    begin_errand(E::kTurn);
+    errand_.turns_at = Goal{input.committed.end_pose().position, heading_rad};
   }
 }
 

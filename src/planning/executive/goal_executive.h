@@ -81,7 +81,8 @@ class GoalExecutive {
 
   /// Where the robot is to go now, and how far that has come; begins anew with each place.
   struct Errand {
-    std::optional<PassingStretch> stretch;  ///< of an order; none: to the goal
+    std::optional<PassingStretch> stretch;  ///< of an order; none: to the goal ...
+    std::optional<Goal> turns_at;           ///< ... or only turns there, while it waits
     Motion plan;                            ///< the last one that was found
     double planned_s = -std::numeric_limits<double>::infinity();  ///< the planner was asked last
     std::shared_ptr<const Question> question;  ///< to the planner, until it is answered
@@ -98,18 +99,20 @@ class GoalExecutive {
   };
 
   void handle(ExecutiveEvent event);
-  void begin_errand(ExecutiveEvent event, std::optional<PassingStretch> stretch = std::nullopt);
+  void begin_errand(ExecutiveEvent event);
   void begin_goal(ExecutiveEvent event);
 
   // What a step does, in this order.
   Ending note_arrival(const Input& input);
   void note_progress(const Input& input);
   void pass(const Input& input, Output& output);
+  void wait_for_turn(const Input& input, Output& output);
   void plan(const Input& input, Output& output);
   void ask_for_plan(const Input& input, Output& output);
   void consider(Planned planned, const Input& input, Output& output);
   void brake_first(const Input& input, Output& output);
 
+  bool is_to_goal() const { return !errand_.stretch && !errand_.turns_at; }
   Goal target() const;
   Vector2 destination() const;
   Motion brake(const Motion& committed, double now_s) const;

@@ -10,7 +10,7 @@
 namespace mocha {
 namespace {
 
-constexpr double kPatience_s = 1.5;  // of standing
+constexpr double kPatience_s = 1.0;  // of standing
 constexpr double kPeriod_s = 0.5;
 constexpr double kLattice_m = 0.1;
 

@@ -53,6 +53,8 @@ class PassingPolicy {
   /// Whether it keeps to an order; then, what it may drive; nothing where it has to wait.
   bool follows() const { return followed_.has_value(); }
   const std::optional<PassingStretch>& stretch() const { return stretch_; }
+  /// Where it has to wait: which way it will go on [rad], if it knows.
+  std::optional<double> next_heading_rad() const { return followed_->next_heading_rad(); }
 
  private:
   struct Heard {
