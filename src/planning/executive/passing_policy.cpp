@@ -17,8 +17,9 @@ constexpr double kSayAgain_s = 0.3;
 constexpr double kLapse_s = 1.5;  // of what is not heard any more
 constexpr double kGather_s =
     0.5;  // from the first call on, until all have said where they are to get
-constexpr double kMakeAgain_s = 2.0;  // an order that is not kept to
-constexpr double kStuck_s = 6.0;      // nobody of the order gets on
+constexpr double kMakeAgain_s = 2.0;   // an order that is not kept to
+constexpr double kStuck_s = 6.0;       // it may go on, and does not
+constexpr double kForgotten_s = 40.0;  // it waits, and nobody of the order gets on
 constexpr double kAtPlace_m = 0.15;
 constexpr double kSpare_m = 0.02;  // more than promises keep
 
@@ -151,7 +152,7 @@ void PassingPolicy::progress(const PassingSituation& situation) {
 }
 
 bool PassingPolicy::is_stuck(const PassingSituation& situation) const {
-  return follows() && situation.now_s > progressed_s_ + kStuck_s;
+  return follows() && situation.now_s > progressed_s_ + (stretch_ ? kStuck_s : kForgotten_s);
 }
 
 void PassingPolicy::watch(const PassingSituation& situation, const SceneSource& scene) {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kAround_m = 8.0;  // of the group, in which it looks for room first
 constexpr double kSamePlace_m = 0.02;
-constexpr PassingEffort kEffort = {1000000, 3000};
+constexpr PassingEffort kEffort = {1000000, 4000};
 
 class Grouping {
  public:

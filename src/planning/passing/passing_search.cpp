@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -17,6 +18,7 @@ namespace mocha {
 namespace {
 
 constexpr double kShareOfAll = 0.1;  // what all drive, against what the farthest drives
+constexpr int kStepsOfOne = 500;     // to improve one solution, before another one is looked for
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void validate(const PassingProblem& problem) {
@@ -44,31 +46,38 @@ struct Node {
   std::map<int, double> next;      // nodes that one step leads to, and what it costs
 };
 
+std::vector<std::vector<double>> distances(const PassingProblem& problem) {
+  std::vector<std::vector<double>> distances_m;
+  for (const int goal : problem.goals) {
+    distances_m.push_back(goal == PassingProblem::kAnywhere ? std::vector<double>()
+                                                            : distances_to(problem.graph, goal));
+  }
+  return distances_m;
+}
+
 class Search {
  public:
-  Search(const PassingProblem& problem, const PassingEffort& effort,
-         const std::function<bool()>& should_stop)
+  Search(const PassingProblem& problem, const std::vector<std::vector<double>>& distances_m,
+         std::uint32_t variant, const std::function<bool()>& should_stop)
       : problem_(problem),
-        effort_(effort),
         should_stop_(should_stop),
-        distances_m_(distances(problem)),
-        steps_(problem.graph, distances_m_) {}
+        variant_(variant),
+        steps_(problem.graph, distances_m, variant) {}
 
-  PassingSequence run() {
+  /// Counts down `left`, the steps that may be looked at, and some more once there is a solution.
+  PassingSequence run(int& left) {
     visit(problem_.starts, -1, 0.0);
     if (nodes_[0].bound_m == kInfinity) return {PassingSequence::Outcome::kImpossible, {}};
-    int left = effort_.most_steps;
-    while (!open_.empty() && left > 0 && !should_stop_()) {
+    int more = kStepsOfOne;
+    while (!open_.empty() && left > 0 && more > 0 && !should_stop_()) {
       const int node = open_.back();
-      if (is_at_goals(node)) {
-        if (goal_ < 0) left = std::min(left, effort_.improvement_steps);
-        goal_ = node;
-      }
+      if (is_at_goals(node)) goal_ = node;
       if (nodes_[node].demands.empty() || !may_improve(node)) {
         open_.pop_back();
         continue;
       }
       --left;
+      if (goal_ >= 0) --more;
       expand(node);
     }
     if (goal_ >= 0) return {PassingSequence::Outcome::kFound, sequence()};
@@ -77,17 +86,16 @@ class Search {
         {}};
   }
 
- private:
-  static std::vector<std::vector<double>> distances(const PassingProblem& problem) {
-    std::vector<std::vector<double>> distances_m;
-    for (const int goal : problem.goals) {
-      distances_m.push_back(goal == PassingProblem::kAnywhere ? std::vector<double>()
-                                                              : distances_to(problem.graph, goal));
-    }
-    return distances_m;
-  }
+  /// Of what was found.
+  double cost_m() const { return nodes_[goal_].cost_m; }
 
+ private:
   int robots() const { return static_cast<int>(problem_.starts.size()); }
+
+  /// Who chooses first where all wait for as long; none in the first variant.
+  double head_start(int robot) const {
+    return variant_ == 0 ? 0.0 : std::fmod(0.618 * (robot + 1) * variant_, 1.0);
+  }
 
   bool is_at_goal(int robot, int place) const {
     const int goal = problem_.goals[robot];
@@ -120,7 +128,7 @@ class Search {
   int visit(const Placing& placing, int parent, double cost_m) {
     Node node{placing, parent, cost_m, bound_m(placing), {}, {}, {}, {}};
     for (int robot = 0; robot < robots(); ++robot) {
-      const double before = parent < 0 ? 0.0 : nodes_[parent].waiting[robot];
+      const double before = parent < 0 ? head_start(robot) : nodes_[parent].waiting[robot];
       node.waiting.push_back(is_at_goal(robot, placing[robot]) ? 0.0 : before + 1.0);
     }
     node.order.resize(robots());
@@ -222,9 +230,8 @@ class Search {
   }
 
   const PassingProblem& problem_;
-  const PassingEffort effort_;
   const std::function<bool()>& should_stop_;
-  const std::vector<std::vector<double>> distances_m_;
+  const std::uint32_t variant_;
   StepSearch steps_;
   std::vector<Node> nodes_;
   std::map<Placing, int> numbers_;
@@ -237,7 +244,22 @@ class Search {
 PassingSequence find_passing(const PassingProblem& problem, const PassingEffort& effort,
                              const std::function<bool()>& should_stop) {
   validate(problem);
-  return Search(problem, effort, should_stop).run();
+  const auto distances_m = distances(problem);
+  int left = effort.most_steps;
+  Search first(problem, distances_m, 0, should_stop);
+  PassingSequence best = first.run(left);
+  if (best.outcome != PassingSequence::Outcome::kFound) return best;
+  double least_m = first.cost_m();
+  left = effort.improvement_steps;
+  for (std::uint32_t variant = 1; left > 0 && !should_stop(); ++variant) {
+    Search other(problem, distances_m, variant, should_stop);
+    --left;
+    PassingSequence sequence = other.run(left);
+    if (sequence.outcome != PassingSequence::Outcome::kFound || other.cost_m() >= least_m) continue;
+    best = std::move(sequence);
+    least_m = other.cost_m();
+  }
+  return best;
 }
 
 }  // namespace mocha

@@ -17,8 +17,8 @@ struct PassingProblem {
 };
 
 struct PassingEffort {
-  int most_steps = 1000000;      ///< that are looked at
-  int improvement_steps = 5000;  ///< of these after the first solution
+  int most_steps = 1000000;      ///< that are looked at, until there is a solution
+  int improvement_steps = 5000;  ///< the same for better ones
 };
 
 struct PassingSequence {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -17,9 +18,10 @@ using FixedMoves = std::vector<std::pair<int, const PlaceMove*>>;
 class StepSearch {
  public:
   /// `distances_m`: of each robot to its goal from each place; empty for one that may be anywhere.
-  /// All must outlive this.
-  StepSearch(const PlaceGraph& graph, const std::vector<std::vector<double>>& distances_m)
-      : graph_(graph), distances_m_(distances_m) {}
+  /// `variant`: of what is as good as another. All must outlive this.
+  StepSearch(const PlaceGraph& graph, const std::vector<std::vector<double>>& distances_m,
+             std::uint32_t variant)
+      : graph_(graph), distances_m_(distances_m), variant_(variant) {}
 
   /// The robots choose in this order. Nothing where it finds no step: there may be one with other
   /// fixed moves.
@@ -38,6 +40,7 @@ class StepSearch {
 
   const PlaceGraph& graph_;
   const std::vector<std::vector<double>>& distances_m_;
+  const std::uint32_t variant_;
   int tried_ = 0;
 };
 
