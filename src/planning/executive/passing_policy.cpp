@@ -21,7 +21,8 @@ constexpr double kMakeAgain_s = 2.0;   // an order that is not kept to
 constexpr double kStuck_s = 6.0;       // it may go on, and does not
 constexpr double kForgotten_s = 40.0;  // it waits, and nobody of the order gets on
 constexpr double kAtPlace_m = 0.15;
-constexpr double kSpare_m = 0.02;  // more than promises keep
+constexpr double kHandover_s = 1.0;  // of moves, about: planning, settling
+constexpr double kSpare_m = 0.02;    // more than promises keep
 
 /// Where a team-mate will come to rest, by its promise.
 Vector2 rest_place(const MovingObstacle& peer) { return peer.at(peer.rest_time()).centre; }
@@ -221,8 +222,9 @@ void PassingPolicy::lead(const PassingSituation& situation, const PlanningScene&
   number_ = std::max(number_ + 1, static_cast<std::uint32_t>(std::fmod(situation.now_s, 1e9)));
   led_ = Led{{name_, 0, number_}, {}, situation.now_s};
   const double apart_m = radius_m + distance_to_peers_m(robot_) + kSpare_m;
-  const auto group =
-      order_group(*scene.static_map, std::move(blocked), members, {travel_, apart_m});
+  const auto group = order_group(*scene.static_map, std::move(blocked), members, {travel_, apart_m},
+                                 {robot_.limits.max_speed, robot_.limits.max_acceleration,
+                                  robot_.limits.max_yaw_rate, kHandover_s});
   if (!group) return;
   std::vector<std::string> names;
   for (const PassingMember& member : members) names.push_back(member.name);

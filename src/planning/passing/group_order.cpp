@@ -8,14 +8,15 @@ namespace {
 
 constexpr double kAround_m = 8.0;  // of the group, in which it looks for room first
 constexpr double kSamePlace_m = 0.02;
-constexpr PassingEffort kEffort = {1000000, 4000};
+constexpr int kMostSteps = 1000000;  // of the search, until there is an order
+constexpr int kMoreSteps = 10000;    // the same, for quicker ones
 
 class Grouping {
  public:
   Grouping(const StaticMap& static_map, std::vector<BlockedDisc> blocked,
            const std::vector<PassingMember>& members, const PlaceGraphOptions& options,
-           const Eigen::AlignedBox2d& window)
-      : members_(members), options_(options) {
+           const PassingPace& pace, const Eigen::AlignedBox2d& window)
+      : members_(members), options_(options), pace_(pace) {
     for (const PassingMember& member : members) problem_.starts.push_back(number_of(member.place));
     for (const PassingMember& member : members)
       problem_.goals.push_back(member.goal ? number_of(*member.goal) : PassingProblem::kAnywhere);
@@ -26,13 +27,17 @@ class Grouping {
   /// Gives up goals from the lowest rank on, until the others can be reached.
   std::optional<GroupOrder> order(const std::function<bool()>& should_stop) {
     for (;;) {
-      const PassingSequence sequence = find_passing(problem_, kEffort, should_stop);
-      if (sequence.outcome == PassingSequence::Outcome::kFound) return found(sequence);
+      int left = kMostSteps;
+      const PassingSequence sequence = find_passing(problem_, 0, left, should_stop);
+      if (sequence.outcome == PassingSequence::Outcome::kFound)
+        return quickest(order_of(sequence, robots()), should_stop);
       if (should_stop() || !give_up_lowest()) return std::nullopt;
     }
   }
 
  private:
+  int robots() const { return static_cast<int>(members_.size()); }
+
   int number_of(const Vector2& place) {
     for (std::size_t i = 0; i < fixed_.size(); ++i) {
       if ((fixed_[i] - place).norm() < kSamePlace_m) return static_cast<int>(i);
@@ -73,9 +78,20 @@ class Grouping {
     return true;
   }
 
-  GroupOrder found(const PassingSequence& sequence) const {
-    GroupOrder group;
-    group.order = order_of(sequence, static_cast<int>(members_.size()));
+  /// Of a first order and what other variants of the search find.
+  GroupOrder quickest(PassingOrder order, const std::function<bool()>& should_stop) const {
+    double least_s = duration_s(order, pace_);
+    int left = kMoreSteps;
+    for (std::uint32_t variant = 1; left > 0 && !should_stop(); ++variant, --left) {
+      const PassingSequence other = find_passing(problem_, variant, left, should_stop);
+      if (other.outcome != PassingSequence::Outcome::kFound) continue;
+      PassingOrder other_order = order_of(other, robots());
+      const double other_s = duration_s(other_order, pace_);
+      if (other_s >= least_s) continue;
+      least_s = other_s;
+      order = std::move(other_order);
+    }
+    GroupOrder group{std::move(order), {}};
     for (std::size_t i = 0; i < members_.size(); ++i)
       group.gets_there.push_back(members_[i].goal && has_goal(i));
     return group;
@@ -83,6 +99,7 @@ class Grouping {
 
   const std::vector<PassingMember>& members_;
   const PlaceGraphOptions options_;
+  const PassingPace pace_;
   std::vector<Vector2> fixed_;
   PassingProblem problem_;
 };
@@ -91,7 +108,7 @@ class Grouping {
 
 std::optional<GroupOrder> order_group(const StaticMap& static_map, std::vector<BlockedDisc> blocked,
                                       const std::vector<PassingMember>& members,
-                                      const PlaceGraphOptions& options,
+                                      const PlaceGraphOptions& options, const PassingPace& pace,
                                       const std::function<bool()>& should_stop) {
   if (members.empty() || static_cast<int>(members.size()) > JointStep::kMostRobots)
     return std::nullopt;
@@ -102,7 +119,7 @@ std::optional<GroupOrder> order_group(const StaticMap& static_map, std::vector<B
   }
   near.extend(near.min() - Vector2::Constant(kAround_m));
   near.extend(near.max() + Vector2::Constant(kAround_m));
-  auto order = Grouping(static_map, blocked, members, options, near).order(should_stop);
+  auto order = Grouping(static_map, blocked, members, options, pace, near).order(should_stop);
   const auto all_get_there = [&] {
     for (std::size_t i = 0; i < members.size(); ++i) {
       if (members[i].goal && !order->gets_there[i]) return false;
@@ -111,7 +128,7 @@ std::optional<GroupOrder> order_group(const StaticMap& static_map, std::vector<B
   };
   if ((order && all_get_there()) || near.contains(static_map.bounds())) return order;
   auto farther =
-      Grouping(static_map, blocked, members, options, static_map.bounds()).order(should_stop);
+      Grouping(static_map, blocked, members, options, pace, static_map.bounds()).order(should_stop);
   return farther ? farther : order;
 }
 

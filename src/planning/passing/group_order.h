@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "planning/passing/passing_duration.h"
 #include "planning/passing/passing_order.h"
 
 namespace mocha {
@@ -22,13 +23,13 @@ struct GroupOrder {
   std::vector<bool> gets_there;
 };
 
-/// In which order a group passes; the members highest rank first. Where not all can get to their
-/// goals, those of the lowest rank give theirs up, and make room. Where `blocked`, nobody can go;
-/// `static_map` must live as long as the call. Nothing where not even the first can get to its
-/// goal, there are more than JointStep::kMostRobots, or it was stopped.
+/// In which order a group passes, the quickest of some; the members highest rank first. Where not
+/// all can get to their goals, those of the lowest rank give theirs up, and make room. Where
+/// `blocked`, nobody can go; `static_map` must live as long as the call. Nothing where not even the
+/// first can get to its goal, there are more than JointStep::kMostRobots, or it was stopped.
 std::optional<GroupOrder> order_group(
     const StaticMap& static_map, std::vector<BlockedDisc> blocked,
     const std::vector<PassingMember>& members, const PlaceGraphOptions& options,
-    const std::function<bool()>& should_stop = [] { return false; });
+    const PassingPace& pace, const std::function<bool()>& should_stop = [] { return false; });
 
 }  // namespace mocha

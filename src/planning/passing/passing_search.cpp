@@ -18,7 +18,7 @@ namespace mocha {
 namespace {
 
 constexpr double kShareOfAll = 0.1;  // what all drive, against what the farthest drives
-constexpr int kStepsOfOne = 500;     // to improve one solution, before another one is looked for
+constexpr int kStepsToImprove = 500;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void validate(const PassingProblem& problem) {
@@ -57,18 +57,19 @@ std::vector<std::vector<double>> distances(const PassingProblem& problem) {
 
 class Search {
  public:
-  Search(const PassingProblem& problem, const std::vector<std::vector<double>>& distances_m,
+  Search(const PassingProblem& problem, std::vector<std::vector<double>> distances_m,
          std::uint32_t variant, const std::function<bool()>& should_stop)
       : problem_(problem),
         should_stop_(should_stop),
         variant_(variant),
-        steps_(problem.graph, distances_m, variant) {}
+        distances_m_(std::move(distances_m)),
+        steps_(problem.graph, distances_m_, variant) {}
 
   /// Counts down `left`, the steps that may be looked at, and some more once there is a solution.
   PassingSequence run(int& left) {
     visit(problem_.starts, -1, 0.0);
     if (nodes_[0].bound_m == kInfinity) return {PassingSequence::Outcome::kImpossible, {}};
-    int more = kStepsOfOne;
+    int more = kStepsToImprove;
     while (!open_.empty() && left > 0 && more > 0 && !should_stop_()) {
       const int node = open_.back();
       if (is_at_goals(node)) goal_ = node;
@@ -85,9 +86,6 @@ class Search {
         open_.empty() ? PassingSequence::Outcome::kImpossible : PassingSequence::Outcome::kStopped,
         {}};
   }
-
-  /// Of what was found.
-  double cost_m() const { return nodes_[goal_].cost_m; }
 
  private:
   int robots() const { return static_cast<int>(problem_.starts.size()); }
@@ -232,6 +230,7 @@ class Search {
   const PassingProblem& problem_;
   const std::function<bool()>& should_stop_;
   const std::uint32_t variant_;
+  const std::vector<std::vector<double>> distances_m_;
   StepSearch steps_;
   std::vector<Node> nodes_;
   std::map<Placing, int> numbers_;
@@ -241,25 +240,10 @@ class Search {
 
 }  // namespace
 
-PassingSequence find_passing(const PassingProblem& problem, const PassingEffort& effort,
+PassingSequence find_passing(const PassingProblem& problem, std::uint32_t variant, int& left,
                              const std::function<bool()>& should_stop) {
   validate(problem);
-  const auto distances_m = distances(problem);
-  int left = effort.most_steps;
-  Search first(problem, distances_m, 0, should_stop);
-  PassingSequence best = first.run(left);
-  if (best.outcome != PassingSequence::Outcome::kFound) return best;
-  double least_m = first.cost_m();
-  left = effort.improvement_steps;
-  for (std::uint32_t variant = 1; left > 0 && !should_stop(); ++variant) {
-    Search other(problem, distances_m, variant, should_stop);
-    --left;
-    PassingSequence sequence = other.run(left);
-    if (sequence.outcome != PassingSequence::Outcome::kFound || other.cost_m() >= least_m) continue;
-    best = std::move(sequence);
-    least_m = other.cost_m();
-  }
-  return best;
+  return Search(problem, distances(problem), variant, should_stop).run(left);
 }
 
 }  // namespace mocha

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -16,11 +17,6 @@ struct PassingProblem {
   Placing goals;  ///< kAnywhere: the robot has no goal, and makes room as it likes
 };
 
-struct PassingEffort {
-  int most_steps = 1000000;      ///< that are looked at, until there is a solution
-  int improvement_steps = 5000;  ///< the same for better ones
-};
-
 struct PassingSequence {
   enum class Outcome {
     kFound,
@@ -31,14 +27,15 @@ struct PassingSequence {
   std::vector<JointStep> steps;  ///< from the starts to the goals; their graph is the problem's
 };
 
-/// How all robots get to their goals: lazy constraints addition search, with an anytime improvement
-/// of the first solution (Okumura, LaCAM, AAAI 2023 and IJCAI 2023). Complete: finds a sequence if
-/// there is one, given the effort. Deterministic. What is improved is the distance over which the
-/// farthest driver of each step drives, summed, and a tenth of what all drive.
-/// Throws std::invalid_argument where starts and goals are not of as many robots, or not of the
+/// How all robots get to their goals: lazy constraints addition search, with an improvement of the
+/// first solution for a while (Okumura, LaCAM, AAAI 2023 and IJCAI 2023). Complete: finds a
+/// sequence if there is one, given enough steps. Deterministic; each `variant` prefers others of
+/// what is as good. What is improved is the distance over which the farthest driver of each step
+/// drives, summed, with a tenth of what all drive. `left` counts down the steps that may be looked
+/// at. Throws std::invalid_argument where starts and goals are not of as many robots, or not of the
 /// graph, or more than JointStep allows.
 PassingSequence find_passing(
-    const PassingProblem& problem, const PassingEffort& effort,
+    const PassingProblem& problem, std::uint32_t variant, int& left,
     const std::function<bool()>& should_stop = [] { return false; });
 
 }  // namespace mocha
