@@ -130,6 +130,7 @@ void PassingPolicy::progress(const PassingSituation& situation) {
     const auto start = order.start();
     if (order.is_over() || (start && (*start - rest).norm() < kAtPlace_m)) {
       leave_order();
+      if (led_ && led_->id != order.id()) led_.reset();
       followed_ = std::move(order);
       finished_ = PassingOrderId();
       calls_ = false;
@@ -184,8 +185,20 @@ PassingIntent PassingPolicy::intent(const PassingSituation& situation) const {
 
 // --- what the caller of the highest rank does ---
 
+/// Whether a robot that has a part in the order that this one has made does not keep to it.
+bool PassingPolicy::is_not_kept(double now_s) const {
+  if (!led_) return false;
+  const auto fresh = others(now_s);
+  return std::any_of(fresh.begin(), fresh.end(), [&](const PassingIntent& intent) {
+    const auto found = led_->instructions.find(intent.agent);
+    return found != led_->instructions.end() && found->second.turns > 0 &&
+           intent.follows != led_->id;
+  });
+}
+
 bool PassingPolicy::leads(double now_s) const {
-  if (!calls_ || now_s < calls_since_s_ + kGather_s) return false;
+  const bool is_asked = calls_ && now_s >= calls_since_s_ + kGather_s;
+  if (!is_asked && !is_not_kept(now_s)) return false;
   if (led_ && now_s < led_->made_s + kMakeAgain_s) return false;
   PassingIntent own;
   own.agent = name_;

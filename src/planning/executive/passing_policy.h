@@ -74,6 +74,7 @@ class PassingPolicy {
   void watch(const PassingSituation& situation, const SceneSource& scene);
   bool is_stuck(const PassingSituation& situation) const;
   bool leads(double now_s) const;
+  bool is_not_kept(double now_s) const;
   void lead(const PassingSituation& situation, const PlanningScene& scene);
   std::vector<PassingMessage> instructions(double now_s) const;
   PassingIntent intent(const PassingSituation& situation) const;
