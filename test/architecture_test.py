@@ -33,7 +33,7 @@ ROOMS = {
     "camouflage": "Motion camouflage: reference points, and the map from one variable a knot to knots.",
     "config": "Named values with units and ranges, read from YAML.",
     "control": "What follows a committed trajectory: feedback, limits of commands, the tracker's modes.",
-    "fleet/protocol": "What robots say to each other and what follows from it: commitments, peers, clocks, yield requests, emergency stops.",
+    "fleet/protocol": "What robots say to each other and what follows from it: commitments, peers, clocks, passing messages, emergency stops.",
     "fleet/storage": "What a robot remembers over a restart.",
     "fleet/wire": "Messages as bytes: codecs, sealed datagrams.",
     "nodes": "One thin file for each node.",
