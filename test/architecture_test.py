@@ -44,7 +44,7 @@ ROOMS = {
     "perception/sensor": "What a sensor measures: beams, scans, clouds.",
     "perception/tracking": "What moves: hits told from the map, detections, tracks.",
     "planning/candidates": "The one pipeline of global and local planning: start maneuvers, optimise, certify, select; what candidates keep from.",
-    "planning/executive": "Goals, their queue, and yielding to team-mates.",
+    "planning/executive": "Goals, their queue, and what a robot does where others have to pass.",
     "planning/global": "The path to the goal: seeds of several classes, and the rules by which the pipeline makes plans of them.",
     "planning/local": "The detour in space-time around what moves, and back to the plan.",
     "planning/maneuvers": "One maneuver a file: each only generates candidate motions.",

@@ -223,13 +223,11 @@ class Fuzzer {
     }
   }
 
-  /// Whatever was heard can be said on, whole or in parts.
+  /// What was heard can be said on, in parts.
   static void take(const PassingInstruction& instruction) {
     validate(instruction);
-    require(fits(quantised(instruction)), "what came in a datagram fits into none");
-    const std::size_t left = instruction.part.size() / 2;
-    const auto half = fitting_part(instruction, instruction.first + instruction.part.size() - left);
-    require(half.part.size() == left, "a part does not fit where the whole does");
+    const PassingInstruction part = fitting_part(quantised(instruction), instruction.first);
+    require(part.part.empty() || fits(part), "a part does not fit into a datagram");
   }
 
   /// Its own words are those of a sound robot, whatever it hears.
