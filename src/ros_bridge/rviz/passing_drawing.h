@@ -16,6 +16,8 @@ class PassingDrawing {
   explicit PassingDrawing(std::string robot);
 
   /// What the robot says or hears.
+  void note(const PassingIntent& intent);
+  void note(const PassingInstruction& instruction);
   void note(const PassingMessage& message);
 
   /// Its turns, from the last one that it has promised on: the paths of those that it may make
@@ -29,8 +31,6 @@ class PassingDrawing {
     std::map<std::uint32_t, PassingTurn> turns;  ///< by number; as far as it has been told of them
   };
 
-  void note(const PassingIntent& intent);
-  void note(const PassingInstruction& instruction);
   bool may_make(const PassingTurn& turn) const;
 
   const std::string robot_;
