@@ -172,7 +172,7 @@ class ArchitecturePage(unittest.TestCase):
 
     def test_executive(self):
         faults = lambda page: executive_faults(page, read(EXECUTIVE + ".h"), read(EXECUTIVE + ".cpp"))  # noqa: E731
-        self.check(faults, self.page, ("| `kPulling", "| `kDriving"), "kPullingOver: ")
+        self.check(faults, self.page, ("| `kWaiting", "| `kDriving"), "kWaiting: ")
         self.check(faults, self.page, ("to plan anew | `kPlanning`", "to plan anew | `kParked`"), "kBraking: does not lead to kParked")
 
     def test_requirements(self):

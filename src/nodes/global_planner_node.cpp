@@ -14,10 +14,10 @@
 #include "ros_bridge/inputs/emergency_stop_listener.h"
 #include "ros_bridge/inputs/goal_inputs.h"
 #include "ros_bridge/inputs/map_source.h"
+#include "ros_bridge/inputs/passing_messages.h"
 #include "ros_bridge/inputs/peer_source.h"
 #include "ros_bridge/inputs/plan_service.h"
 #include "ros_bridge/inputs/pose_source.h"
-#include "ros_bridge/inputs/yield_requests.h"
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/status_conversions.h"
 #include "ros_bridge/outputs/planner_outputs.h"
@@ -50,9 +50,8 @@ class GlobalPlannerNode {
         map_(node, identity_.map_frame),
         worker_({steady_now_s, [this] { call_soon([this] { step(loop_.now()); }); },
                  !ros::Time::isSimTime()}),
-        planning_(model_, values,
-                  {false, neighbour_parameters("trajectory_broadcaster").integer("priority"),
-                   identity_.name},
+        planning_(model_, values, identity_.name,
+                  neighbour_parameters("trajectory_broadcaster").integer("priority"),
                   handover_s(neighbour_parameters("local_replanner")), worker_,
                   ros::names::resolve("map")),
         stop_(node, [this] { heed_stop(); }),
@@ -60,10 +59,10 @@ class GlobalPlannerNode {
         peers_(node, identity_.name, identity_.map_frame),
         committed_(node, identity_.name),
         outputs_(node, identity_, model_),
-        yield_requests_(node, identity_,
-                        [this](const YieldRequest& request) {
-                          executive_.hear(request, ros::Time::now().toSec());
-                        }),
+        passing_(node, identity_,
+                 [this](const PassingMessage& message) {
+                   executive_.hear(message, ros::Time::now().toSec());
+                 }),
         followed_(node.subscribe("local_trajectory", 2, &GlobalPlannerNode::on_followed, this,
                                  at_once())),
         requests_(
@@ -224,7 +223,7 @@ class GlobalPlannerNode {
       const auto& [reason, violation, text] = *output.report;
       report(reason, violation, text);
     }
-    if (output.request) yield_requests_.send(*output.request, now_);
+    for (const PassingMessage& message : output.messages) passing_.send(message, now_);
     finish(output.ending);
     if (output.plan) outputs_.adopt(*output.plan, now_);
   }
@@ -261,7 +260,7 @@ class GlobalPlannerNode {
     status.add("parameter changes refused", parameters_.refused());
     status.add("messages refused", refused_ + committed_.refused() + inputs_.refused() +
                                        map_.refused() + peers_.refused() + pose_.refused() +
-                                       yield_requests_.refused());
+                                       passing_.refused());
   }
 
   const RobotIdentity identity_;
@@ -276,7 +275,7 @@ class GlobalPlannerNode {
   PeerSource peers_;
   CommittedTrajectorySource committed_;
   PlannerOutputs outputs_;
-  YieldRequests yield_requests_;
+  PassingMessages passing_;
   ros::Time now_;
   std::string request_;
   int class_switches_ = 0;

@@ -16,6 +16,7 @@
 #include "fleet/protocol/motions.h"
 #include "fleet/protocol/shipped_options.h"
 #include "fleet/wire/datagram_link.h"
+#include "fleet/wire/passing_parts.h"
 #include "fuzz/oddities.h"
 #include "trajectory/rover_braking.h"
 
@@ -74,11 +75,8 @@ class Fuzzer {
       }
       return heartbeat;
     }
-    if (below(4) == 0) {
-      YieldRequest request{agent, epoch, {below(2) == 0, below(3), "ugv2"}, 0.3, 1.0, {}};
-      for (int i = below(20); i > 0; --i) request.path.emplace_back(below(40), below(40));
-      return request;
-    }
+    if (below(4) == 0) return any_intent(agent, epoch);
+    if (below(4) == 0) return any_instruction(agent, epoch);
     if (below(4) == 0) {
       FleetStops stops{agent, epoch, {}};
       for (int i = below(4); i > 0; --i) {
@@ -99,6 +97,37 @@ class Fuzzer {
       trajectory.motion =
           test::shared(test::random_drive(random_, now_s_ + 0.1 * below(20), 2 + below(8), 4.0));
     return trajectory;
+  }
+
+  PassingIntent any_intent(const std::string& agent, std::uint32_t epoch) {
+    PassingIntent intent;
+    intent.agent = agent;
+    intent.epoch = epoch;
+    intent.priority = below(3);
+    intent.calls = below(2) == 0;
+    intent.radius_m = 0.3;
+    if (below(3) != 0) intent.goal = Vector2(below(40), below(40));
+    if (below(3) != 0) intent.follows = {"ugv" + std::to_string(1 + below(5)), 0, 1U + below(9)};
+    intent.moves = below(40);
+    return intent;
+  }
+
+  PassingInstruction any_instruction(const std::string& agent, std::uint32_t epoch) {
+    PassingInstruction whole;
+    whole.id = {agent, epoch, 1U + below(9)};
+    for (int i = 1; i <= 5; ++i) whole.robots.push_back("ugv" + std::to_string(i));
+    whole.robot = whole.robots[below(5)];
+    whole.turns = below(below(4) == 0 ? 400 : 20);
+    Vector2 place(below(40), below(40));
+    for (std::uint32_t i = 0; i < whole.turns; ++i) {
+      const Vector2 end = place + 0.01 * Vector2(below(99), below(99));
+      whole.part.push_back({{place, end}, {}});
+      const auto other = static_cast<std::uint32_t>(below(5));
+      if (whole.robots[other] != whole.robot)
+        whole.part.back().after.push_back({other, static_cast<std::uint32_t>(below(40))});
+      place = end;
+    }
+    return fitting_part(whole, below(2) * whole.turns / 3);
   }
 
   Bytes sound() { return encode({0, any_message()}, keyed_ ? &key_ : nullptr); }
@@ -187,9 +216,18 @@ class Fuzzer {
       stop_.receive(*stops, now_s_);
       require(stop_.record().fleet.size() <= EmergencyStop::kMostAgents,
               "too many stops are known");
+    } else if (const auto* intent = std::get_if<PassingIntent>(&message)) {
+      validate(*intent);
     } else {
-      validate(std::get<YieldRequest>(message));
+      take(std::get<PassingInstruction>(message));
     }
+  }
+
+  /// What was heard can be said on, in parts.
+  static void take(const PassingInstruction& instruction) {
+    validate(instruction);
+    const PassingInstruction part = fitting_part(quantised(instruction), instruction.first);
+    require(part.part.empty() || fits(part), "a part does not fit into a datagram");
   }
 
   /// Its own words are those of a sound robot, whatever it hears.

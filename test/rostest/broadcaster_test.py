@@ -10,7 +10,8 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Point
-from mocha_ugv.msg import FleetTrajectories, Lease, MotionPhase, Settlement, Trajectory, YieldRequest
+from mocha_ugv.msg import (FleetTrajectories, Lease, MotionPhase, PassingInstruction, PassingIntent, PassingProgress, PassingTurn, Settlement,
+                           Trajectory)
 
 from lockstep_clock import LockstepClock
 from node_process import end, is_connected
@@ -35,14 +36,17 @@ class Robot:
         self.settlements = {}
         self.breaches = []
         self.fleet = None
-        self.yields = []
+        self.intents = []
+        self.instructions = []
         self.diagnosis = {}
         self.proposals = rospy.Publisher("/%s/proposed_trajectory" % name, Trajectory, queue_size=10, tcp_nodelay=True)
         rospy.Subscriber("/%s/committed_trajectory" % name, Trajectory, self.on_committed, tcp_nodelay=True)
         rospy.Subscriber("/%s/settlement" % name, Settlement, self.on_settlement, tcp_nodelay=True)
         rospy.Subscriber("/%s/fleet/trajectories" % name, FleetTrajectories, self.on_fleet, tcp_nodelay=True)
-        self.yield_requests = rospy.Publisher("/%s/yield_request" % name, YieldRequest, queue_size=10, tcp_nodelay=True)
-        rospy.Subscriber("/%s/fleet/yield_requests" % name, YieldRequest, self.on_yield_request, tcp_nodelay=True)
+        self.passing_intents = rospy.Publisher("/%s/passing_intent" % name, PassingIntent, queue_size=10, tcp_nodelay=True)
+        self.passing_instructions = rospy.Publisher("/%s/passing_instruction" % name, PassingInstruction, queue_size=10, tcp_nodelay=True)
+        rospy.Subscriber("/%s/fleet/passing_intents" % name, PassingIntent, self.intents.append, tcp_nodelay=True)
+        rospy.Subscriber("/%s/fleet/passing_instructions" % name, PassingInstruction, self.instructions.append, tcp_nodelay=True)
         rospy.Subscriber("/diagnostics", DiagnosticArray, self.on_diagnostics)
         self.renews = True
         self.lease_s = LEASE_S
@@ -71,9 +75,6 @@ class Robot:
 
     def on_fleet(self, fleet):
         self.fleet = fleet
-
-    def on_yield_request(self, request):
-        self.yields.append(request)
 
     def on_diagnostics(self, array):
         for status in array.status:
@@ -148,13 +149,25 @@ def drive(clock, start, end):
     return message
 
 
-def yield_request(**changes):
-    request = YieldRequest(agent="race1", stuck=True, priority=-3, behalf="race0", radius=RADIUS_M, speed=1.0)
-    request.header.frame_id = "map"
-    request.path = [Point(1.5, 2.0, 0.0), Point(3.0, -4.25, 0.0)]
+def changed(message, changes):
+    message.header.frame_id = "map"
     for field, value in changes.items():
-        setattr(request, field, value)
-    return request
+        setattr(message, field, value)
+    return message
+
+
+def passing_intent(**changes):
+    return changed(PassingIntent(agent="race1", priority=-3, calls=True, radius=RADIUS_M, has_goal=True, goal=Point(3.0, -4.25, 0.0),
+                                 leader="race0", number=5, turns=2), changes)
+
+
+def passing_turn(path=((1.5, 2.0), (3.0, -4.25)), after=()):
+    return PassingTurn(path=[Point(x, y, 0.0) for x, y in path], after=[PassingProgress(robot=robot, turns=turns) for robot, turns in after])
+
+
+def passing_instruction(**changes):
+    return changed(PassingInstruction(agent="race1", number=5, robot="race2", robots=["race1", "race2"], turns=9, first=7,
+                                      part=[passing_turn(after=[(0, 3)])]), changes)
 
 
 class BroadcasterTest(unittest.TestCase):
@@ -233,19 +246,32 @@ class BroadcasterTest(unittest.TestCase):
         self.assertEqual(self.first.refused(), before + 11)
         self.assertEqual(len(self.first.committed), count)
 
-    def test_yield_requests_reach_the_others_in_the_own_name_only(self):
+    def test_what_is_said_about_passing_reaches_the_others_in_the_own_name_only(self):
         before = self.first.diagnosed_refusals()
-        for changes in ({"agent": "race2"}, {"behalf": ""}, {"radius": float("nan")}, {"speed": 0.0},
-                        {"path": [Point()] * 65}, {"path": [Point(float("inf"), 0.0, 0.0)]}):
-            self.first.yield_requests.publish(yield_request(**changes))
-        self.clock.run_until(lambda: self.first.refused() >= before + 6, 10.0, lambda: "all are counted: %s" % self.first.diagnosis)
-        self.first.yield_requests.publish(yield_request())
-        self.clock.run_until(lambda: self.second.yields, 10.0, "the request is heard")
-        heard, = self.second.yields
-        self.assertEqual((heard.agent, heard.behalf, heard.stuck, heard.priority), ("race1", "race0", True, -3))
-        self.assertEqual([(point.x, point.y) for point in heard.path], [(1.5, 2.0), (3.0, -4.25)])
-        self.assertGreater(heard.epoch, 0)
-        self.assertFalse(self.first.yields)  # its own
+        for changes in ({"agent": "race2"}, {"agent": ""}, {"radius": float("nan")}, {"turns": 401}, {"leader": ""},
+                        {"goal": Point(float("inf"), 0.0, 0.0)}):
+            self.first.passing_intents.publish(passing_intent(**changes))
+        for changes in ({"agent": "race2"}, {"number": 0}, {"robot": "race3"}, {"turns": 7}, {"turns": 401},
+                        {"robots": ["robot%d" % i for i in range(32)] + ["race2"]}, {"part": [passing_turn(path=[(1.0, 2.0)])]},
+                        {"part": [passing_turn(after=[(2, 1)])]}, {"part": [passing_turn(path=[(float("nan"), 0.0)] * 2)]}):
+            self.first.passing_instructions.publish(passing_instruction(**changes))
+        self.clock.run_until(lambda: self.first.refused() >= before + 15, 10.0, lambda: "all are counted: %s" % self.first.diagnosis)
+        self.first.passing_intents.publish(passing_intent())
+        self.first.passing_instructions.publish(passing_instruction())
+        self.clock.run_until(lambda: self.second.intents and self.second.instructions, 10.0, "both are heard")
+        intent, = self.second.intents
+        self.assertEqual((intent.agent, intent.calls, intent.priority, intent.radius), ("race1", True, -3, RADIUS_M))
+        self.assertEqual((intent.has_goal, intent.goal.x, intent.goal.y), (True, 3.0, -4.25))
+        self.assertEqual((intent.leader, intent.number, intent.turns), ("race0", 5, 2))
+        self.assertGreater(intent.epoch, 0)
+        instruction, = self.second.instructions
+        self.assertEqual((instruction.agent, instruction.number, instruction.robot), ("race1", 5, "race2"))
+        self.assertEqual((instruction.robots, instruction.turns, instruction.first), (["race1", "race2"], 9, 7))
+        turn, = instruction.part
+        self.assertEqual([(place.x, place.y) for place in turn.path], [(1.5, 2.0), (3.0, -4.25)])
+        self.assertEqual([(other.robot, other.turns) for other in turn.after], [(0, 3)])
+        self.assertEqual(instruction.epoch, intent.epoch)
+        self.assertFalse(self.first.intents or self.first.instructions)  # its own
 
     def test_a_killed_broadcaster_comes_back_with_a_new_epoch(self):
         self.second.set_down((-20.0, -20.0))

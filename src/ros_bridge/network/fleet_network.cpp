@@ -5,7 +5,7 @@
 
 #include "ros_bridge/messages/committed_trajectory_conversions.h"
 #include "ros_bridge/messages/emergency_stop_conversions.h"
-#include "ros_bridge/messages/yield_request_conversions.h"
+#include "ros_bridge/messages/passing_conversions.h"
 #include "ros_bridge/runtime/transport.h"
 
 namespace mocha {
@@ -36,14 +36,18 @@ FleetNetwork::FleetNetwork(ros::NodeHandle& node, const RobotIdentity& robot,
   }
   trajectories_out_ = node.advertise<mocha_ugv::Trajectory>("/fleet/promises", 100);
   heartbeats_out_ = node.advertise<mocha_ugv::Heartbeat>("/fleet/heartbeats", 100);
-  requests_out_ = node.advertise<mocha_ugv::YieldRequest>("/fleet/yield_requests", 100);
+  intents_out_ = node.advertise<mocha_ugv::PassingIntent>("/fleet/passing_intents", 100);
+  instructions_out_ =
+      node.advertise<mocha_ugv::PassingInstruction>("/fleet/passing_instructions", 100);
   stops_out_ = node.advertise<mocha_ugv::FleetStops>("/fleet/emergency_stops", 100);
   trajectories_in_ =
       node.subscribe("/fleet/promises", 100, &FleetNetwork::on_trajectory, this, at_once());
   heartbeats_in_ =
       node.subscribe("/fleet/heartbeats", 100, &FleetNetwork::on_heartbeat, this, at_once());
-  requests_in_ = node.subscribe("/fleet/yield_requests", 100, &FleetNetwork::on_yield_request, this,
-                                at_once());
+  intents_in_ =
+      node.subscribe("/fleet/passing_intents", 100, &FleetNetwork::on_intent, this, at_once());
+  instructions_in_ = node.subscribe("/fleet/passing_instructions", 100,
+                                    &FleetNetwork::on_instruction, this, at_once());
   stops_in_ =
       node.subscribe("/fleet/emergency_stops", 100, &FleetNetwork::on_stops, this, at_once());
 }
@@ -53,8 +57,10 @@ void FleetNetwork::send(const FleetMessage& message, ros::Time now) {
     for (const auto& bytes : link_.pack(message)) unsent_ += !channel_->send(bytes);
   } else if (const auto* trajectory = std::get_if<CommittedTrajectory>(&message)) {
     trajectories_out_.publish(to_message(*trajectory, robot_.map_frame, now));
-  } else if (const auto* request = std::get_if<YieldRequest>(&message)) {
-    requests_out_.publish(to_message(*request, robot_.map_frame, now));
+  } else if (const auto* intent = std::get_if<PassingIntent>(&message)) {
+    intents_out_.publish(to_message(*intent, robot_.map_frame, now));
+  } else if (const auto* instruction = std::get_if<PassingInstruction>(&message)) {
+    instructions_out_.publish(to_message(*instruction, robot_.map_frame, now));
   } else if (const auto* stops = std::get_if<FleetStops>(&message)) {
     stops_out_.publish(to_message(*stops, now));
   } else {
@@ -73,9 +79,15 @@ void FleetNetwork::on_heartbeat(const Event<mocha_ugv::Heartbeat>& event) {
        [](const mocha_ugv::Heartbeat& message) { return heartbeat_from_message(message); });
 }
 
-void FleetNetwork::on_yield_request(const Event<mocha_ugv::YieldRequest>& event) {
-  take(event, "/fleet/yield_requests", [this](const mocha_ugv::YieldRequest& message) {
-    return yield_request_from_message(message, robot_.map_frame);
+void FleetNetwork::on_intent(const Event<mocha_ugv::PassingIntent>& event) {
+  take(event, "/fleet/passing_intents", [this](const mocha_ugv::PassingIntent& message) {
+    return passing_from_message(message, robot_.map_frame);
+  });
+}
+
+void FleetNetwork::on_instruction(const Event<mocha_ugv::PassingInstruction>& event) {
+  take(event, "/fleet/passing_instructions", [this](const mocha_ugv::PassingInstruction& message) {
+    return passing_from_message(message, robot_.map_frame);
   });
 }
 

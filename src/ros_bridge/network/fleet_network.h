@@ -3,8 +3,9 @@
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <mocha_ugv/FleetStops.h>
 #include <mocha_ugv/Heartbeat.h>
+#include <mocha_ugv/PassingInstruction.h>
+#include <mocha_ugv/PassingIntent.h>
 #include <mocha_ugv/Trajectory.h>
-#include <mocha_ugv/YieldRequest.h>
 #include <ros/ros.h>
 
 #include <functional>
@@ -24,8 +25,9 @@ struct FleetNetworkOptions {
 };
 
 /// How the robots of a fleet hear each other: datagrams over LCM, or where they share a roscore,
-/// the topics /fleet/promises, /fleet/heartbeats, /fleet/yield_requests and /fleet/emergency_stops.
-/// What comes from outside and is no use is counted and reported.
+/// the topics /fleet/promises, /fleet/heartbeats, /fleet/passing_intents,
+/// /fleet/passing_instructions and /fleet/emergency_stops. What comes from outside and is no use is
+/// counted and reported.
 class FleetNetwork {
  public:
   /// `hear` gets what others say, in the node's thread. Throws std::runtime_error for a url that
@@ -46,7 +48,8 @@ class FleetNetwork {
 
   void on_trajectory(const Event<mocha_ugv::Trajectory>& event);
   void on_heartbeat(const Event<mocha_ugv::Heartbeat>& event);
-  void on_yield_request(const Event<mocha_ugv::YieldRequest>& event);
+  void on_intent(const Event<mocha_ugv::PassingIntent>& event);
+  void on_instruction(const Event<mocha_ugv::PassingInstruction>& event);
   void on_stops(const Event<mocha_ugv::FleetStops>& event);
   void on_datagram(const LcmChannel::Bytes& bytes);
   template <typename Message, typename Convert>
@@ -61,11 +64,13 @@ class FleetNetwork {
   std::string refusal_;
   ros::Publisher trajectories_out_;
   ros::Publisher heartbeats_out_;
-  ros::Publisher requests_out_;
+  ros::Publisher intents_out_;
+  ros::Publisher instructions_out_;
   ros::Publisher stops_out_;
   ros::Subscriber trajectories_in_;
   ros::Subscriber heartbeats_in_;
-  ros::Subscriber requests_in_;
+  ros::Subscriber intents_in_;
+  ros::Subscriber instructions_in_;
   ros::Subscriber stops_in_;
   std::unique_ptr<LcmChannel> channel_;
 };
