@@ -100,9 +100,13 @@ def ladder_faults(page, header, source):
 def executive_faults(page, header, source):
     text = section(page, "The goal executive")
     listed = {cells[0].strip("`"): cells for cells in tables(text) if cells[0].startswith("`k")}
+    states = enumerators(header, "ExecutiveState")
     leads = set(re.findall(r"{S::(k\w+), E::k\w+, S::(k\w+)}", source))
+    orders = re.findall(r"{E::k\w+, S::(k\w+)}", re.search(r"kWhereItTakesPart\[\] = {(.*?)};", source, re.DOTALL).group(1))
+    out = re.findall(r"state != S::(k\w+)", re.search(r"bool takes_part\(.*?}", source, re.DOTALL).group())
+    leads |= {(state, target) for state in states if state not in out for target in orders}
     said = words(source, "S")
-    for state in enumerators(header, "ExecutiveState"):
+    for state in states:
         cells = listed.get(state)
         if cells is None or cells[1] != said[state]:
             yield f"{state}: is not there, or not as \"{said[state]}\""
@@ -173,7 +177,8 @@ class ArchitecturePage(unittest.TestCase):
     def test_executive(self):
         faults = lambda page: executive_faults(page, read(EXECUTIVE + ".h"), read(EXECUTIVE + ".cpp"))  # noqa: E731
         self.check(faults, self.page, ("| `kWaiting", "| `kDriving"), "kWaiting: ")
-        self.check(faults, self.page, ("to plan anew | `kPlanning`", "to plan anew | `kParked`"), "kBraking: does not lead to kParked")
+        self.check(faults, self.page, ("when it is resumed;", "or `kWaiting`;"), "kPaused: does not lead to kWaiting")
+        self.check(faults, self.page, ("to plan anew | `kPlanning`", "to plan anew | `kDriving`"), "kBraking: does not lead to kDriving")
 
     def test_requirements(self):
         self.check(lambda page: requirement_faults(page, read("src/safety/requirement.h")), self.page, ("| `kEscape`", "| `kFlight`"), "kEscape: is not")

@@ -15,9 +15,14 @@ struct Everywhere {
 
 // But for the state in which the table has another entry.
 constexpr Everywhere kFromEverywhere[] = {
-    {E::kGoalGiven, S::kPlanning},    {E::kGoalBehind, S::kBraking},   {E::kStopped, S::kIdle},
-    {E::kPaused, S::kPaused},         {E::kGoalReached, S::kPlanning}, {E::kAllReached, S::kParked},
-    {E::kTurn, S::kPlanning},         {E::kNotItsTurn, S::kWaiting},   {E::kPassed, S::kPlanning},
+    {E::kGoalGiven, S::kPlanning}, {E::kGoalBehind, S::kBraking},   {E::kStopped, S::kIdle},
+    {E::kPaused, S::kPaused},      {E::kGoalReached, S::kPlanning}, {E::kAllReached, S::kParked},
+};
+
+constexpr Everywhere kWhereItTakesPart[] = {
+    {E::kTurn, S::kPlanning},
+    {E::kNotItsTurn, S::kWaiting},
+    {E::kPassed, S::kPlanning},
     {E::kPassedToTheEnd, S::kParked},
 };
 
@@ -77,6 +82,9 @@ std::optional<S> entry(S state, E event) {
   }
   for (const Everywhere& transition : kFromEverywhere) {
     if (transition.event == event) return transition.to;
+  }
+  for (const Everywhere& transition : kWhereItTakesPart) {
+    if (transition.event == event && takes_part(state)) return transition.to;
   }
   return std::nullopt;
 }

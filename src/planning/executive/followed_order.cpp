@@ -51,6 +51,7 @@ FollowedOrder::FollowedOrder(const PassingInstruction& beginning)
 }
 
 void FollowedOrder::add(const PassingInstruction& part) {
+  if (part.robots != robots_ || part.turns != turns_.size()) return;
   for (std::size_t i = 0; i < part.part.size() && part.first + i < turns_.size(); ++i)
     turns_[part.first + i] = part.part[i];
 }
@@ -69,7 +70,7 @@ bool FollowedOrder::may_begin(std::size_t move, const PromisedBy& promised_by) c
 }
 
 PassingStretch FollowedOrder::stretch_until(std::uint32_t until) const {
-  PassingStretch stretch{made_, until, {}};
+  PassingStretch stretch{id_, made_, until, {}};
   for (std::uint32_t move = made_; move < until; ++move) {
     const auto& path = turns_[move]->path;
     stretch.path.insert(stretch.path.end(), path.begin() + (stretch.path.empty() ? 0 : 1),

@@ -12,11 +12,16 @@ namespace mocha {
 
 /// Moves of a robot that it may make without a stop.
 struct PassingStretch {
+  PassingOrderId order;
   std::uint32_t from = 0;     ///< number of its first move, from 0 ...
   std::uint32_t until = 0;    ///< ... and of the one after its last
   std::vector<Vector2> path;  ///< of the centre, straight between; map frame
 
   const Vector2& end() const { return path.back(); }
+  /// Whether it leads to the end of the same move, wherever it begins.
+  bool ends_with(const PassingStretch& other) const {
+    return order == other.order && until == other.until;
+  }
 };
 
 /// The order that a robot keeps to: what it has been told of it, how far it has come, and what it
@@ -28,7 +33,7 @@ class FollowedOrder {
 
   /// The beginning of an order.
   explicit FollowedOrder(const PassingInstruction& beginning);
-  /// Another part of the same.
+  /// Another part of the same; what does not fit to its beginning is not heeded.
   void add(const PassingInstruction& part);
 
   const PassingOrderId& id() const { return id_; }

@@ -174,11 +174,12 @@ void GoalExecutive::pass(const Input& input, Output& output) {
       passing_.step({input.now_s, input.measured, input.committed, goal}, input.planner.scene);
   const auto& stretch = passing_.stretch();
   if (!passing_.follows()) {
-    if (state_ == S::kWaiting || !is_to_goal())
-      begin_errand(goal ? E::kPassed : E::kPassedToTheEnd);
+    if (state_ != S::kWaiting && is_to_goal()) return;
+    begin_errand(goal ? E::kPassed : E::kPassedToTheEnd);
+    output.plan = Motion();
   } else if (!stretch) {
     wait_for_turn(input, output);
-  } else if (!errand_.stretch || errand_.stretch->until != stretch->until) {
+  } else if (!errand_.stretch || !errand_.stretch->ends_with(*stretch)) {
     begin_errand(E::kTurn);
     errand_.stretch = stretch;
   }

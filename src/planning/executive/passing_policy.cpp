@@ -20,12 +20,27 @@ constexpr double kGather_s =
 constexpr double kMakeAgain_s = 2.0;   // an order that is not kept to
 constexpr double kStuck_s = 6.0;       // it may go on, and does not
 constexpr double kForgotten_s = 40.0;  // it waits, and nobody of the order gets on
+constexpr double kSayFinished_s = 6.0;
+constexpr std::size_t kMostHeard = 256;
 constexpr double kAtPlace_m = 0.15;
 constexpr double kHandover_s = 1.0;  // of moves, about: planning, settling
 constexpr double kSpare_m = 0.02;    // more than promises keep
 
 /// Where a team-mate will come to rest, by its promise.
 Vector2 rest_place(const MovingObstacle& peer) { return peer.at(peer.rest_time()).centre; }
+
+/// Those farthest from `here` take no part where there are more than an order can be for.
+void keep_nearest(const Vector2& here, std::vector<PassingMember>& members) {
+  if (members.size() <= kMostPassing) return;
+  std::vector<double> distances_m;
+  for (const PassingMember& member : members) distances_m.push_back((member.place - here).norm());
+  const auto first_out = distances_m.begin() + kMostPassing;
+  std::nth_element(distances_m.begin(), first_out, distances_m.end());
+  const auto is_out = [&](const PassingMember& member) {
+    return (member.place - here).norm() >= *first_out;
+  };
+  members.erase(std::remove_if(members.begin(), members.end(), is_out), members.end());
+}
 
 }  // namespace
 
@@ -50,6 +65,7 @@ void PassingPolicy::begin_goal() {
 
 void PassingPolicy::leave_order() {
   followed_.reset();
+  promised_.clear();
   stretch_.reset();
   impediment_.reset();
 }
@@ -64,7 +80,7 @@ void PassingPolicy::hear(const PassingMessage& message, double now_s) {
   const auto& intent = std::get<PassingIntent>(message);
   for (auto it = heard_.begin(); it != heard_.end();)
     it = now_s < it->second.time_s + kLapse_s ? std::next(it) : heard_.erase(it);
-  const bool has_room = heard_.size() < kMostPassing || heard_.count(intent.agent) > 0;
+  const bool has_room = heard_.size() < kMostHeard || heard_.count(intent.agent) > 0;
   if (intent.agent != name_ && has_room) heard_[intent.agent] = {intent, now_s};
 }
 
@@ -96,9 +112,18 @@ bool PassingPolicy::somebody_calls(double now_s) const {
 
 std::uint32_t PassingPolicy::promised_by(const std::string& name) const {
   if (name == name_) return followed_->promised();
-  const auto found = heard_.find(name);
-  const bool keeps_to_it = found != heard_.end() && found->second.intent.follows == followed_->id();
-  return keeps_to_it ? found->second.intent.moves : 0;
+  const auto found = promised_.find(name);
+  return found != promised_.end() ? found->second : 0;
+}
+
+/// What was heard once counts, though its robot may be through and silent by now.
+void PassingPolicy::note_promised() {
+  for (const std::string& robot : followed_->robots()) {
+    const auto found = heard_.find(robot);
+    if (found == heard_.end() || found->second.intent.follows != followed_->id()) continue;
+    std::uint32_t& moves = promised_[robot];
+    moves = std::max(moves, found->second.intent.moves);
+  }
 }
 
 // --- what the robot does ---
@@ -138,7 +163,9 @@ void PassingPolicy::progress(const PassingSituation& situation) {
     }
     offered_.reset();
   }
+  if (!followed_ && situation.now_s > finished_s_ + kSayFinished_s) finished_ = PassingOrderId();
   if (!followed_) return;
+  note_promised();
   followed_->note_promise(situation.committed);
   if (stands(situation.measured))
     followed_->note_stand(situation.measured.pose.position, kAtPlace_m);
@@ -150,6 +177,7 @@ void PassingPolicy::progress(const PassingSituation& situation) {
   if (!followed_->is_over()) return;
   finished_ = followed_->id();
   finished_moves_ = followed_->promised();
+  finished_s_ = situation.now_s;
   leave_order();
 }
 
@@ -225,6 +253,7 @@ void PassingPolicy::lead(const PassingSituation& situation, const PlanningScene&
     members.push_back({member.agent, place, member.goal});
     radius_m = std::max(radius_m, member.radius_m);
   }
+  keep_nearest(situation.measured.pose.position, members);
   for (const auto& peer : scene.peers) {
     const bool is_member =
         std::any_of(members.begin(), members.end(),

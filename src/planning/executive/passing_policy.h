@@ -81,6 +81,7 @@ class PassingPolicy {
   std::vector<PassingIntent> others(double now_s) const;
   bool somebody_calls(double now_s) const;
   std::uint32_t promised_by(const std::string& name) const;
+  void note_promised();
 
   const std::string name_;
   const int priority_;
@@ -91,8 +92,10 @@ class PassingPolicy {
   bool calls_ = false;
   double calls_since_s_ = 0.0;
   std::optional<FollowedOrder> followed_;
+  std::map<std::string, std::uint32_t> promised_;  // moves of it, by others
   PassingOrderId finished_;  // all its moves are made; others may wait for that
   std::uint32_t finished_moves_ = 0;
+  double finished_s_ = 0.0;
   std::optional<PassingInstruction> offered_;  // not taken up yet
   std::optional<PassingStretch> stretch_;
   double progressed_s_ = 0.0;  // it, or who it waits for, got on last

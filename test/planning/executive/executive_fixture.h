@@ -70,7 +70,7 @@ class ExecutiveFixture : public ::testing::Test {
     said_.clear();
     for (const double end_s = now_s_ + time_s; now_s_ < end_s - 1e-6;) {
       GoalExecutive::Output output = step();
-      if (output.request) said_.push_back(*output.request);
+      said_.insert(said_.end(), output.messages.begin(), output.messages.end());
       if (output.planned || output.ending != GoalExecutive::Ending::kNone) last = std::move(output);
     }
     return last;
@@ -78,7 +78,7 @@ class ExecutiveFixture : public ::testing::Test {
 
   double now_s_ = 1.7e9;
   GoalExecutive executive_{options(), rover(),
-                           Yielding({false, 0, "ugv5"}, rover(), default_options())};
+                           PassingPolicy("ugv5", 0, rover(), default_options())};
   PlanningScene scene_{static_map_of(free_grid({-5.0, -5.0}, {12.0, 5.0})), {}};
   RobotState state_;
   Motion committed_ = standing(now_s_, {0.0, 0.0}, 0.0);
@@ -88,7 +88,7 @@ class ExecutiveFixture : public ::testing::Test {
   bool late_ = false;  // plans are under way, and stay so
   PlanQuery query_;    // asked last
   std::vector<PlanQuery> asked_;
-  std::vector<YieldRequest> said_;
+  std::vector<PassingMessage> said_;
 
   void stand_ahead(const std::string& name) {
     scene_.peers = {std::make_shared<PeerObstacle>(
@@ -96,25 +96,28 @@ class ExecutiveFixture : public ::testing::Test {
         test::kRoverBraking)};
   }
 
-  /// A team-mate asks for a way, now and for the time of a run of `time_s`.
-  GoalExecutive::Output run_while_asked(const YieldRequest& request, double time_s) {
-    GoalExecutive::Output last;
-    std::vector<PlanQuery> asked;
-    std::vector<YieldRequest> said;
-    for (const double end_s = now_s_ + time_s; now_s_ < end_s - 1e-6;) {
-      executive_.hear(request, now_s_);
-      GoalExecutive::Output output = run(0.5);
-      if (output.planned || output.ending != GoalExecutive::Ending::kNone) last = std::move(output);
-      asked.insert(asked.end(), asked_.begin(), asked_.end());
-      said.insert(said.end(), said_.begin(), said_.end());
+  /// What ugv2 orders: straight moves from place to place, each after so many of its own.
+  static PassingInstruction ordered(const std::vector<Vector2>& places,
+                                    const std::vector<std::uint32_t>& after = {}) {
+    PassingInstruction instruction{{"ugv2", 1, 1}, "ugv5", {"ugv2", "ugv5"}, 0, 0, {}};
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      PassingTurn turn{{places[i - 1], places[i]}, {}};
+      if (i <= after.size() && after[i - 1] > 0) turn.after = {{0, after[i - 1]}};
+      instruction.part.push_back(turn);
     }
-    asked_ = asked;
-    said_ = said;
-    return last;
+    instruction.turns = static_cast<std::uint32_t>(instruction.part.size());
+    return instruction;
   }
 
-  static YieldRequest way_of(const std::string& agent, std::vector<Vector2> path) {
-    return {agent, 1, {false, 0, agent}, 0.3, 1.0, std::move(path)};
+  /// What ugv2 says, that keeps to its order.
+  void hear_promised(std::uint32_t moves) {
+    executive_.hear(PassingIntent{"ugv2", 1, 0, false, 0.3, std::nullopt, {"ugv2", 1, 1}, moves},
+                    now_s_);
+  }
+
+  void stand_at(const Vector2& place) {
+    state_.pose.position = place;
+    committed_ = standing(now_s_, place, 0.0);
   }
 };
 

@@ -14,43 +14,26 @@ using S = ExecutiveState;
 using E = ExecutiveEvent;
 using Row = std::map<E, S>;
 
-constexpr S kStates[] = {S::kIdle,
-                         S::kParked,
-                         S::kPaused,
-                         S::kBraking,
-                         S::kPlanning,
-                         S::kDriving,
-                         S::kReplanning,
-                         S::kBlocked,
-                         S::kGoalOccupied,
-                         S::kUnreachable,
-                         S::kPlanningPullOver,
-                         S::kPullingOver,
-                         S::kPullOverBlocked,
-                         S::kWaiting};
-constexpr E kEvents[] = {E::kGoalGiven,     E::kStopped,
-                         E::kPlanRequested, E::kFollowed,
+constexpr S kStates[] = {S::kIdle,         S::kParked,      S::kPaused,     S::kBraking,
+                         S::kPlanning,     S::kDriving,     S::kReplanning, S::kBlocked,
+                         S::kGoalOccupied, S::kUnreachable, S::kWaiting};
+constexpr E kEvents[] = {E::kGoalGiven,     E::kGoalBehind,
+                         E::kStopped,       E::kPaused,
+                         E::kResumed,       E::kPlanRequested,
+                         E::kFollowed,      E::kBrakes,
                          E::kGoalReached,   E::kAllReached,
-                         E::kPlanEnded,     E::kAtPullOverPoint,
-                         E::kStrayed,       E::kPlanFound,
-                         E::kPlanInTheWay,  E::kNoPlan,
-                         E::kPullOver,      E::kGoalFoundOccupied,
-                         E::kPullOverHere,  E::kNowhereToPullOver,
-                         E::kWayIsClear,    E::kNoNeedToPullOver,
-                         E::kGoalBehind,    E::kPaused,
-                         E::kResumed,       E::kBrakes,
-                         E::kNoPathFound};
+                         E::kPlanEnded,     E::kPlanFound,
+                         E::kNoPlan,        E::kGoalFoundOccupied,
+                         E::kNoPathFound,   E::kTurn,
+                         E::kNotItsTurn,    E::kPassed,
+                         E::kPassedToTheEnd};
 
 /// What each event leads to in each state; an event that is not named is not heeded.
 std::map<S, Row> table() {
   const Row without_plan = {{E::kPlanFound, S::kDriving},
-                            {E::kPlanInTheWay, S::kWaiting},
                             {E::kNoPlan, S::kBlocked},
                             {E::kGoalFoundOccupied, S::kGoalOccupied},
                             {E::kNoPathFound, S::kUnreachable}};
-  const Row makes_room = {{E::kAtPullOverPoint, S::kWaiting},
-                          {E::kWayIsClear, S::kPlanning},
-                          {E::kNoNeedToPullOver, S::kParked}};
   std::map<S, Row> rows;
   rows[S::kIdle] = {};
   rows[S::kParked] = {};
@@ -58,7 +41,7 @@ std::map<S, Row> table() {
                       {E::kGoalBehind, S::kPaused},
                       {E::kStopped, S::kPaused},
                       {E::kResumed, S::kBraking}};
-  rows[S::kBraking] = {{E::kBrakes, S::kPlanning}, {E::kNowhereToPullOver, S::kBraking}};
+  rows[S::kBraking] = {{E::kBrakes, S::kPlanning}};
   rows[S::kPlanning] = without_plan;
   rows[S::kDriving] = {{E::kPlanRequested, S::kReplanning},
                        {E::kFollowed, S::kDriving},
@@ -66,9 +49,8 @@ std::map<S, Row> table() {
                        {E::kPlanFound, S::kDriving}};
   rows[S::kReplanning] = {
       {E::kFollowed, S::kReplanning}, {E::kPlanEnded, S::kBlocked},
-      {E::kPlanFound, S::kDriving},   {E::kPlanInTheWay, S::kDriving},
-      {E::kNoPlan, S::kDriving},      {E::kGoalFoundOccupied, S::kDriving},
-      {E::kNoPathFound, S::kDriving},
+      {E::kPlanFound, S::kDriving},   {E::kNoPlan, S::kDriving},
+      {E::kNoPathFound, S::kDriving}, {E::kGoalFoundOccupied, S::kDriving},
   };
   rows[S::kBlocked] = without_plan;
   rows[S::kBlocked].erase(E::kNoPlan);
@@ -79,19 +61,7 @@ std::map<S, Row> table() {
   rows[S::kUnreachable] = without_plan;
   rows[S::kUnreachable].erase(E::kNoPathFound);
   rows[S::kUnreachable][E::kFollowed] = S::kDriving;
-  rows[S::kPlanningPullOver] = makes_room;
-  rows[S::kPlanningPullOver].insert(
-      {{E::kPlanFound, S::kPullingOver}, {E::kNoPlan, S::kPullOverBlocked}});
-  rows[S::kPullingOver] = makes_room;
-  rows[S::kPullingOver].insert({{E::kPlanRequested, S::kPlanningPullOver},
-                                {E::kFollowed, S::kPullingOver},
-                                {E::kPlanEnded, S::kPlanningPullOver}});
-  rows[S::kPullOverBlocked] = makes_room;
-  rows[S::kPullOverBlocked].insert(
-      {{E::kPlanRequested, S::kPlanningPullOver}, {E::kPlanFound, S::kPullingOver}});
-  rows[S::kWaiting] = {{E::kStrayed, S::kPlanningPullOver},
-                       {E::kPlanFound, S::kDriving},
-                       {E::kWayIsClear, S::kPlanning}};
+  rows[S::kWaiting] = {};
   for (const S state : kStates) {
     Row& row = rows[state];
     row.insert({{E::kGoalGiven, S::kPlanning},
@@ -101,8 +71,10 @@ std::map<S, Row> table() {
                 {E::kGoalReached, S::kPlanning},
                 {E::kAllReached, S::kParked}});
     if (state == S::kIdle || state == S::kPaused) continue;
-    row.insert({{E::kPullOver, S::kPlanningPullOver}, {E::kPullOverHere, S::kPullingOver}});
-    if (state != S::kParked) row.insert({E::kNowhereToPullOver, S::kPlanning});
+    row.insert({{E::kTurn, S::kPlanning},
+                {E::kNotItsTurn, S::kWaiting},
+                {E::kPassed, S::kPlanning},
+                {E::kPassedToTheEnd, S::kParked}});
   }
   return rows;
 }
@@ -156,20 +128,29 @@ TEST(ExecutiveState, AStopAndANewGoalGoBeforeEverythingButAPause) {
 
 /// A robot without a goal gets none by making room.
 TEST(ExecutiveState, ParkedRobotsMakeRoomAndAreParkedAgain) {
-  const S there = next_state(S::kParked, E::kPullOver);
-  for (const E event : {E::kPlanFound, E::kNoPlan}) {
+  EXPECT_TRUE(takes_part(S::kParked));
+  const S there = next_state(S::kParked, E::kTurn);
+  for (const E event : {E::kPlanFound, E::kNoPlan, E::kNotItsTurn}) {
     const S state = next_state(there, event);
-    EXPECT_TRUE(makes_room(state));
-    EXPECT_EQ(next_state(state, E::kNoNeedToPullOver), S::kParked);
+    EXPECT_TRUE(takes_part(state)) << to_text(state);
+    EXPECT_EQ(next_state(state, E::kPassedToTheEnd), S::kParked);
   }
+}
+
+TEST(ExecutiveState, AllButTheIdleAndThePausedTakePart) {
+  for (const S state : kStates)
+    EXPECT_EQ(takes_part(state), state != S::kIdle && state != S::kPaused) << to_text(state);
+}
+
+TEST(ExecutiveState, NothingIsDrivenByWhoWaits) {
+  for (const S state : kStates)
+    EXPECT_EQ(drives_plan(state), state == S::kDriving || state == S::kReplanning)
+        << to_text(state);
 }
 
 TEST(ExecutiveState, ANameForEach) {
   std::set<std::string> names;
-  for (const S state : kStates) {
-    names.insert(to_text(state));
-    EXPECT_LE(makes_room(state) + (state == S::kWaiting), 1);
-  }
+  for (const S state : kStates) names.insert(to_text(state));
   EXPECT_EQ(names.size(), std::size(kStates));
   EXPECT_EQ(names.count("unknown"), 0u);
 }

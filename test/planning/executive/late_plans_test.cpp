@@ -93,27 +93,27 @@ TEST_F(LatePlansTest, UnderWayTheyDoNotBeginWhereThePromiseMayHaveBeenExtended) 
               options().replan_period_s);
 }
 
-TEST_F(LatePlansTest, AnAnswerForAGoalIsNotDrivenWhereTheRobotHasToMakeRoomAgain) {
-  committed_ = standing(now_s_ - 5.0, {0.0, 0.0}, 0.0);
-  const YieldRequest request = way_of("ugv1", {{-3.0, 0.0}, {3.0, 0.0}});
-  executive_.hear(request, now_s_);
-  run_while_asked(request, 3.0);
-  ASSERT_TRUE(makes_room(executive_.state()) || executive_.state() == S::kWaiting);
-  state_.pose.position =
-      executive_.plan().empty() ? Vector2(0.0, 2.0) : executive_.plan().end_pose().position;
-  committed_ = standing(now_s_ - 5.0, state_.pose.position, 0.0);
+TEST_F(LatePlansTest, AnAnswerForAGoalIsNotDrivenWhereTheRobotHasToMakeRoom) {
   late_ = true;
-  for (int i = 0; i < 40 && !(executive_.state() == S::kWaiting && executive_.awaits_plan()); ++i) {
-    executive_.hear(request, now_s_);
-    step();
-  }
-  ASSERT_EQ(executive_.state(), S::kWaiting);
-  const PlanQuery to_goal = query_;
-  state_.pose.position.y() += 0.5;  // somebody pushes it
-  executive_.hear(request, now_s_);
   step();
-  ASSERT_EQ(executive_.state(), S::kPlanningPullOver);
+  const PlanQuery to_goal = query_;
+  ASSERT_FALSE(to_goal.should_stop());
+  executive_.hear(ordered({{0.0, 0.0}, {0.0, 2.0}}), now_s_);
+  step();
   EXPECT_TRUE(to_goal.should_stop());
+  EXPECT_EQ(query_.goal, Vector2(0.0, 2.0));
+  EXPECT_FALSE(query_.should_stop());
+}
+
+TEST_F(LatePlansTest, NoAnswerIsDrivenWhereTheRobotHasToWait) {
+  late_ = true;
+  step();
+  executive_.hear(ordered({{0.0, 0.0}, {0.0, 2.0}}, {1}), now_s_);
+  step();
+  EXPECT_TRUE(query_.should_stop());
+  late_ = false;
+  EXPECT_FALSE(run(1.0).planned);
+  EXPECT_EQ(executive_.state(), S::kWaiting);
 }
 
 }  // namespace

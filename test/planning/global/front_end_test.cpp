@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "planning/worlds.h"
+#include "trajectory/rover_braking.h"
 
 namespace mocha {
 namespace {
@@ -106,6 +107,58 @@ TEST_F(FrontEndTest, ReachesWhatIsNotWalledIn) {
   fill_box(grid_, {-0.2, -4.0}, {0.2, 4.0});
   EXPECT_FALSE(front_end_.reaches({-2.0, 0.0}, kGoal, *static_map_of(grid_), go_on));
   EXPECT_TRUE(seeds().list.empty());
+}
+
+// --- along a given path ---
+
+TEST_F(FrontEndTest, AlongAPathThereIsOneSeed) {
+  const std::vector<Vector2> along = {{-2.0, 0.0}, {-2.0, 3.0}, {2.0, 3.0}, kGoal};
+  query_.along = along;
+  const GlobalSeeds found = seeds();
+  ASSERT_EQ(found.list.size(), 1u);
+  ASSERT_FALSE(found.list[0].start_maneuvers.empty());
+  for (const StartManeuver& start : found.list[0].start_maneuvers)
+    EXPECT_EQ(start.path, along) << "not by the shortest way";
+  EXPECT_FALSE(found.driven);
+}
+
+TEST_F(FrontEndTest, AlongAPathItBeginsWhereTheRobotIsOnIt) {
+  query_.along = {{-4.0, 0.0}, {-3.0, 0.0}, {-1.0, 0.0}, {0.0, 2.0}, kGoal};
+  query_.committed = standing(-1.0, {-2.0, 0.05}, 0.0);
+  const GlobalSeeds found = seeds();
+  ASSERT_EQ(found.list.size(), 1u);
+  const std::vector<Vector2> rest = {{-2.0, 0.05}, {-1.0, 0.0}, {0.0, 2.0}, kGoal};
+  EXPECT_EQ(found.list[0].start_maneuvers.at(0).path, rest);
+}
+
+TEST_F(FrontEndTest, AlongAPathOfWhichNothingIsLeftItGoesToItsEnd) {
+  query_.along = {{-4.0, 0.0}, {-3.0, 0.0}};
+  const GlobalSeeds found = seeds();
+  ASSERT_EQ(found.list.size(), 1u);
+  EXPECT_EQ(found.list[0].start_maneuvers.at(0).path.back(), Vector2(-3.0, 0.0));
+}
+
+TEST_F(FrontEndTest, AlongAPathItBrakesFirstWhereThatTurnsAway) {
+  query_.along = {{-2.0, 0.0}, {-2.0, 3.0}, {2.0, 3.0}, kGoal};
+  query_.committed = straight_drive(-2.0, {-1.6, 0.0}, M_PI, 3.0, 0.8, 0.8);
+  const GlobalSeeds found = seeds();
+  ASSERT_EQ(found.list.size(), 1u);
+  const StartManeuver& start = found.list[0].start_maneuvers.at(0);
+  EXPECT_GE(start.phases.size(), 2u) << "it brakes and turns";
+  const std::vector<Vector2> rest = {{-2.0, 3.0}, {2.0, 3.0}, kGoal};
+  ASSERT_EQ(start.path.size(), 4u);
+  EXPECT_TRUE(std::equal(rest.begin(), rest.end(), start.path.begin() + 1));
+}
+
+TEST_F(FrontEndTest, AlongAPathWhoStandsThereChangesNothing) {
+  query_.along = {{-2.0, 0.0}, {-2.0, 3.0}, {2.0, 3.0}, kGoal};
+  PlanningScene scene{static_map_of(grid_), {}};
+  scene.peers = {std::make_shared<PeerObstacle>(
+      "ugv7", std::make_shared<const Motion>(standing(-5.0, {0.0, 3.0}, 0.0)), 0.3,
+      test::kRoverBraking)};
+  const GlobalSeeds found = front_end_.seeds(query_, scene, kGoal);
+  ASSERT_EQ(found.list.size(), 1u);
+  EXPECT_EQ(found.list[0].start_maneuvers.at(0).path, query_.along);
 }
 
 }  // namespace

@@ -1,0 +1,167 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "planning/candidates/start_maneuver.h"
+#include "planning/executive/passing_policy.h"
+#include "planning/worlds.h"
+#include "trajectory/rover_braking.h"
+
+namespace mocha {
+
+/// A corridor for one along x, from -5 to 5 m, with a siding above it from -1 to 1 m.
+inline std::shared_ptr<const StaticMap> corridor_with_siding() {
+  OccupancyGrid grid = free_grid({-5.2, -0.8}, {5.2, 2.2});
+  fill_box(grid, {-5.2, -0.8}, {5.2, -0.6});
+  fill_box(grid, {-5.2, 0.6}, {-1.0, 2.2});
+  fill_box(grid, {1.0, 0.6}, {5.2, 2.2});
+  fill_box(grid, {-5.2, 2.0}, {5.2, 2.2});
+  fill_box(grid, {-5.2, -0.8}, {-5.0, 2.2});
+  fill_box(grid, {5.0, -0.8}, {5.2, 2.2});
+  return static_map_of(grid);
+}
+
+/// From rest to rest along straight lines, with turns in place between.
+inline Motion drive_along(const std::vector<Vector2>& path, double start_s, double yaw_rad,
+                          double speed) {
+  std::vector<Phase> phases;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vector2 step = path[i] - path[i - 1];
+    if (step.norm() < 1e-3) continue;
+    const double to_rad = std::atan2(step.y(), step.x());
+    if (const auto turn = turn_in_place({path[i - 1], yaw_rad}, to_rad, rover().limits))
+      phases.emplace_back(*turn);
+    const Motion leg = straight_drive(0.0, path[i - 1], to_rad, step.norm(), speed, 0.5);
+    phases.insert(phases.end(), leg.phases().begin(), leg.phases().end());
+    yaw_rad = to_rad;
+  }
+  if (phases.empty()) return standing(start_s, path.front(), yaw_rad);
+  return Motion(start_s, std::move(phases));
+}
+
+/// Robots that stand, but for what their orders let them drive, and tell each other what their
+/// policies say.
+class PassingFleet : public ::testing::Test {
+ protected:
+  struct Robot {
+    std::string name;
+    std::unique_ptr<PassingPolicy> policy;
+    Motion committed;
+    std::optional<Vector2> goal;
+    bool takes_part = true;
+    bool drives = true;  ///< what its order lets it
+    std::vector<PassingMessage> said;
+
+    Vector2 place(double now_s) const { return committed.at(now_s).pose.position; }
+    bool is_there(double now_s) const { return goal && (place(now_s) - *goal).norm() < 0.15; }
+  };
+
+  Robot& add(const std::string& name, const Vector2& place, std::optional<Vector2> goal = {},
+             int priority = 0) {
+    robots_.push_back({name,
+                       std::make_unique<PassingPolicy>(name, priority, rover(), default_options()),
+                       standing(now_s_ - 5.0, place, 0.0),
+                       goal,
+                       true,
+                       true,
+                       {}});
+    return robots_.back();
+  }
+
+  PlanningScene scene_of(const Robot& self) const {
+    PlanningScene scene{static_map_, {}};
+    for (const Robot& robot : robots_) {
+      if (robot.name == self.name) continue;
+      scene.peers.push_back(std::make_shared<PeerObstacle>(
+          robot.name, std::make_shared<const Motion>(robot.committed), 0.3, test::kRoverBraking));
+    }
+    return scene;
+  }
+
+  /// Returns what it says.
+  std::vector<PassingMessage> step(Robot& robot) {
+    if (!robot.takes_part) {
+      robot.policy->stay_out();
+      return {};
+    }
+    const MotionState state = robot.committed.at(now_s_);
+    RobotState measured;
+    measured.stamp_s = now_s_;
+    measured.pose = state.pose;
+    measured.twist = {state.at_rest ? 0.0 : std::max(state.speed, 0.2), 0.0};
+    const auto messages =
+        robot.policy->step({now_s_, measured, robot.committed, robot.goal},
+                           [&](const std::vector<Vector2>&) { return scene_of(robot); });
+    robot.said.insert(robot.said.end(), messages.begin(), messages.end());
+    const auto& stretch = robot.policy->stretch();
+    const bool ends_there =
+        stretch && (stretch->end() - robot.committed.end_pose().position).norm() < 1e-3;
+    if (stretch && robot.drives && state.at_rest && !ends_there)
+      robot.committed = drive_along(stretch->path, now_s_ + 0.3, state.pose.yaw_rad, speed_);
+    return messages;
+  }
+
+  /// All step, and hear what the others say a moment later.
+  void step() {
+    now_s_ += kStep_s;
+    std::vector<std::pair<std::string, PassingMessage>> messages;
+    for (Robot& robot : robots_) {
+      for (PassingMessage& message : step(robot)) messages.emplace_back(robot.name, message);
+    }
+    for (const auto& [from, message] : messages) {
+      for (Robot& robot : robots_) {
+        if (robot.name == from || lost_(random_) < loss_) continue;
+        robot.policy->hear(message, now_s_);
+      }
+    }
+  }
+
+  void run(double time_s) {
+    for (Robot& robot : robots_) robot.said.clear();
+    for (const double end_s = now_s_ + time_s - 1e-6; now_s_ < end_s;) step();
+  }
+
+  /// Until all that have goals are there, or for so long at most.
+  bool all_get_there(double time_s) {
+    for (const double end_s = now_s_ + time_s; now_s_ < end_s;) {
+      step();
+      if (std::all_of(robots_.begin(), robots_.end(), [&](const Robot& robot) {
+            return !robot.goal || (robot.is_there(now_s_) && !robot.policy->follows());
+          }))
+        return true;
+    }
+    return false;
+  }
+
+  template <typename Message>
+  static std::vector<Message> said(const Robot& robot) {
+    std::vector<Message> found;
+    for (const PassingMessage& each : robot.said) {
+      if (const auto* message = std::get_if<Message>(&each)) found.push_back(*message);
+    }
+    return found;
+  }
+
+  static constexpr double kStep_s = 0.1;
+  double now_s_ = 1.7e9;
+  double speed_ = 0.8;
+  double loss_ = 0.0;  // of messages
+  std::deque<Robot> robots_;
+  std::shared_ptr<const StaticMap> static_map_ = corridor_with_siding();
+
+ private:
+  std::mt19937 random_{7};
+  std::uniform_real_distribution<double> lost_{0.0, 1.0};
+};
+
+}  // namespace mocha

@@ -1,0 +1,190 @@
+#include "planning/passing/group_order.h"
+
+#include <gtest/gtest.h>
+
+#include "planning/passing/cell_world.h"
+
+namespace mocha {
+namespace {
+
+using Rows = std::vector<std::string>;
+
+/// Members a, b, c ... from where the letters are in the first to where they are in the second; who
+/// is not there has no goal.
+std::vector<PassingMember> members_of(const Rows& starts, const Rows& goals) {
+  std::vector<PassingMember> members;
+  for (const Vector2& place : test::letters_of(starts)) {
+    const char letter = static_cast<char>('a' + members.size());
+    members.push_back({std::string(1, letter), place, std::nullopt});
+    for (int row = 0; row < static_cast<int>(goals.size()); ++row) {
+      const auto column = goals[row].find(letter);
+      if (column != std::string::npos)
+        members.back().goal = test::centre_of_cell(goals, row, static_cast<int>(column));
+    }
+  }
+  return members;
+}
+
+std::optional<GroupOrder> order_in(const Rows& starts, const Rows& goals,
+                                   std::vector<BlockedDisc> blocked = {}) {
+  return order_group(*test::static_map_of_cells(starts), std::move(blocked),
+                     members_of(starts, goals), test::graph_options());
+}
+
+/// Where a member is after all its moves.
+Vector2 end_of(const GroupOrder& group, std::size_t member, const std::vector<PassingMember>& all) {
+  const auto& turns = group.order[member];
+  return turns.empty() ? all[member].place : turns.back().path.back();
+}
+
+TEST(GroupOrder, LeadsAllToTheirGoalsWhereThatIsPossible) {
+  int possible = 0;
+  for (const auto& puzzle : test::puzzles()) {
+    const auto outcome = find_passing(test::in_space(puzzle), {}).outcome;
+    if (outcome != PassingSequence::Outcome::kFound) continue;
+    ++possible;
+    const auto members = members_of(puzzle.starts, puzzle.goals);
+    const auto group = order_in(puzzle.starts, puzzle.goals);
+    ASSERT_TRUE(group) << puzzle.name;
+    ASSERT_EQ(group->order.size(), members.size());
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      EXPECT_TRUE(group->gets_there[i]) << puzzle.name << i;
+      EXPECT_LT((end_of(*group, i, members) - *members[i].goal).norm(), 0.03) << puzzle.name << i;
+      Vector2 place = members[i].place;
+      for (const PassingTurn& turn : group->order[i]) {
+        EXPECT_LT((turn.path.front() - place).norm(), 0.03);
+        EXPECT_LE(turn.path.size(), kMostTurnPlaces);
+        place = turn.path.back();
+      }
+    }
+  }
+  EXPECT_GE(possible, 3);
+}
+
+TEST(GroupOrder, WhoHasNoGoalMakesRoom) {
+  const Rows starts = {"a.b..", "##.##"};
+  const auto members = members_of(starts, {"....a", "##.##"});
+  const auto group = order_in(starts, {"....a", "##.##"});
+  ASSERT_TRUE(group);
+  EXPECT_TRUE(group->gets_there[0]);
+  EXPECT_FALSE(group->gets_there[1]);
+  EXPECT_FALSE(group->order[1].empty());
+  EXPECT_GT((end_of(*group, 1, members) - *members[0].goal).norm(), test::kApart_m - 0.03);
+}
+
+/// In a tube, two cannot change places.
+TEST(GroupOrder, TheLowestRankGivesUpWhereNotAllCanGetThere) {
+  const Rows starts = {".a.b."};
+  const Rows goals = {"b..a."};
+  const auto members = members_of(starts, goals);
+  const auto group = order_in(starts, goals);
+  ASSERT_TRUE(group);
+  EXPECT_EQ(group->gets_there, std::vector<bool>({true, false}));
+  EXPECT_LT((end_of(*group, 0, members) - *members[0].goal).norm(), 0.03);
+}
+
+TEST(GroupOrder, NothingWhereNotEvenTheFirstCanGetThere) {
+  EXPECT_FALSE(order_in({".a.b."}, {"....a"}));
+}
+
+TEST(GroupOrder, OnlyTheLowestRankGivesUpWhereTheOthersCanPass) {
+  const Rows starts = {"ab.c.", "##.##"};
+  const Rows goals = {".a...", "##b##"};  // c is walled out below
+  const auto members = members_of(starts, goals);
+  auto with_far_goal = members;
+  with_far_goal[2].goal = Vector2(0.6, 0.6);  // in the wall
+  const auto group =
+      order_group(*test::static_map_of_cells(starts), {}, with_far_goal, test::graph_options());
+  ASSERT_TRUE(group);
+  EXPECT_EQ(group->gets_there, std::vector<bool>({true, true, false}));
+}
+
+TEST(GroupOrder, AGoalOutOfReachIsGivenUpWhateverTheRank) {
+  const Rows starts = {"a.b.", "....", "####", "...."};
+  auto members = members_of(starts, {"b.a.", "....", "####", "...."});
+  members[0].goal = test::centre_of_cell(starts, 3, 1);  // beyond the wall
+  const auto group =
+      order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options());
+  ASSERT_TRUE(group);
+  EXPECT_EQ(group->gets_there, std::vector<bool>({false, true}));
+  EXPECT_LT((end_of(*group, 1, members) - *members[1].goal).norm(), 0.03);
+}
+
+TEST(GroupOrder, OfGoalsThatAreTooNearToEachOtherTheHigherRankGetsItsOwn) {
+  const Rows starts = {"a...b"};
+  auto members = members_of(starts, starts);
+  for (const double apart_m : {0.0, 0.01, 0.9 * test::kApart_m}) {
+    members[0].goal = Vector2(3.0, 0.6);
+    members[1].goal = Vector2(3.0 + apart_m, 0.6);
+    const auto group =
+        order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options());
+    ASSERT_TRUE(group);
+    EXPECT_EQ(group->gets_there, std::vector<bool>({true, false})) << apart_m;
+  }
+  members[1].goal = Vector2(3.0 + 1.1 * test::kApart_m, 0.6);
+  const auto group =
+      order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options());
+  ASSERT_TRUE(group);
+  EXPECT_EQ(group->gets_there, std::vector<bool>({true, true}));
+}
+
+TEST(GroupOrder, NobodyGoesWhereItIsBlocked) {
+  const Rows starts = {"a...b", "#.#.#", "#...#"};
+  const Rows goals = {"b...a", "#.#.#", "#...#"};
+  const BlockedDisc disc{test::centre_of_cell(starts, 2, 2), 0.7};
+  const auto free = order_in(starts, goals);
+  ASSERT_TRUE(free);
+  EXPECT_EQ(free->gets_there, std::vector<bool>({true, true}));
+  const auto group = order_in(starts, goals, {disc});
+  ASSERT_TRUE(group);
+  for (const auto& turns : group->order) {
+    for (const PassingTurn& turn : turns) {
+      for (const Vector2& place : turn.path)
+        EXPECT_GE((place - disc.centre).norm(), disc.radius_m - 0.05);
+    }
+  }
+}
+
+TEST(GroupOrder, TheWayThatIsBlockedIsNone) {
+  const Rows starts = {"a....", "##.##"};
+  const auto members = members_of(starts, {"....a", "##.##"});
+  const BlockedDisc disc{test::centre_of_cell(starts, 0, 3), 0.8};
+  const auto group =
+      order_group(*test::static_map_of_cells(starts), {disc}, members, test::graph_options());
+  if (group) {
+    EXPECT_FALSE(group->gets_there[0]);
+  }
+}
+
+/// The only siding is far away from both.
+TEST(GroupOrder, LooksForRoomFartherAwayWhereThereIsNoneNearBy) {
+  const Rows starts = {"...........ab..", "##.############"};
+  const Rows goals = {"...........ba..", "##.############"};
+  const auto group = order_in(starts, goals);
+  ASSERT_TRUE(group);
+  EXPECT_EQ(group->gets_there, std::vector<bool>({true, true}));
+  double farthest_m = 1e9;
+  for (const auto& turns : group->order) {
+    for (const PassingTurn& turn : turns) farthest_m = std::min(farthest_m, turn.path.back().x());
+  }
+  EXPECT_LT(farthest_m, 4.0);
+}
+
+TEST(GroupOrder, NothingForNobodyAndForTooMany) {
+  const Rows rows = {"....."};
+  const auto static_map = test::static_map_of_cells(rows);
+  EXPECT_FALSE(order_group(*static_map, {}, {}, test::graph_options()));
+  const std::vector<PassingMember> many(JointStep::kMostRobots + 1,
+                                        {"a", test::centre_of_cell(rows, 0, 0), std::nullopt});
+  EXPECT_FALSE(order_group(*static_map, {}, many, test::graph_options()));
+}
+
+TEST(GroupOrder, NothingWhereItIsStopped) {
+  const Rows starts = {"ab...cd", "###.###"};
+  const auto members = members_of(starts, {"cd...ab", "###.###"});
+  EXPECT_FALSE(order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options(),
+                           [] { return true; }));
+}
+
+}  // namespace
+}  // namespace mocha
