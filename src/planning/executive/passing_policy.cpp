@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "fleet/wire/passing_parts.h"
@@ -81,7 +82,12 @@ void PassingPolicy::hear(const PassingMessage& message, double now_s) {
   for (auto it = heard_.begin(); it != heard_.end();)
     it = now_s < it->second.time_s + kLapse_s ? std::next(it) : heard_.erase(it);
   const bool has_room = heard_.size() < kMostHeard || heard_.count(intent.agent) > 0;
-  if (intent.agent != name_ && has_room) heard_[intent.agent] = {intent, now_s};
+  if (intent.agent == name_ || !has_room) return;
+  heard_[intent.agent] = {intent, now_s};
+  if (led_ && intent.follows == led_->id) {
+    std::uint32_t& moves = led_->promised[intent.agent];
+    moves = std::max(moves, intent.moves);
+  }
 }
 
 /// Of a new order the first part, with which the robot can begin; or more of what it follows.
@@ -142,7 +148,7 @@ std::vector<PassingMessage> PassingPolicy::step(const PassingSituation& situatio
   if (!takes_part || (!is_news && now_s < said_s_ + kSayAgain_s)) return messages;
   said_ = now;
   said_s_ = now_s;
-  messages = instructions(now_s);
+  say_instructions(now_s, messages);
   messages.emplace_back(now);
   return messages;
 }
@@ -219,8 +225,9 @@ bool PassingPolicy::is_not_kept(double now_s) const {
   const auto fresh = others(now_s);
   return std::any_of(fresh.begin(), fresh.end(), [&](const PassingIntent& intent) {
     const auto found = led_->instructions.find(intent.agent);
-    return found != led_->instructions.end() && found->second.turns > 0 &&
-           intent.follows != led_->id;
+    if (found == led_->instructions.end() || intent.follows == led_->id) return false;
+    const auto promised = led_->promised.find(intent.agent);
+    return found->second.turns > (promised != led_->promised.end() ? promised->second : 0);
   });
 }
 
@@ -262,7 +269,7 @@ void PassingPolicy::lead(const PassingSituation& situation, const PlanningScene&
   }
   // Counts on over a restart.
   number_ = std::max(number_ + 1, static_cast<std::uint32_t>(std::fmod(situation.now_s, 1e9)));
-  led_ = Led{{name_, 0, number_}, {}, situation.now_s};
+  led_ = Led{{name_, 0, number_}, {}, {}, situation.now_s};
   const double apart_m = radius_m + distance_to_peers_m(robot_) + kSpare_m;
   const auto group = order_group(*scene.static_map, std::move(blocked), members, {travel_, apart_m},
                                  {robot_.limits.max_speed, robot_.limits.max_acceleration,
@@ -274,26 +281,28 @@ void PassingPolicy::lead(const PassingSituation& situation, const PlanningScene&
     const auto turns = static_cast<std::uint32_t>(group->order[i].size());
     led_->instructions[names[i]] = {led_->id, names[i], names, turns, 0, group->order[i]};
   }
-  offered_ = led_->instructions[name_];
+  offered_ = quantised(led_->instructions[name_]);
   said_s_ = -std::numeric_limits<double>::infinity();
 }
 
-/// Again and again to whoever does not keep to it yet, or has more to be told of it.
-std::vector<PassingMessage> PassingPolicy::instructions(double now_s) const {
-  std::vector<PassingMessage> messages;
-  if (!led_) return messages;
-  for (const auto& [robot, whole] : led_->instructions) {
-    const auto found = heard_.find(robot);
-    if (found == heard_.end() || now_s > found->second.time_s + kLapse_s) continue;
-    const PassingIntent& said = found->second.intent;
-    const bool follows = said.follows == led_->id;
-    const bool may_be_late = now_s > led_->made_s + kMakeAgain_s;
-    if (!follows && may_be_late) continue;
-    const std::uint32_t first = follows ? said.moves : 0;
-    if (follows && first >= whole.turns) continue;
-    messages.emplace_back(fitting_part(whole, first));
+/// Again and again to whoever does not keep to it yet, or has more to be told of it; and to its own
+/// robot, for people to see. An order that no datagram holds is void.
+void PassingPolicy::say_instructions(double now_s, std::vector<PassingMessage>& messages) {
+  if (!led_) return;
+  const bool may_be_late = now_s > led_->made_s + kMakeAgain_s;
+  try {
+    for (const auto& [robot, whole] : led_->instructions) {
+      const auto found = heard_.find(robot);
+      const bool is_own = robot == name_;
+      if (!is_own && (found == heard_.end() || now_s > found->second.time_s + kLapse_s)) continue;
+      const bool keeps = is_own || found->second.intent.follows == led_->id;
+      const std::uint32_t first = is_own ? 0 : keeps ? found->second.intent.moves : 0;
+      if ((keeps && first >= whole.turns) || (!keeps && may_be_late)) continue;
+      messages.emplace_back(fitting_part(whole, first));
+    }
+  } catch (const std::invalid_argument&) {
+    led_->instructions.clear();
   }
-  return messages;
 }
 
 }  // namespace mocha

@@ -65,6 +65,7 @@ class PassingPolicy {
   struct Led {
     PassingOrderId id;
     std::map<std::string, PassingInstruction> instructions;  ///< of each robot
+    std::map<std::string, std::uint32_t> promised;           ///< moves of it, as far as was heard
     double made_s;
   };
 
@@ -76,12 +77,12 @@ class PassingPolicy {
   bool leads(double now_s) const;
   bool is_not_kept(double now_s) const;
   void lead(const PassingSituation& situation, const PlanningScene& scene);
-  std::vector<PassingMessage> instructions(double now_s) const;
   PassingIntent intent(const PassingSituation& situation) const;
   std::vector<PassingIntent> others(double now_s) const;
   bool somebody_calls(double now_s) const;
   std::uint32_t promised_by(const std::string& name) const;
   void note_promised();
+  void say_instructions(double now_s, std::vector<PassingMessage>& messages);
 
   const std::string name_;
   const int priority_;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "planning/passing/passing_duration.h"
 #include "planning/passing/passing_search.h"
 #include "topology/grid_world.h"
 
@@ -114,6 +116,15 @@ inline PassingProblem in_space(const CellPuzzle& puzzle) {
   const auto static_map = static_map_of_cells(puzzle.starts);
   problem.graph = make_place_graph(*static_map, static_map->bounds(), {}, fixed, graph_options());
   return problem;
+}
+
+inline constexpr int kMostSteps = 1000000;
+inline constexpr PassingPace kPace = {1.0, 0.5, 1.5, 1.0};
+
+inline PassingSequence solution_of(
+    const PassingProblem& problem, int most_steps = kMostSteps,
+    const std::function<bool()>& should_stop = [] { return false; }) {
+  return find_passing(problem, 0, most_steps, should_stop);
 }
 
 inline const std::vector<CellPuzzle>& puzzles() {
