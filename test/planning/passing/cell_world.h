@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -114,6 +115,13 @@ inline PassingProblem in_space(const CellPuzzle& puzzle) {
   const auto static_map = static_map_of_cells(puzzle.starts);
   problem.graph = make_place_graph(*static_map, static_map->bounds(), {}, fixed, graph_options());
   return problem;
+}
+
+/// With so many steps of the search.
+inline PassingSequence solved(
+    const PassingProblem& problem, int left = 1000000,
+    const std::function<bool()>& should_stop = [] { return false; }) {
+  return find_passing(problem, 0, left, should_stop);
 }
 
 inline const std::vector<CellPuzzle>& puzzles() {
