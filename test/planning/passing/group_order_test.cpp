@@ -130,6 +130,17 @@ TEST(GroupOrder, OfGoalsThatAreTooNearToEachOtherTheHigherRankGetsItsOwn) {
   EXPECT_EQ(group->gets_there, std::vector<bool>({true, true}));
 }
 
+TEST(GroupOrder, WhoCannotStandBesideAHigherRankCostsNoThirdItsGoal) {
+  const Rows starts = {"a...b", "....c"};
+  auto members = members_of(starts, {".....", "c...."});
+  members[0].goal = Vector2(3.0, 1.8);
+  members[1].goal = Vector2(3.5, 1.8);
+  const auto group =
+      order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options(), kPace);
+  ASSERT_TRUE(group);
+  EXPECT_EQ(group->gets_there, std::vector<bool>({true, false, true}));
+}
+
 TEST(GroupOrder, NobodyGoesWhereItIsBlocked) {
   const Rows starts = {"a...b", "#.#.#", "#...#"};
   const Rows goals = {"b...a", "#.#.#", "#...#"};
