@@ -42,7 +42,7 @@ class GoalPlanningTest : public ::testing::Test {
   std::shared_ptr<const StaticMap> map_ = static_map_of(free_grid({-2.0, -3.0}, {12.0, 3.0}));
   SceneSource scene_ = [this](const std::vector<Vector2>&) { return PlanningScene{map_, {}}; };
   InlinePlanRunner at_once_;
-  GoalPlanning planning_{rover(), values_, {false, 0, "ugv1"}, kHandover_s, at_once_};
+  GoalPlanning planning_{rover(), values_, "ugv1", 0, kHandover_s, at_once_};
 };
 
 TEST_F(GoalPlanningTest, PlansToItsGoal) {
@@ -187,7 +187,7 @@ class LatePlanningTest : public GoalPlanningTest {
   }
 
   LateRunner runner_;
-  GoalPlanning late_{rover(), values_, {false, 0, "ugv1"}, kHandover_s, runner_};
+  GoalPlanning late_{rover(), values_, "ugv1", 0, kHandover_s, runner_};
 };
 
 TEST_F(LatePlanningTest, StepsGoOnWhileAPlanIsUnderWay) {

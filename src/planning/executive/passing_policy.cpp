@@ -21,7 +21,7 @@ constexpr double kGather_s =
 constexpr double kMakeAgain_s = 2.0;   // an order that is not kept to
 constexpr double kStuck_s = 6.0;       // it may go on, and does not
 constexpr double kForgotten_s = 40.0;  // it waits, and nobody of the order gets on
-constexpr double kSayFinished_s = 6.0;
+constexpr double kNoNews_s = 45.0;     // whoever still waits has given it up by then
 constexpr std::size_t kMostHeard = 256;
 constexpr double kAtPlace_m = 0.15;
 constexpr double kHandover_s = 1.0;  // of moves, about: planning, settling
@@ -29,6 +29,10 @@ constexpr double kSpare_m = 0.02;    // more than promises keep
 
 /// Where a team-mate will come to rest, by its promise.
 Vector2 rest_place(const MovingObstacle& peer) { return peer.at(peer.rest_time()).centre; }
+
+bool is_news(const PassingIntent& before, const PassingIntent& now) {
+  return now.calls != before.calls || now.follows != before.follows || now.moves != before.moves;
+}
 
 /// Those farthest from `here` take no part where there are more than an order can be for.
 void keep_nearest(const Vector2& here, std::vector<PassingMember>& members) {
@@ -83,7 +87,9 @@ void PassingPolicy::hear(const PassingMessage& message, double now_s) {
     it = now_s < it->second.time_s + kLapse_s ? std::next(it) : heard_.erase(it);
   const bool has_room = heard_.size() < kMostHeard || heard_.count(intent.agent) > 0;
   if (intent.agent == name_ || !has_room) return;
-  heard_[intent.agent] = {intent, now_s};
+  Heard& heard = heard_.try_emplace(intent.agent, Heard{intent, now_s}).first->second;
+  if (intent.calls || is_news(heard.intent, intent)) news_s_ = now_s;
+  heard = {intent, now_s};
   if (led_ && intent.follows == led_->id) {
     std::uint32_t& moves = led_->promised[intent.agent];
     moves = std::max(moves, intent.moves);
@@ -111,8 +117,10 @@ std::vector<PassingIntent> PassingPolicy::others(double now_s) const {
 
 bool PassingPolicy::somebody_calls(double now_s) const {
   const auto fresh = others(now_s);
-  return std::any_of(fresh.begin(), fresh.end(), [](const PassingIntent& intent) {
-    return intent.calls || intent.follows.number > 0;
+  // Who is through says so as well: that alone is no reason to go on.
+  const bool has_news = now_s < news_s_ + kNoNews_s;
+  return std::any_of(fresh.begin(), fresh.end(), [&](const PassingIntent& intent) {
+    return intent.calls || (has_news && intent.follows.number > 0);
   });
 }
 
@@ -142,10 +150,8 @@ std::vector<PassingMessage> PassingPolicy::step(const PassingSituation& situatio
   std::vector<PassingMessage> messages;
   if (leads(now_s)) lead(situation, scene({situation.measured.pose.position}));
   const PassingIntent now = intent(situation);
-  const bool is_news =
-      now.calls != said_.calls || now.follows != said_.follows || now.moves != said_.moves;
   const bool takes_part = calls_ || follows() || somebody_calls(now_s);
-  if (!takes_part || (!is_news && now_s < said_s_ + kSayAgain_s)) return messages;
+  if (!takes_part || (!is_news(said_, now) && now_s < said_s_ + kSayAgain_s)) return messages;
   said_ = now;
   said_s_ = now_s;
   say_instructions(now_s, messages);
@@ -169,7 +175,6 @@ void PassingPolicy::progress(const PassingSituation& situation) {
     }
     offered_.reset();
   }
-  if (!followed_ && situation.now_s > finished_s_ + kSayFinished_s) finished_ = PassingOrderId();
   if (!followed_) return;
   note_promised();
   followed_->note_promise(situation.committed);
@@ -183,7 +188,7 @@ void PassingPolicy::progress(const PassingSituation& situation) {
   if (!followed_->is_over()) return;
   finished_ = followed_->id();
   finished_moves_ = followed_->promised();
-  finished_s_ = situation.now_s;
+  news_s_ = situation.now_s;
   leave_order();
 }
 

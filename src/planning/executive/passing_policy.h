@@ -96,9 +96,9 @@ class PassingPolicy {
   std::map<std::string, std::uint32_t> promised_;  // moves of it, by others
   PassingOrderId finished_;  // all its moves are made; others may wait for that
   std::uint32_t finished_moves_ = 0;
-  double finished_s_ = 0.0;
   std::optional<PassingInstruction> offered_;  // not taken up yet
   std::optional<PassingStretch> stretch_;
+  double news_s_ = 0.0;        // of anybody
   double progressed_s_ = 0.0;  // it, or who it waits for, got on last
   std::uint32_t seen_moves_ = 0;
   std::optional<Led> led_;

@@ -410,7 +410,7 @@ TEST_F(PassingPolicyTest, WhoIsThroughSaysSoAsLongAsOthersWait) {
   robot.policy->hear(instruction, now_s_);
   run(5.0);
   ASSERT_FALSE(robot.policy->follows());
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 30; ++i) {
     robot.policy->hear(intent_of("ugv1", false, instruction.id, 0), now_s_);
     run(1.0);
     ASSERT_FALSE(robot.said.empty());
@@ -423,7 +423,7 @@ TEST_F(PassingPolicyTest, NobodySaysAnythingWhenAllIsOver) {
   add("ugv1", {-3.0, 0.0}, Vector2(4.0, 0.0));
   add("ugv2", {3.0, 0.0}, Vector2(-4.0, 0.0));
   ASSERT_TRUE(all_get_there(60.0));
-  run(20.0);
+  run(50.0);
   run(10.0);
   for (const Robot& robot : robots_) EXPECT_TRUE(robot.said.empty()) << robot.name;
 }

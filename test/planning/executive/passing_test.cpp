@@ -282,7 +282,7 @@ TEST_F(PassingTest, AStretchWithoutAPlanSaysNothingOfTheGoal) {
 }
 
 TEST_F(PassingTest, PlansAStretchAnewOnRequestOnly) {
-  hear(ordered({{0.0, 0.0}, {4.0, 0.0}}));
+  hear(ordered({{0.0, 0.0}, {kLength_m, 0.0}}));
   speed_ = 0.3;
   run_beside(0, 0.5);
   const double end_s = executive_.plan().end_time();
@@ -292,7 +292,7 @@ TEST_F(PassingTest, PlansAStretchAnewOnRequestOnly) {
   EXPECT_EQ(executive_.plan().end_time(), end_s);
   executive_.request();
   EXPECT_TRUE(run_beside(0, 0.5).plan);
-  EXPECT_EQ(asked_.back().goal, Vector2(4.0, 0.0));
+  EXPECT_EQ(asked_.back().goal, Vector2(kLength_m, 0.0));
 }
 
 TEST_F(PassingTest, AStretchThatItDidNotGetToTheEndOfIsPlannedAnew) {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "planning/passing/passing_duration.h"
 #include "planning/passing/passing_search.h"
 #include "topology/grid_world.h"
 
@@ -118,13 +117,11 @@ inline PassingProblem in_space(const CellPuzzle& puzzle) {
   return problem;
 }
 
-inline constexpr int kMostSteps = 1000000;
-inline constexpr PassingPace kPace = {1.0, 0.5, 1.5, 1.0};
-
-inline PassingSequence solution_of(
-    const PassingProblem& problem, int most_steps = kMostSteps,
+/// With so many steps of the search.
+inline PassingSequence solved(
+    const PassingProblem& problem, int left = 1000000,
     const std::function<bool()>& should_stop = [] { return false; }) {
-  return find_passing(problem, 0, most_steps, should_stop);
+  return find_passing(problem, 0, left, should_stop);
 }
 
 inline const std::vector<CellPuzzle>& puzzles() {

@@ -9,6 +9,8 @@ namespace {
 
 using Rows = std::vector<std::string>;
 
+constexpr PassingPace kPace = {1.0, 0.5, 1.0, 1.0};
+
 /// Members a, b, c ... from where the letters are in the first to where they are in the second; who
 /// is not there has no goal.
 std::vector<PassingMember> members_of(const Rows& starts, const Rows& goals) {
@@ -28,7 +30,7 @@ std::vector<PassingMember> members_of(const Rows& starts, const Rows& goals) {
 std::optional<GroupOrder> order_in(const Rows& starts, const Rows& goals,
                                    std::vector<BlockedDisc> blocked = {}) {
   return order_group(*test::static_map_of_cells(starts), std::move(blocked),
-                     members_of(starts, goals), test::graph_options(), test::kPace);
+                     members_of(starts, goals), test::graph_options(), kPace);
 }
 
 /// Where a member is after all its moves.
@@ -40,7 +42,7 @@ Vector2 end_of(const GroupOrder& group, std::size_t member, const std::vector<Pa
 TEST(GroupOrder, LeadsAllToTheirGoalsWhereThatIsPossible) {
   int possible = 0;
   for (const auto& puzzle : test::puzzles()) {
-    const auto outcome = test::solution_of(test::in_space(puzzle)).outcome;
+    const auto outcome = test::solved(test::in_space(puzzle)).outcome;
     if (outcome != PassingSequence::Outcome::kFound) continue;
     ++possible;
     const auto members = members_of(puzzle.starts, puzzle.goals);
@@ -94,7 +96,7 @@ TEST(GroupOrder, OnlyTheLowestRankGivesUpWhereTheOthersCanPass) {
   auto with_far_goal = members;
   with_far_goal[2].goal = Vector2(0.6, 0.6);  // in the wall
   const auto group = order_group(*test::static_map_of_cells(starts), {}, with_far_goal,
-                                 test::graph_options(), test::kPace);
+                                 test::graph_options(), kPace);
   ASSERT_TRUE(group);
   EXPECT_EQ(group->gets_there, std::vector<bool>({true, true, false}));
 }
@@ -103,8 +105,8 @@ TEST(GroupOrder, AGoalOutOfReachIsGivenUpWhateverTheRank) {
   const Rows starts = {"a.b.", "....", "####", "...."};
   auto members = members_of(starts, {"b.a.", "....", "####", "...."});
   members[0].goal = test::centre_of_cell(starts, 3, 1);  // beyond the wall
-  const auto group = order_group(*test::static_map_of_cells(starts), {}, members,
-                                 test::graph_options(), test::kPace);
+  const auto group =
+      order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options(), kPace);
   ASSERT_TRUE(group);
   EXPECT_EQ(group->gets_there, std::vector<bool>({false, true}));
   EXPECT_LT((end_of(*group, 1, members) - *members[1].goal).norm(), 0.03);
@@ -116,16 +118,27 @@ TEST(GroupOrder, OfGoalsThatAreTooNearToEachOtherTheHigherRankGetsItsOwn) {
   for (const double apart_m : {0.0, 0.01, 0.9 * test::kApart_m}) {
     members[0].goal = Vector2(3.0, 0.6);
     members[1].goal = Vector2(3.0 + apart_m, 0.6);
-    const auto group = order_group(*test::static_map_of_cells(starts), {}, members,
-                                   test::graph_options(), test::kPace);
+    const auto group =
+        order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options(), kPace);
     ASSERT_TRUE(group);
     EXPECT_EQ(group->gets_there, std::vector<bool>({true, false})) << apart_m;
   }
   members[1].goal = Vector2(3.0 + 1.1 * test::kApart_m, 0.6);
-  const auto group = order_group(*test::static_map_of_cells(starts), {}, members,
-                                 test::graph_options(), test::kPace);
+  const auto group =
+      order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options(), kPace);
   ASSERT_TRUE(group);
   EXPECT_EQ(group->gets_there, std::vector<bool>({true, true}));
+}
+
+TEST(GroupOrder, WhoCannotStandBesideAHigherRankCostsNoThirdItsGoal) {
+  const Rows starts = {"a...b", "....c"};
+  auto members = members_of(starts, {".....", "c...."});
+  members[0].goal = Vector2(3.0, 1.8);
+  members[1].goal = Vector2(3.5, 1.8);
+  const auto group =
+      order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options(), kPace);
+  ASSERT_TRUE(group);
+  EXPECT_EQ(group->gets_there, std::vector<bool>({true, false, true}));
 }
 
 TEST(GroupOrder, NobodyGoesWhereItIsBlocked) {
@@ -150,7 +163,7 @@ TEST(GroupOrder, TheWayThatIsBlockedIsNone) {
   const auto members = members_of(starts, {"....a", "##.##"});
   const BlockedDisc disc{test::centre_of_cell(starts, 0, 3), 0.8};
   const auto group = order_group(*test::static_map_of_cells(starts), {disc}, members,
-                                 test::graph_options(), test::kPace);
+                                 test::graph_options(), kPace);
   if (group) {
     EXPECT_FALSE(group->gets_there[0]);
   }
@@ -173,17 +186,17 @@ TEST(GroupOrder, LooksForRoomFartherAwayWhereThereIsNoneNearBy) {
 TEST(GroupOrder, NothingForNobodyAndForTooMany) {
   const Rows rows = {"....."};
   const auto static_map = test::static_map_of_cells(rows);
-  EXPECT_FALSE(order_group(*static_map, {}, {}, test::graph_options(), test::kPace));
+  EXPECT_FALSE(order_group(*static_map, {}, {}, test::graph_options(), kPace));
   const std::vector<PassingMember> many(JointStep::kMostRobots + 1,
                                         {"a", test::centre_of_cell(rows, 0, 0), std::nullopt});
-  EXPECT_FALSE(order_group(*static_map, {}, many, test::graph_options(), test::kPace));
+  EXPECT_FALSE(order_group(*static_map, {}, many, test::graph_options(), kPace));
 }
 
 TEST(GroupOrder, NothingWhereItIsStopped) {
   const Rows starts = {"ab...cd", "###.###"};
   const auto members = members_of(starts, {"cd...ab", "###.###"});
   EXPECT_FALSE(order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options(),
-                           test::kPace, [] { return true; }));
+                           kPace, [] { return true; }));
 }
 
 }  // namespace

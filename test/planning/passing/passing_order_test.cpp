@@ -62,7 +62,7 @@ TEST(PassingOrder, LeadsToTheGoalsInWhateverOrderItAllows) {
   int waits = 0;
   for (const auto& puzzle : test::puzzles()) {
     const PassingProblem problem = test::in_space(puzzle);
-    const PassingSequence sequence = test::solution_of(problem);
+    const PassingSequence sequence = test::solved(problem);
     if (sequence.outcome != PassingSequence::Outcome::kFound) continue;
     const PassingOrder order = order_of(sequence, static_cast<int>(problem.starts.size()));
     for (int seed = 0; seed < 50; ++seed) drive(problem, order, seed);
@@ -76,7 +76,7 @@ TEST(PassingOrder, LeadsToTheGoalsInWhateverOrderItAllows) {
 TEST(PassingOrder, RobotsThatDoNotMeetDoNotWait) {
   const PassingProblem problem =
       test::in_space({"apart", {"a..", "###", "b.."}, {"..a", "###", "..b"}});
-  const PassingOrder order = order_of(test::solution_of(problem), 2);
+  const PassingOrder order = order_of(test::solved(problem), 2);
   for (const auto& turns : order) {
     EXPECT_GE(turns.size(), 2u);
     for (const PassingTurn& turn : turns) EXPECT_TRUE(turn.after.empty());

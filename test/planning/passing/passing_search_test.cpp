@@ -72,7 +72,7 @@ TEST(PassingSearch, SolvesThePuzzlesThatCanBeSolved) {
   int solved = 0;
   for (const auto& puzzle : test::puzzles()) {
     for (const PassingProblem& problem : {test::on_cells(puzzle), test::in_space(puzzle)}) {
-      const PassingSequence sequence = test::solution_of(problem);
+      const PassingSequence sequence = test::solved(problem);
       EXPECT_EQ(sequence.outcome, can_be_solved(problem) ? Outcome::kFound : Outcome::kImpossible)
           << puzzle.name;
       if (sequence.outcome != Outcome::kFound) continue;
@@ -124,7 +124,7 @@ TEST(PassingSearch, FindsASequenceIfAndOnlyIfThereIsOne) {
   int impossible = 0;
   for (int seed = 0; seed < 600; ++seed) {
     const PassingProblem problem = random_problem(seed);
-    const PassingSequence sequence = test::solution_of(problem);
+    const PassingSequence sequence = test::solved(problem);
     if (can_be_solved(problem)) {
       ++solved;
       EXPECT_EQ(sequence.outcome, Outcome::kFound) << seed;
@@ -141,7 +141,7 @@ TEST(PassingSearch, FindsASequenceIfAndOnlyIfThereIsOne) {
 TEST(PassingSearch, WhoHasNoGoalMakesRoomAndOnlyThen) {
   PassingProblem problem = test::on_cells({"side", {"ab..", "#.##"}, {"..a.", "#.##"}});
   problem.goals.push_back(PassingProblem::kAnywhere);
-  const PassingSequence sequence = test::solution_of(problem);
+  const PassingSequence sequence = test::solved(problem);
   ASSERT_EQ(sequence.outcome, Outcome::kFound);
   expect_valid(problem, sequence);
   int moves = 0;
@@ -151,27 +151,26 @@ TEST(PassingSearch, WhoHasNoGoalMakesRoomAndOnlyThen) {
 
 TEST(PassingSearch, FindsTheShortestWhereItIsEasy) {
   const auto problem = test::on_cells({"hall", {"a..", "...", "..b"}, {"b..", "...", "..a"}});
-  const PassingSequence sequence = test::solution_of(problem);
+  const PassingSequence sequence = test::solved(problem);
   ASSERT_EQ(sequence.outcome, Outcome::kFound);
   EXPECT_EQ(sequence.steps.size(), 4u);
 }
 
 TEST(PassingSearch, StopsWhenItIsTold) {
   const auto problem = test::on_cells(test::puzzles()[0]);
-  EXPECT_EQ(test::solution_of(problem, test::kMostSteps, [] { return true; }).outcome,
-            Outcome::kStopped);
-  EXPECT_EQ(test::solution_of(problem, 3).outcome, Outcome::kStopped);
+  EXPECT_EQ(test::solved(problem, 1000000, [] { return true; }).outcome, Outcome::kStopped);
+  EXPECT_EQ(test::solved(problem, 3).outcome, Outcome::kStopped);
 }
 
 TEST(PassingSearch, RefusesWhatIsNoProblem) {
   PassingProblem problem = test::on_cells(test::puzzles()[0]);
   problem.goals.pop_back();
-  EXPECT_THROW(test::solution_of(problem), std::invalid_argument);
+  EXPECT_THROW(test::solved(problem), std::invalid_argument);
   problem = test::on_cells(test::puzzles()[0]);
   problem.starts[0] = problem.graph.size();
-  EXPECT_THROW(test::solution_of(problem), std::invalid_argument);
+  EXPECT_THROW(test::solved(problem), std::invalid_argument);
   problem.starts[0] = PassingProblem::kAnywhere;
-  EXPECT_THROW(test::solution_of(problem), std::invalid_argument);
+  EXPECT_THROW(test::solved(problem), std::invalid_argument);
 }
 
 }  // namespace
