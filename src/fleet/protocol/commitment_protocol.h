@@ -90,6 +90,8 @@ class CommitmentProtocol : public SettlingProtocol {
   int impostors() const { return impostors_; }
 
  private:
+  friend class ProtocolFingerprint;  // of test/fleet/model
+
   struct Pending {
     CommittedTrajectory trajectory;
     Proposal proposal;

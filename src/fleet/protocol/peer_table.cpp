@@ -212,11 +212,17 @@ bool PeerTable::clock_known(const Peer& peer, double now) const {
 void PeerTable::prune(double now) {
   for (auto& [name, peer] : peers_) {
     peer.binding.prune(now);
-    const bool silent = now - peer.last_heard_s > reach_timeout_s_;
-    drop_if(peer.open, [&, &peer = peer](const CommittedTrajectory& open) {
-      return peer.reservation_of_open(open).until_s <= now || (silent && peer.endorsed < open.id);
+    drop_if(peer.open, [now, &peer = peer](const CommittedTrajectory& open) {
+      return peer.reservation_of_open(open).until_s <= now;
     });
+    if (now - peer.last_heard_s > reach_timeout_s_) forget_unendorsed(peer);
   }
+}
+
+/// Heard again, they are news.
+void PeerTable::forget_unendorsed(Peer& peer) {
+  drop_if(peer.open, [&](const CommittedTrajectory& open) { return peer.endorsed < open.id; });
+  peer.newest = std::min(peer.newest, peer.endorsed);
 }
 
 std::vector<Acknowledgement> PeerTable::acknowledgements(double now) const {

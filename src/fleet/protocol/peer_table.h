@@ -108,6 +108,8 @@ class PeerTable {
   int crowded_out() const { return crowded_; }
 
  private:
+  friend class ProtocolFingerprint;  // of test/fleet/model
+
   Verdict take(Peer& peer, const CommittedTrajectory& trajectory);
   void bind(Peer& peer, const CommittedTrajectory& trajectory);
   /// Whether the heartbeat tells the fate of open proposals.
@@ -115,6 +117,7 @@ class PeerTable {
   /// The peer of this name in this epoch; none if the message is of a former epoch, or there are
   /// too many peers; then `refusal` says which.
   Peer* find(const std::string& name, std::uint32_t epoch, double now, Verdict& refusal);
+  void forget_unendorsed(Peer& peer);
   Verdict count(Verdict verdict);
   /// Whether the peer's promises are told by another clock from now on.
   bool read_clock(Peer& peer, const Heartbeat& heartbeat, double now);

@@ -65,6 +65,8 @@ class ReservationChain {
   std::shared_ptr<const Motion> composed(double now) const;
 
  private:
+  friend class ProtocolFingerprint;  // of test/fleet/model
+
   void join();
 
   std::vector<Reservation> reservations_;  // by start, which is also by number
