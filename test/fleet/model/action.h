@@ -14,7 +14,8 @@ struct Action {
     kDelay,  ///< by a step
     kPropose,
     kBrake,
-    kRestart,
+    kRestart,  ///< of its broadcaster, which then sleeps until it knows what the tracker drives
+    kWakeUp,
     kCut,  ///< the link between two robots, both ways; what is under way on it is lost
     kRestore,
   };

@@ -15,8 +15,8 @@ struct Binding {
   bool emergency;
 };
 
-/// What the tracker of one robot drives, whatever its broadcaster remembers: the promises of all its
-/// epochs, by its own clock.
+/// What the tracker of one robot drives, whatever its broadcaster remembers: the promises of all
+/// its epochs, by its own clock.
 class DrivenPromises {
  public:
   void bind(const CommittedTrajectory& trajectory, double now_s, unsigned reach) {

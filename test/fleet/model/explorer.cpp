@@ -62,6 +62,7 @@ Exploration explore(const Scenario& scenario, std::size_t most_states) {
       const auto number = static_cast<std::uint32_t>(origins.size());
       const std::uint16_t depth = origins[from.number].depth + 1;
       origins.push_back({from.number, action, depth});
+      found.settled += next.any_settled();
       found.violation = violation_of(next, action.kind);
       if (!found.violation.empty()) break;
       open.push_back({number, std::move(next)});
@@ -76,7 +77,8 @@ Exploration explore(const Scenario& scenario, std::size_t most_states) {
 
 std::string to_text(const Exploration& found) {
   std::string text = std::to_string(found.states) + " states, " +
-                     std::to_string(found.transitions) + " transitions, depth " +
+                     std::to_string(found.transitions) + " transitions, " +
+                     std::to_string(found.settled) + " with a motion settled, depth " +
                      std::to_string(found.depth) + (found.complete ? ", complete" : "");
   if (!found.violation.empty()) text += "\n" + found.violation;
   for (const std::string& line : found.counterexample) text += "\n  " + line;

@@ -11,9 +11,10 @@ namespace mocha::test {
 struct Exploration {
   std::size_t states = 0;
   std::size_t transitions = 0;
-  int depth = 0;          ///< actions from the beginning to the last state
-  bool complete = false;  ///< there are no other states
-  std::string violation;  ///< empty: both properties hold in all states
+  std::size_t settled = 0;                  ///< states in which a motion has been settled
+  int depth = 0;                            ///< actions from the beginning to the last state
+  bool complete = false;                    ///< there are no other states
+  std::string violation;                    ///< empty: both properties hold in all states
   std::vector<std::string> counterexample;  ///< the fewest actions that lead to a violation
 };
 

@@ -1,7 +1,5 @@
 #include "fleet/model/liveness_property.h"
 
-#include <algorithm>
-
 namespace mocha::test {
 namespace {
 
@@ -15,13 +13,6 @@ bool has_enough_time(const ProtocolModel& model, int i) {
 bool any_pending(const ProtocolModel& model) {
   for (int i = 0; i < model.scenario().size(); ++i) {
     if (model.robot(i).pending) return true;
-  }
-  return false;
-}
-
-bool any_settled(const ProtocolModel& model) {
-  for (int i = 0; i < model.scenario().size(); ++i) {
-    if (model.robot(i).fate == Fate::kSettled) return true;
   }
   return false;
 }
@@ -46,7 +37,7 @@ std::string liveness_violation(const ProtocolModel& model) {
     if (end.robot(i).fate == Fate::kInVain)
       return "the proposal of " + name_of_robot(i) + " waits in vain";
   }
-  if (could_win && model.undisturbed() && !any_settled(end)) return "nobody wins";
+  if (could_win && model.undisturbed() && !end.any_settled()) return "nobody wins";
   return "";
 }
 

@@ -80,6 +80,10 @@ void ProtocolModel::add_message_actions(int i, std::vector<Action>& actions) con
 
 void ProtocolModel::add_own_actions(int i, std::vector<Action>& actions) const {
   using Kind = Action::Kind;
+  if (robots_[i]->asleep) {
+    actions.push_back(action(Kind::kWakeUp, i));
+    return;
+  }
   const ScriptedMotion* next = next_motion(i);
   if (next != nullptr && next->from_step <= step_) actions.push_back(action(Kind::kPropose, i));
   const ModelledRobot& robot = scenario_->robots[i];
@@ -120,6 +124,8 @@ std::string ProtocolModel::describe(const Action& action) const {
       return who + " brakes";
     case Action::Kind::kRestart:
       return who + " starts anew";
+    case Action::Kind::kWakeUp:
+      return who + " wakes up";
     case Action::Kind::kCut:
       return "cuts the link between " + who + " and " + name_of_robot(action.which);
     case Action::Kind::kRestore:

@@ -1,5 +1,6 @@
 #include "fleet/model/protocol_fingerprint.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mocha {
@@ -36,9 +37,10 @@ Fingerprint ProtocolFingerprint::of(const test::ProtocolModel& model) {
 }
 
 void ProtocolFingerprint::add(const test::RobotState& robot) {
-  const auto& [protocol, driven, pending, fate, proposed, heard] = robot;
+  const auto& [protocol, driven, asleep, pending, fate, proposed, heard] = robot;
   add(protocol);
   add(driven);
+  hash_.add(asleep);
   hash_.add(pending.has_value());
   if (pending) {
     const auto& [tag, since_s, start_s] = *pending;
@@ -105,7 +107,7 @@ void ProtocolFingerprint::add(const CommitmentProtocol::Pending& pending) {
 void ProtocolFingerprint::add(const PeerTable& table) {
   const auto& [own_name, own_epoch, reach_timeout_s, clocks, known_epoch, unlikely_epochs, peers,
                duplicates, old, crowded] = table;
-  (void)own_name, (void)own_epoch, (void)clocks;  // the protocol's own
+  (void)own_name, (void)own_epoch, (void)clocks;                      // the protocol's own
   (void)unlikely_epochs, (void)duplicates, (void)old, (void)crowded;  // only count
   hash_.add(known_epoch);
   for (const auto& [name, peer] : peers) {

@@ -29,7 +29,7 @@ ProtocolModel::ProtocolModel(std::shared_ptr<const Scenario> scenario)
     : scenario_(std::move(scenario)), step_(-kSettlingIn) {
   constexpr double kNever_s = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < scenario_->size(); ++i) {
-    RobotState robot{CommitmentProtocol(options_of(*scenario_, i, 1)), {}, {}, {}, 0, {}};
+    RobotState robot{CommitmentProtocol(options_of(*scenario_, i, 1)), {}, false, {}, {}, 0, {}};
     robot.heard_s.assign(scenario_->size(), kNever_s);
     robots_.push_back(std::make_shared<RobotState>(std::move(robot)));
   }
@@ -73,6 +73,8 @@ void ProtocolModel::apply(const Action& action) {
       return brake(action.robot);
     case Kind::kRestart:
       return restart(action.robot);
+    case Kind::kWakeUp:
+      return wake_up(action.robot);
     case Kind::kCut:
       --left_.cuts;
       return set_link(action.robot, action.which, true);
@@ -88,7 +90,7 @@ void ProtocolModel::go_on() {
     RobotState& robot = changed(i);
     robot.driven.prune(now(i));
     while (next_motion(i) != nullptr && next_motion(i)->until_step < step_) ++robot.proposed;
-    take(i, robot.protocol.tick(now(i)));
+    if (!robot.asleep) take(i, robot.protocol.tick(now(i)));
   }
 }
 
@@ -99,6 +101,7 @@ void ProtocolModel::deliver(int which, bool again) {
   } else {
     under_way_.erase(under_way_.begin() + which);
   }
+  if (robots_[arrived.to]->asleep) return;
   RobotState& robot = changed(arrived.to);
   const double now_s = now(arrived.to);
   Message message = *arrived.message;
@@ -108,8 +111,8 @@ void ProtocolModel::deliver(int which, bool again) {
     for (Echo& echo : heartbeat->echoes) echo.stamp_s = now_s;
   }
   if (scenario_->tamper && !scenario_->tamper(arrived.from, arrived.to, message)) return;
-  take(arrived.to, std::visit([&](const auto& each) { return robot.protocol.receive(each, now_s); },
-                              message));
+  take(arrived.to,
+       std::visit([&](const auto& each) { return robot.protocol.receive(each, now_s); }, message));
 }
 
 void ProtocolModel::propose(int i) {
@@ -141,8 +144,14 @@ void ProtocolModel::restart(int i) {
   undisturbed_ = false;
   RobotState& robot = changed(i);
   robot.protocol = CommitmentProtocol(options_of(*scenario_, i, robot.protocol.epoch() + 1));
+  robot.asleep = true;
   if (robot.pending) robot.fate = Fate::kInVain;
   robot.pending.reset();
+}
+
+void ProtocolModel::wake_up(int i) {
+  RobotState& robot = changed(i);
+  robot.asleep = false;
   const ReservationChain& chain = robot.driven.chain();
   if (scenario_->restart == Restart::kNothing) return;
   const Motion says = scenario_->restart == Restart::kAsDriven
@@ -197,9 +206,16 @@ void ProtocolModel::note(int i, const CommitmentEvent& event) {
   if (!of_pending) return;
   const bool outdone =
       event.refusal == Refusal::kPeerPromise || event.refusal == Refusal::kPeerProposal;
-  robot.fate = event.kind == Kind::kSettled ? Fate::kSettled : outdone ? Fate::kLost : Fate::kInVain;
+  robot.fate = event.kind == Kind::kSettled ? Fate::kSettled
+               : outdone                    ? Fate::kLost
+                                            : Fate::kInVain;
   undisturbed_ = undisturbed_ && robot.fate != Fate::kInVain;
   robot.pending.reset();
+}
+
+bool ProtocolModel::any_settled() const {
+  return std::any_of(robots_.begin(), robots_.end(),
+                     [](const auto& robot) { return robot->fate == Fate::kSettled; });
 }
 
 unsigned ProtocolModel::reach(int i) const {
@@ -231,6 +247,9 @@ void ProtocolModel::calm_step() {
     } else {
       ++i;
     }
+  }
+  for (int i = 0; i < scenario_->size(); ++i) {
+    if (robots_[i]->asleep) wake_up(i);
   }
   go_on();
 }

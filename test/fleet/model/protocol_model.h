@@ -33,6 +33,7 @@ struct PendingProposal {
 struct RobotState {
   CommitmentProtocol protocol;
   DrivenPromises driven;
+  bool asleep = false;  ///< says and hears nothing
   std::optional<PendingProposal> pending;
   Fate fate = Fate::kNone;
   int proposed = 0;             ///< motions of its script, or passed over
@@ -50,10 +51,10 @@ struct MessageUnderWay {
 /// happen to them: a value, so that every choice can be tried from every state.
 ///
 /// In each step time goes on for all robots, then one after the other has its turn: each message
-/// that is due to it is delivered, delayed or lost, in any order, and it may propose, brake or start
-/// anew between any two. What is sent is due in the next step, so turns commute, and one order of
-/// them is enough. A heartbeat's stamp and echoes are made as it arrives: an exchange tells the
-/// other's clock exactly (how well it does in truth is ClockEstimate's business).
+/// that is due to it is delivered, delayed or lost, in any order, and it may propose, brake or
+/// start anew between any two. What is sent is due in the next step, so turns commute, and one
+/// order of them is enough. A heartbeat's stamp and echoes are made as it arrives: an exchange
+/// tells the other's clock exactly (how well it does in truth is ClockEstimate's business).
 class ProtocolModel {
  public:
   /// All robots stand at home, have promised so, and know each other.
@@ -72,6 +73,8 @@ class ProtocolModel {
 
   /// Of the safety property; empty: none.
   const std::string& violation() const { return violation_; }
+  /// Whether the motion that a robot proposed last has been settled.
+  bool any_settled() const;
   /// Nobody has restarted, braked, or been refused in vain.
   bool undisturbed() const { return undisturbed_; }
   const Scenario& scenario() const { return *scenario_; }
@@ -98,6 +101,7 @@ class ProtocolModel {
   void propose(int robot);
   void brake(int robot);
   void restart(int robot);
+  void wake_up(int robot);
   void set_link(int i, int j, bool cut_off);
 
   RobotState& changed(int robot);

@@ -35,8 +35,8 @@ bool counts(const ProtocolModel& model, int i, int j, const Binding& binding, do
 
 }  // namespace
 
-std::string safety_violation(const ProtocolModel& model, int i,
-                             const CommittedTrajectory& settles, double since_s) {
+std::string safety_violation(const ProtocolModel& model, int i, const CommittedTrajectory& settles,
+                             double since_s) {
   const Reservation mine = reservation_of(settles);
   for (int j = 0; j < model.scenario().size(); ++j) {
     const bool in_reach = (model.reach(i) >> j & 1u) != 0;

@@ -44,7 +44,7 @@ struct Harm {
   int brakes = 0;
 };
 
-/// What a broadcaster that is started again promises at once.
+/// What a broadcaster that was started again promises first of all.
 enum class Restart {
   kAsDriven,   ///< what the tracker drives
   kNothing,    ///< a planted fault: it does not know what the tracker drives

@@ -5,38 +5,74 @@
 namespace mocha::test {
 namespace {
 
-constexpr int kStart = 12;  // the step in which scripted motions start
+constexpr int kStart = 12;  // the step in which motions start
+constexpr int kLate = 20;   // the same, where there is to be time before
 
-ModelledRobot along_x() { return {{-2.0, 0.0}, {{0, 1, kStart, {{2.0, 0.0}}}}}; }
-ModelledRobot along_y() { return {{0.0, -2.0}, {{0, 2, kStart, {{0.0, 2.0}}}}}; }
+ModelledRobot along_x(int until_step, int start_step) {
+  return {{-2.0, 0.0}, {{0, until_step, start_step, {{2.0, 0.0}}}}};
+}
+ModelledRobot along_y(int from_step, int until_step, int start_step) {
+  return {{0.0, -2.0}, {{from_step, until_step, start_step, {{0.0, 2.0}}}}};
+}
 
-Scenario scenario(const std::string& name, std::vector<ModelledRobot> robots, const Harm& harm) {
+Scenario scenario(std::string name, std::vector<ModelledRobot> robots, int steps,
+                  const Harm& harm) {
   Scenario scenario;
-  scenario.name = name;
+  scenario.name = std::move(name);
   scenario.robots = std::move(robots);
   scenario.harm = harm;
-  scenario.steps = kStart;
+  scenario.steps = steps;
   return scenario;
+}
+
+Harm harm(int losses, int delays, int duplicates) {
+  Harm harm;
+  harm.losses = losses;
+  harm.delays = delays;
+  harm.duplicates = duplicates;
+  return harm;
+}
+Harm with_restarts(Harm harm, int restarts) {
+  harm.restarts = restarts;
+  return harm;
+}
+Harm with_cuts(Harm harm, int cuts) {
+  harm.cuts = cuts;
+  return harm;
+}
+Harm with_brakes(Harm harm, int brakes) {
+  harm.brakes = brakes;
+  return harm;
 }
 
 }  // namespace
 
-Scenario two_cross(const Harm& harm) { return scenario("two cross", {along_x(), along_y()}, harm); }
+Scenario two_cross(const Harm& harm) {
+  return scenario("two cross", {along_x(1, kStart), along_y(0, 2, kStart)}, kStart, harm);
+}
 
 Scenario three_cross(const Harm& harm) {
-  const ModelledRobot diagonal = {{2.0, 2.0}, {{0, 1, kStart, {{-2.0, -2.0}}}}};
-  Scenario three = scenario("three cross", {along_x(), along_y(), diagonal}, harm);
-  for (ModelledRobot& robot : three.robots) robot.script[0].until_step = 0;
-  return three;
+  const ModelledRobot diagonal = {{2.0, 2.0}, {{0, 0, kStart, {{-2.0, -2.0}}}}};
+  return scenario("three cross", {along_x(0, kStart), along_y(0, 0, kStart), diagonal}, kStart,
+                  harm);
+}
+
+Scenario out_of_reach(const Harm& harm) {
+  return scenario("out of reach", {along_x(2, kLate), along_y(2, 8, kLate)}, kLate, harm);
 }
 
 Scenario one_restarts(const Harm& harm) {
-  Scenario restarts = scenario("one restarts", {along_x(), along_y()}, harm);
-  restarts.robots[0].may_restart = true;
-  restarts.robots[0].script[0].until_step = 0;
-  restarts.robots[1].script = {{1, 8, 20, {{0.0, 2.0}}}};
-  restarts.steps = 20;
-  return restarts;
+  ModelledRobot first = along_x(0, kStart);
+  first.script.push_back({14, 14, kLate + 4, {{0.0, 0.0}, {2.0, 2.0}}});
+  first.may_restart = true;
+  return scenario("one restarts", {first, along_y(1, 8, kLate)}, kLate, harm);
+}
+
+Scenario both_restart(const Harm& harm) {
+  Scenario restart =
+      scenario("both restart", {along_x(1, kStart), along_y(2, 8, kLate)}, kLate, harm);
+  for (ModelledRobot& robot : restart.robots) robot.may_restart = true;
+  return restart;
 }
 
 Scenario one_brakes(const Harm& harm) {
@@ -48,9 +84,33 @@ Scenario one_brakes(const Harm& harm) {
 
 Scenario clocks_differ(const Harm& harm, double ahead_s) {
   Scenario differ = two_cross(harm);
-  differ.name = "clocks " + std::to_string(ahead_s) + " s apart";
+  differ.name = "clocks differ by " + std::to_string(ahead_s) + " s";
   differ.robots[1].clock_ahead_s = ahead_s;
   return differ;
+}
+
+std::vector<Scenario> short_scenarios() {
+  return {two_cross(harm(1, 2, 1)),
+          three_cross(harm(1, 1, 0)),
+          out_of_reach(with_cuts(harm(1, 1, 0), 1)),
+          one_restarts(with_cuts(with_restarts(harm(0, 0, 0), 1), 1)),
+          one_restarts(with_restarts(harm(0, 1, 0), 1)),
+          both_restart(with_restarts(harm(0, 0, 0), 2)),
+          one_brakes(with_brakes(harm(1, 1, 1), 1)),
+          clocks_differ(harm(1, 1, 0), kStep_s),
+          clocks_differ(harm(1, 1, 0), -3.0)};
+}
+
+std::vector<Scenario> long_scenarios() {
+  return {two_cross(harm(3, 2, 1)),
+          three_cross(harm(1, 2, 1)),
+          out_of_reach(with_cuts(harm(1, 1, 1), 2)),
+          one_restarts(with_cuts(with_restarts(harm(1, 1, 0), 1), 1)),
+          one_restarts(with_restarts(harm(2, 1, 1), 1)),
+          both_restart(with_cuts(with_restarts(harm(1, 0, 0), 2), 1)),
+          one_brakes(with_brakes(harm(2, 2, 1), 1)),
+          clocks_differ(harm(2, 2, 1), kStep_s),
+          clocks_differ(harm(2, 2, 1), -3.0)};
 }
 
 }  // namespace mocha::test

@@ -14,9 +14,7 @@ struct Fingerprint {
   std::uint64_t high = 0;
   std::uint64_t low = 0;
 
-  bool operator==(const Fingerprint& other) const {
-    return high == other.high && low == other.low;
-  }
+  bool operator==(const Fingerprint& other) const { return high == other.high && low == other.low; }
 };
 
 /// Takes values in order, and makes a fingerprint of them.
