@@ -13,10 +13,7 @@ foreach(folder config trajectory world camouflage safety perception fleet contro
   mocha_gtest(${folder})
 endforeach()
 
-# The model checker of the commitment protocol.
-file(GLOB protocol_model CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/fleet/model/*.cpp)
-list(FILTER protocol_model EXCLUDE REGEX "_test\\.cpp$")
-target_sources(test_fleet PRIVATE ${protocol_model})
+target_link_libraries(test_fleet mocha_protocol_model)
 
 # The scenes and the judge of scripts/bench replan; the planners' closed loop is made of the stack.
 target_sources(test_planning PRIVATE test/benchmarks/replan_scene.cpp test/benchmarks/replan_problem.cpp test/benchmarks/space_time_solver.cpp
