@@ -7,7 +7,7 @@ meets no motion that it must not meet (safety), and where nothing more goes wron
 """
 from benchmarks import benchmark
 
-SCENARIOS = 9
+SCENARIOS = 10
 STATES = 20_000_000
 HARM = ("losses", "delays", "duplicates", "restarts", "cuts", "brakes")
 
