@@ -50,12 +50,12 @@ namespace mocha {
 /// ClockOptions say or were measured (PeerTable; nothing is endorsed or settled with a peer in
 /// reach whose clock is not known), a robot that after a restart makes binding, before it hears or
 /// says anything, what it is driving (its peers keep the former epoch's promise until then, but
-/// where they have not heard of that, only this robot can object), unique names, true radii and braking, and robots that are in
-/// reach of each other while they settle, or messages faster than delta_dc. An emergency motion
-/// breaks a promise. It is sent to all at once, and a robot whose own promise meets it is told
-/// (kBreached) and has to brake in turn; until it stands, those two have only their planners'
-/// margins. Robots that already are closer than demanded (after braking, or set down so) may move
-/// as long as they come no closer.
+/// where they have not heard of that, only this robot can object), unique names, true radii and
+/// braking, and robots that are in reach of each other while they settle, or messages faster than
+/// delta_dc. An emergency motion breaks a promise. It is sent to all at once, and a robot whose own
+/// promise meets it is told (kBreached) and has to brake in turn; until it stands, those two have
+/// only their planners' margins. Robots that already are closer than demanded (after braking, or
+/// set down so) may move as long as they come no closer.
 class CommitmentProtocol : public SettlingProtocol {
  public:
   enum class State {

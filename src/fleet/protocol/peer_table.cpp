@@ -90,11 +90,8 @@ PeerTable::Verdict PeerTable::receive(const CommittedTrajectory& trajectory, dou
 PeerTable::Verdict PeerTable::take(Peer& peer, const CommittedTrajectory& trajectory) {
   const TrajectoryId former = peer.newest;
   if (is_binding(trajectory.state)) {
-    if (!peer.binding.empty() && !(peer.binding.newest().id < trajectory.id)) {
-      return peer.binding.newest().id == trajectory.id ? Verdict::kDuplicate : Verdict::kOld;
-    }
-    bind(peer, trajectory);
-    return Verdict::kNews;
+    if (peer.binding.holds(trajectory.id)) return Verdict::kDuplicate;
+    return bind(peer, trajectory) ? Verdict::kNews : Verdict::kOld;
   }
   peer.newest = std::max(peer.newest, trajectory.id);
   if (trajectory.state == TrajectoryState::kWithdrawn) {
@@ -109,14 +106,14 @@ PeerTable::Verdict PeerTable::take(Peer& peer, const CommittedTrajectory& trajec
   return Verdict::kNews;
 }
 
-void PeerTable::bind(Peer& peer, const CommittedTrajectory& trajectory) {
+bool PeerTable::bind(Peer& peer, const CommittedTrajectory& trajectory) {
   peer.newest = std::max(peer.newest, trajectory.id);
   if (!(trajectory.id < peer.endorsed)) {
     peer.endorsed = trajectory.id;
     peer.endorsed_state = trajectory.state;
   }
-  peer.binding.bind(trajectory);
   drop_if(peer.open, [&](const CommittedTrajectory& open) { return open.id == trajectory.id; });
+  return peer.binding.bind(trajectory);
 }
 
 PeerTable::Verdict PeerTable::receive(const Heartbeat& heartbeat, double now) {

@@ -115,7 +115,8 @@ class PeerTable {
   friend class ProtocolFingerprint;  // of test/fleet/model
 
   Verdict take(Peer& peer, const CommittedTrajectory& trajectory);
-  void bind(Peer& peer, const CommittedTrajectory& trajectory);
+  /// False where later promises have replaced it.
+  bool bind(Peer& peer, const CommittedTrajectory& trajectory);
   /// Whether the heartbeat tells the fate of open proposals.
   bool resolve(Peer& peer, const Heartbeat& heartbeat);
   /// The peer of this name; none if there are too many.

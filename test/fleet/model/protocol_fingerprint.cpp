@@ -67,12 +67,13 @@ void ProtocolFingerprint::add(const test::Message& message) {
 }
 
 void ProtocolFingerprint::add(const test::DrivenPromises& driven) {
-  add(driven.chain());
-  for (const test::Binding& each : driven.bindings()) {
-    const auto& [id, time_s, reach, emergency] = each;
+  const auto& [chain, bindings] = driven;
+  add(chain);
+  for (const test::Binding& each : bindings) {
+    const auto& [id, time_s, asked, emergency] = each;
     add(id);
     hash_.add(time_s);
-    hash_.add(reach);
+    hash_.add(asked);
     hash_.add(emergency);
   }
 }

@@ -5,9 +5,9 @@
 
 namespace mocha {
 
-/// Makes fingerprints of whole states: models that have the same one go on alike. Every class is
-/// taken apart by a structured binding, which does not compile any more once a member is added or
-/// taken away: so none is forgotten.
+/// Makes fingerprints of whole states: models that have the same one go on alike. Every class
+/// whose state may change is taken apart by a structured binding, which does not compile any more
+/// once a member is added or taken away: so none is forgotten.
 ///
 /// What cannot change anything that happens in a model is left out, where a comment says why.
 class ProtocolFingerprint {

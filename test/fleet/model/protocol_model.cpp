@@ -147,6 +147,7 @@ void ProtocolModel::restart(int i) {
   robot.asleep = true;
   if (robot.pending) robot.fate = Fate::kInVain;
   robot.pending.reset();
+  for (int j = 0; j < scenario_->size(); ++j) changed(j).driven.forgotten_by(i);
 }
 
 void ProtocolModel::wake_up(int i) {
@@ -201,7 +202,7 @@ void ProtocolModel::note(int i, const CommitmentEvent& event) {
     const bool emergency = event.trajectory.state == TrajectoryState::kEmergency;
     if (!emergency && violation_.empty())
       violation_ = safety_violation(*this, i, event.trajectory, since_s);
-    robot.driven.bind(event.trajectory, now(i), reach(i));
+    robot.driven.bind(event.trajectory, now(i), asked(i));
   }
   if (!of_pending) return;
   const bool outdone =
@@ -223,6 +224,18 @@ unsigned ProtocolModel::reach(int i) const {
   const double timeout_s = robots_[i]->protocol.options().reach_timeout_s;
   for (int j = 0; j < scenario_->size(); ++j)
     members |= (j != i && now(i) - robots_[i]->heard_s[j] <= timeout_s) << j;
+  return members;
+}
+
+/// Of the robots in its reach, those that are still as robot i knows them.
+unsigned ProtocolModel::asked(int i) const {
+  unsigned members = reach(i);
+  const auto& peers = robots_[i]->protocol.peers().peers();
+  for (int j = 0; j < scenario_->size(); ++j) {
+    const auto peer = peers.find(name_of_robot(j));
+    const bool same = peer != peers.end() && peer->second.epoch == robots_[j]->protocol.epoch();
+    if (!same) members &= ~(1u << j);
+  }
   return members;
 }
 

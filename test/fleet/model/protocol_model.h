@@ -108,6 +108,7 @@ class ProtocolModel {
   void take(int robot, const CommitmentActions& actions, bool resumes = false);
   void send(int robot, Message message);
   void note(int robot, const CommitmentEvent& event);
+  unsigned asked(int robot) const;
   Proposal proposal(int robot, Motion motion) const;
 
   std::shared_ptr<const Scenario> scenario_;

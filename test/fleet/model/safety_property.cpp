@@ -30,7 +30,9 @@ double clocks_cost_m(const ProtocolModel& model, const Reservation& theirs, int 
 /// Whether the protocol promises that what robot i proposed then does not meet that binding of j.
 bool counts(const ProtocolModel& model, int i, int j, const Binding& binding, double since_s) {
   const double bound_s = binding.time_s + model.now(i) - model.now(j);
-  return bound_s <= since_s || (!binding.emergency && (binding.reach >> i & 1u) != 0);
+  const bool in_reach = (model.reach(i) >> j & 1u) != 0;
+  const bool agreed = (binding.asked >> i & 1u) != 0 && !binding.emergency;
+  return agreed || (in_reach && bound_s <= since_s);
 }
 
 }  // namespace
@@ -39,8 +41,7 @@ std::string safety_violation(const ProtocolModel& model, int i, const CommittedT
                              double since_s) {
   const Reservation mine = reservation_of(settles);
   for (int j = 0; j < model.scenario().size(); ++j) {
-    const bool in_reach = (model.reach(i) >> j & 1u) != 0;
-    if (j == i || !in_reach) continue;
+    if (j == i) continue;
     const DrivenPromises& driven = model.robot(j).driven;
     for (const Reservation& each : driven.chain().reservations()) {
       if (!counts(model, i, j, driven.binding(each.trajectory.id), since_s)) continue;

@@ -11,7 +11,7 @@ CommitmentOptions options_of(const Scenario& scenario, int i, std::uint32_t epoc
   options.reach_timeout_s = 4.0 * kStep_s;
   options.peer_clearance_m = 0.2;
   options.heartbeat_period_s = 2.0 * kStep_s;
-  options.resend_period_s = 8.0 * kStep_s;
+  options.resend_period_s = 4.0 * kStep_s;
   options.clocks = {kStep_s, 0.25};
   return options;
 }

@@ -62,9 +62,10 @@ Scenario out_of_reach(const Harm& harm) {
 }
 
 Scenario one_changes_its_mind(const Harm& harm) {
-  ModelledRobot first = along_x(1, kStart);
-  first.script.push_back({1, 4, kStart + 1, {{0.0, 0.5}, {2.0, 2.0}}});
-  return scenario("one changes its mind", {first, along_y(0, 4, kStart)}, kStart, harm);
+  constexpr int kPastTheCrossing = kStart + 40;
+  ModelledRobot first = along_x(0, kStart);
+  first.script.push_back({1, 4, kPastTheCrossing, {{2.0, 2.0}}});
+  return scenario("one changes its mind", {first, along_y(0, 9, kLate)}, kLate, harm);
 }
 
 Scenario one_restarts(const Harm& harm) {
@@ -99,7 +100,7 @@ std::vector<Scenario> short_scenarios() {
   return {two_cross(harm(1, 2, 1)),
           three_cross(harm(1, 1, 0)),
           out_of_reach(with_cuts(harm(1, 1, 0), 1)),
-          one_changes_its_mind(harm(1, 1, 0)),
+          one_changes_its_mind(with_cuts(harm(1, 0, 0), 1)),
           one_restarts(with_cuts(with_restarts(harm(0, 0, 0), 1), 1)),
           one_restarts(with_restarts(harm(0, 1, 0), 1)),
           both_restart(with_restarts(harm(0, 0, 0), 2)),
@@ -112,7 +113,7 @@ std::vector<Scenario> long_scenarios() {
   return {two_cross(harm(3, 2, 1)),
           three_cross(harm(1, 2, 1)),
           out_of_reach(with_cuts(harm(1, 1, 1), 2)),
-          one_changes_its_mind(harm(2, 2, 1)),
+          one_changes_its_mind(with_cuts(harm(1, 1, 1), 1)),
           one_restarts(with_cuts(with_restarts(harm(1, 1, 0), 1), 1)),
           one_restarts(with_restarts(harm(2, 1, 1), 1)),
           both_restart(with_cuts(with_restarts(harm(1, 0, 0), 2), 1)),

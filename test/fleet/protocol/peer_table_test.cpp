@@ -52,6 +52,16 @@ TEST_F(PeerTableTest, KeepsTheNewestAndCountsTheRest) {
   EXPECT_DOUBLE_EQ(peer().last_heard_s, 0.6);
 }
 
+TEST_F(PeerTableTest, WhatIsInForceUntilTheNextPromiseBeginsMayComeAfterThat) {
+  table_.receive(trajectory({1, 2}, TrajectoryState::kCommitted, 20.0), 0.0);
+  EXPECT_EQ(table_.receive(trajectory({1, 1}, TrajectoryState::kCommitted), 0.1), Verdict::kNews);
+  EXPECT_EQ(table_.receive(trajectory({1, 1}, TrajectoryState::kCommitted), 0.2),
+            Verdict::kDuplicate);
+  EXPECT_EQ(peer().binding.newest().id, (TrajectoryId{1, 2}));
+  ASSERT_EQ(peer().binding.reservations().size(), 2u);
+  EXPECT_DOUBLE_EQ(peer().binding.reservations()[0].until_s, 20.0);
+}
+
 TEST_F(PeerTableTest, AWithdrawalMayOvertakeItsProposal) {
   EXPECT_EQ(table_.receive(trajectory({1, 1}, TrajectoryState::kWithdrawn), 0.0), Verdict::kNews);
   EXPECT_EQ(table_.receive(trajectory({1, 1}, TrajectoryState::kProposed), 0.0),
