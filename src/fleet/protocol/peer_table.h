@@ -46,7 +46,8 @@ struct Peer {
 };
 
 /// The newest promises of each peer, told by our clock. Messages may come late, twice, in any
-/// order, or not at all; a message older than what is known changes nothing.
+/// order, or not at all; a message older than what is known changes nothing, but for a promise that
+/// is in force until a known one begins.
 ///
 /// A peer that has been silent for the reach timeout is out of reach: no robot waits for it.
 /// What it promised still holds to its end, and after that it is an obstacle at its last place. A
