@@ -23,6 +23,13 @@ Message unstamped(Message message) {
   return message;
 }
 
+/// Whether its sender has been started anew since, as the receiver knows.
+bool is_former(const CommitmentProtocol& receiver, const Heartbeat& heartbeat) {
+  const auto& peers = receiver.peers().peers();
+  const auto peer = peers.find(heartbeat.agent);
+  return peer != peers.end() && heartbeat.epoch < peer->second.epoch;
+}
+
 }  // namespace
 
 ProtocolModel::ProtocolModel(std::shared_ptr<const Scenario> scenario)
@@ -106,7 +113,7 @@ void ProtocolModel::deliver(int which, bool again) {
   const double now_s = now(arrived.to);
   Message message = *arrived.message;
   if (auto* heartbeat = std::get_if<Heartbeat>(&message)) {
-    robot.heard_s[arrived.from] = now_s;
+    if (!is_former(robot.protocol, *heartbeat)) robot.heard_s[arrived.from] = now_s;
     heartbeat->stamp_s = now(arrived.from);
     for (Echo& echo : heartbeat->echoes) echo.stamp_s = now_s;
   }
