@@ -53,3 +53,6 @@ target_link_libraries(benchmark_mover_trace mocha_perception mocha_simulation)
 
 mocha_benchmark(prediction test/benchmarks/lidar_perception.cpp)
 target_link_libraries(benchmark_prediction mocha_perception mocha_simulation)
+
+mocha_benchmark(protocol)
+target_link_libraries(benchmark_protocol mocha_protocol_model)

@@ -13,6 +13,8 @@ foreach(folder config trajectory world camouflage safety perception fleet contro
   mocha_gtest(${folder})
 endforeach()
 
+target_link_libraries(test_fleet mocha_protocol_model)
+
 # The scenes and the judge of scripts/bench replan; the planners' closed loop is made of the stack.
 target_sources(test_planning PRIVATE test/benchmarks/replan_scene.cpp test/benchmarks/replan_problem.cpp test/benchmarks/space_time_solver.cpp
   test/benchmarks/space_time_lattice.cpp test/benchmarks/static_clearance.cpp)

@@ -146,6 +146,7 @@ void TrajectoryTracker::take_up_offer(double t, const Pose& pose, double speed) 
     return;
   }
   active_ = std::move(next);
+  ++motions_;
   handle(TrackerEvent::kAdopted, t, "");
 }
 
@@ -209,6 +210,7 @@ void TrajectoryTracker::handle(TrackerEvent event, double t, const std::string& 
   if (next == mode_) return;
   if (next == TrackerMode::kBraking) {
     active_.motion = stop_at_lease_end(active_.motion, active_.lease_end_s, t, braking_);
+    ++motions_;
   }
   mode_ = next;
   stop_reason_ = reason;

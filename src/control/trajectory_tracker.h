@@ -63,6 +63,8 @@ class TrajectoryTracker {
   const std::optional<TrackingError>& error() const { return error_; }
   /// What the robot follows; empty before the first.
   const Motion& motion() const { return active_.motion; }
+  /// How often that has become another one.
+  int motions() const { return motions_; }
   const MotionId& id() const { return active_.id; }
   double lease_end() const { return active_.lease_end_s; }
   /// Why the robot stopped, with values; empty while it drives.
@@ -100,6 +102,7 @@ class TrajectoryTracker {
 
   TrackerMode mode_ = TrackerMode::kIdle;
   CommitmentProtocol active_;
+  int motions_ = 0;
   std::optional<CommitmentProtocol> offer_;
   std::optional<CommitmentProtocol> early_lease_;  // without a motion yet
   std::optional<TrackingError> error_;

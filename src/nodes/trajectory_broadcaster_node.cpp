@@ -15,6 +15,7 @@
 #include "ros_bridge/messages/passing_conversions.h"
 #include "ros_bridge/network/fleet_network.h"
 #include "ros_bridge/outputs/peer_diagnostics.h"
+#include "ros_bridge/outputs/promise_diagnostics.h"
 #include "ros_bridge/runtime/memory_file.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/robot_identity.h"
@@ -29,22 +30,7 @@ namespace mocha {
 namespace {
 
 constexpr double kPeriod_s = 0.02;
-
-const char* text_of(CommitmentProtocol::State state) {
-  switch (state) {
-    case CommitmentProtocol::State::kListening:
-      return "listening for peers";
-    case CommitmentProtocol::State::kIdle:
-      return "nothing promised";
-    case CommitmentProtocol::State::kProposing:
-      return "settling the first motion";
-    case CommitmentProtocol::State::kBound:
-      return "promised";
-    case CommitmentProtocol::State::kRevising:
-      return "promised, settling the next motion";
-  }
-  return "unknown";
-}
+constexpr double kTrackerWait_s = 1.0;  // for the word of a tracker that may not be there
 
 /// Settles the proposals of this robot with its peers, and publishes the one motion that it
 /// executes.
@@ -53,9 +39,13 @@ const char* text_of(CommitmentProtocol::State state) {
 /// and a sequence that this node counts from 1. `committed_trajectory` and `settlement` carry the
 /// sequence of the local replanner's proposal instead, together with this node's epoch; it need not
 /// begin at any particular number, and is best continued from the latched `committed_trajectory`
-/// when the replanner starts anew, so that the tracker sees it grow. After a restart of this node
-/// nothing is binding until the next proposal; the peers keep the former promise until then, and so
-/// does the tracker under its lease.
+/// when the replanner starts anew, so that the tracker sees it grow.
+///
+/// Restarts: the tracker drives on what a former epoch promised. So this node first of all promises
+/// what the latched `driven_trajectory` says, under the same number; its lease stays the
+/// replanner's to renew. Until it has heard that (or a second is over and there is no tracker) it
+/// neither hears its peers nor says anything, as if it were still dead; only an emergency motion of
+/// its replanner is binding at once, as ever.
 class TrajectoryBroadcasterNode {
  public:
   TrajectoryBroadcasterNode(ros::NodeHandle& node, const ParameterTable& values)
@@ -74,6 +64,8 @@ class TrajectoryBroadcasterNode {
             node.advertise<mocha_ugv::PassingInstruction>("fleet/passing_instructions", 100)),
         proposals_(node.subscribe("proposed_trajectory", 100,
                                   &TrajectoryBroadcasterNode::on_proposal, this, at_once())),
+        tracker_(node.subscribe("driven_trajectory", 1, &TrajectoryBroadcasterNode::on_driven, this,
+                                at_once())),
         leases_(
             node.subscribe("lease", 100, &TrajectoryBroadcasterNode::on_lease, this, at_once())),
         intents_(node.subscribe("passing_intent", 10, &TrajectoryBroadcasterNode::on_intent, this,
@@ -101,11 +93,36 @@ class TrajectoryBroadcasterNode {
       if (message.agent != robot_.name) {
         throw std::invalid_argument("is of '" + message.agent + "'");
       }
-      apply(keeping_.propose(message.sequence, trajectory_from_message(message, robot_.map_frame),
-                             now_.toSec(), stop_.stopped() ? stop_.message() : ""));
+      if (!awake_ && message.state != mocha_ugv::Trajectory::EMERGENCY)
+        throw std::invalid_argument("just started, does not know yet what is driven");
+      const CommitmentNews news =
+          keeping_.propose(message.sequence, trajectory_from_message(message, robot_.map_frame),
+                           now_.toSec(), stop_.stopped() ? stop_.message() : "");
+      awake_ = true;
+      apply(news);
     } catch (const std::invalid_argument& error) {
       refuse("proposed_trajectory", error.what());
       answer_invalid(message.sequence, error.what());
+    }
+  }
+
+  void on_driven(const mocha_ugv::Trajectory::ConstPtr& message) { driven_ = message; }
+
+  /// As soon as it is known what is driven, or there is no tracker that could tell.
+  void wake_up() {
+    if (wake_up_at_.isZero()) wake_up_at_ = now_ + ros::Duration(kTrackerWait_s);
+    if (driven_ == nullptr && now_ < wake_up_at_) return;
+    if (driven_ != nullptr && !driven_->phases.empty()) resume();
+    awake_ = true;
+  }
+
+  void resume() {
+    try {
+      apply(keeping_.resume(trajectory_from_message(*driven_, robot_.map_frame), now_.toSec()));
+      ROS_INFO("%s: goes on with motion %u, which is driven", robot_.name.c_str(),
+               driven_->sequence);
+    } catch (const std::invalid_argument& error) {
+      refuse("driven_trajectory", error.what());
     }
   }
 
@@ -159,6 +176,8 @@ class TrajectoryBroadcasterNode {
       instructions_out_.publish(to_message(*instruction, robot_.map_frame, now_));
     } else if (const auto* stops = std::get_if<FleetStops>(&message)) {
       stop_.hear(*stops, now_);
+    } else if (!awake_) {
+      return;
     } else if (const auto* trajectory = std::get_if<CommittedTrajectory>(&message)) {
       apply(keeping_.receive(*trajectory, now_.toSec()));
     } else {
@@ -178,9 +197,12 @@ class TrajectoryBroadcasterNode {
   void step(ros::Time now) {
     if (!advance_clock(now)) return;
     stop_.step(now_);
-    apply(keeping_.tick(now_.toSec()));
-    go_on_after_known_epoch();
-    publish_fleet();
+    if (!awake_) wake_up();
+    if (awake_) {
+      apply(keeping_.tick(now_.toSec()));
+      go_on_after_known_epoch();
+      publish_fleet();
+    }
     diagnostics_.update();
   }
 
@@ -225,13 +247,14 @@ class TrajectoryBroadcasterNode {
     mocha_ugv::Trajectory committed = to_message(in_force.trajectory, robot_.map_frame, now_);
     committed.sequence = in_force.lease.id.sequence;
     committed_.publish(committed);
+    draw(*in_force.trajectory.motion);
+    if (!awake_) return;  // whether it is to be driven on is for the replanner to say
     mocha_ugv::Lease lease;
     lease.header.stamp = now_;
     lease.epoch = in_force.lease.id.epoch;
     lease.sequence = in_force.lease.id.sequence;
     lease.valid_until = ros::Time(in_force.lease.end_s);
     leases_out_.publish(lease);
-    draw(*in_force.trajectory.motion);
   }
 
   /// The robot, and what it drives.
@@ -256,22 +279,8 @@ class TrajectoryBroadcasterNode {
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-    using diagnostic_msgs::DiagnosticStatus;
-    status.summary(DiagnosticStatus::OK, text_of(commitment_.state()));
-    const CommitmentKeeping::Counts& counts = keeping_.counts();
-    if (counts.breaches > 0) {
-      status.mergeSummary(DiagnosticStatus::WARN, "peers broke promises that met ours");
-    }
-    status.add("epoch", commitment_.epoch());
-    if (!commitment_.binding().empty()) {
-      status.add("binding sequence", commitment_.binding().newest().id.sequence);
-    }
-    status.addf("lease remaining (s)", "%.2f",
-                std::max(0.0, keeping_.lease_end_s() - now_.toSec()));
-    status.add("stops as a lease ended", counts.lease_stops);
-    for (const auto& [refusal, count] : counts.refusals)
-      status.add("proposals refused: " + refusal, count);
-    status.add("breaches", counts.breaches);
+    diagnose_promises(commitment_, keeping_, now_.toSec(), status);
+    if (!awake_) status.summary(diagnostic_msgs::DiagnosticStatus::OK, "waits for its tracker");
     status.add("refused proposals", refused_);
     if (refused_ > 0) status.add("last refused proposal", refusal_);
   }
@@ -290,6 +299,9 @@ class TrajectoryBroadcasterNode {
   CommitmentProtocol commitment_;
   CommitmentKeeping keeping_;
   ros::Time now_;
+  ros::Time wake_up_at_;
+  bool awake_ = false;
+  mocha_ugv::Trajectory::ConstPtr driven_;
   Motion drawn_;
   int refused_ = 0;
   std::string refusal_;
@@ -302,6 +314,7 @@ class TrajectoryBroadcasterNode {
   ros::Publisher intents_out_;
   ros::Publisher instructions_out_;
   ros::Subscriber proposals_;
+  ros::Subscriber tracker_;
   ros::Subscriber leases_;
   ros::Subscriber intents_;
   ros::Subscriber instructions_;

@@ -5,7 +5,7 @@
 #include <mocha_ugv/Trajectory.h>
 #include <ros/ros.h>
 
-#include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -13,6 +13,7 @@
 #include "control/trajectory_tracker.h"
 #include "ros_bridge/inputs/emergency_stop_listener.h"
 #include "ros_bridge/inputs/pose_source.h"
+#include "ros_bridge/messages/committed_trajectory_conversions.h"
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/runtime/live_parameters.h"
 #include "ros_bridge/runtime/parameters.h"
@@ -27,18 +28,22 @@ namespace {
 constexpr double kPeriod_s = 0.02;
 
 /// Drives the committed motion: trajectories, leases and poses in, velocity commands out.
+/// `driven_trajectory` is latched and says which motion that is, or the stop at the end of its
+/// lease; without phases: none. A broadcaster that is started anew has to promise that.
 class TrajectoryTrackerNode {
  public:
   TrajectoryTrackerNode(ros::NodeHandle& node, const ParameterTable& values)
       : values_(values),
         robot_(robot_identity()),
+        model_(own_robot_model(values)),
         max_lease_(values.number("max_lease")),
-        tracker_(TrackerParameters::from(values), own_robot_model(values)),
+        tracker_(TrackerParameters::from(values), model_),
         odometry_check_(values.number("max_unanswered_travel"),
                         values.number("frozen_odometry_hold")),
         stop_(node),
         pose_(node, robot_, values.number("max_pose_age"), values.number("max_transform_age")),
         commands_(node.advertise<geometry_msgs::Twist>("cmd_vel", 1)),
+        driven_(node.advertise<mocha_ugv::Trajectory>("driven_trajectory", 1, true)),
         errors_(node.advertise<geometry_msgs::Vector3Stamped>("tracking_error", 10)),
         trajectories_(node.subscribe("committed_trajectory", 5,
                                      &TrajectoryTrackerNode::on_trajectory, this, at_once())),
@@ -49,6 +54,7 @@ class TrajectoryTrackerNode {
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
     diagnostics_.setHardwareID(robot_.name);
     diagnostics_.add("tracking", this, &TrajectoryTrackerNode::diagnose);
+    tell_driven();
   }
 
   void stop() {
@@ -95,10 +101,12 @@ class TrajectoryTrackerNode {
     check_odometry(now);
     const TrackerMode before = tracker_.mode();
     const int refused_before = tracker_.refused();
+    const int motions_before = tracker_.motions();
     tracker_.set_stopped(stop_.stopped(), stop_.reason());
     command_ = tracker_.step(now.toSec(), reading_.state);
     now_ = now;
     publish();
+    if (tracker_.motions() != motions_before) tell_driven();
     if (tracker_.mode() != before) {
       ROS_INFO("%s: %s%s%s", robot_.name.c_str(), to_text(tracker_.mode()),
                tracker_.stop_reason().empty() ? "" : ": ", tracker_.stop_reason().c_str());
@@ -115,6 +123,21 @@ class TrajectoryTrackerNode {
     ROS_ERROR_THROTTLE(10.0, "%s: %s", robot_.name.c_str(), odometry_check_.words().c_str());
     reading_.state.reset();
     reading_.missing = odometry_check_.words();
+  }
+
+  void tell_driven() {
+    mocha_ugv::Trajectory message;
+    message.header.stamp = now_;
+    message.header.frame_id = robot_.map_frame;
+    if (!tracker_.motion().empty()) {
+      const double radius_m = model_.footprint.circumscribed_radius_m();
+      const TrajectoryId id{tracker_.id().epoch, tracker_.id().sequence};
+      const auto motion = std::make_shared<const Motion>(tracker_.motion());
+      message = to_message(CommittedTrajectory{robot_.name, id, TrajectoryState::kCommitted, 0,
+                                               radius_m, model_.braking(), motion},
+                           robot_.map_frame, now_);
+    }
+    driven_.publish(message);
   }
 
   void publish() {
@@ -174,6 +197,7 @@ class TrajectoryTrackerNode {
 
   ParameterTable values_;
   RobotIdentity robot_;
+  RobotModel model_;
   double max_lease_;
   TrajectoryTracker tracker_;
   OdometryCheck odometry_check_;
@@ -186,6 +210,7 @@ class TrajectoryTrackerNode {
   std::string refusal_;
   diagnostic_updater::Updater diagnostics_;
   ros::Publisher commands_;
+  ros::Publisher driven_;
   ros::Publisher errors_;
   ros::Subscriber trajectories_;
   ros::Subscriber leases_;

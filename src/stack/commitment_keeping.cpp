@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "trajectory/splice.h"
+
 namespace mocha {
 
 CommitmentKeeping::CommitmentKeeping(const RobotModel& robot, double first_lease_s,
@@ -26,6 +28,13 @@ CommitmentNews CommitmentKeeping::propose(std::uint32_t sequence, const Committe
   add(emergency ? protocol_.brake(proposal, now_s) : protocol_.propose(proposal, now_s), now_s,
       news);
   return news;
+}
+
+CommitmentNews CommitmentKeeping::resume(const CommittedTrajectory& driven, double now_s) {
+  CommittedTrajectory rest = driven;
+  rest.state = TrajectoryState::kEmergency;  // binds at once
+  rest.motion = std::make_shared<const Motion>(rest_of(*driven.motion, now_s));
+  return propose(driven.id.sequence, rest, now_s);
 }
 
 CommitmentNews CommitmentKeeping::receive(const CommittedTrajectory& promise, double now_s) {

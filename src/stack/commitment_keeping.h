@@ -57,6 +57,9 @@ class CommitmentKeeping {
   /// are. Throws std::invalid_argument for what cannot be promised.
   CommitmentNews propose(std::uint32_t sequence, const CommittedTrajectory& wish, double now_s,
                          const std::string& stop = "");
+  /// After a start, first of all: promises what is left of the motion that the tracker drives
+  /// already, which a former epoch may have promised. It keeps its number. Throws like propose().
+  CommitmentNews resume(const CommittedTrajectory& driven, double now_s);
   CommitmentNews receive(const CommittedTrajectory& promise, double now_s);
   CommitmentNews receive(const Heartbeat& heartbeat, double now_s);
   void renew(const Lease& lease) { lease_.renew(lease.id, lease.end_s); }

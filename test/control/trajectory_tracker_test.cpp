@@ -91,6 +91,7 @@ TEST(TrajectoryTracker, ExpiredLeaseStopsAlongThePath) {
       EXPECT_LT(worst_position_error(samples), 0.06) << "run " << run;
       EXPECT_LT(std::abs(samples.back().twist.speed), 1e-3);
       EXPECT_FALSE(loop.tracker.stop_reason().empty());
+      EXPECT_EQ(loop.tracker.motions(), 2);  // the second is the stop
       // On the path that was promised, not somewhere beside it.
       double beside = 1.0;
       for (double t = 0.0; t < motion.end_time(); t += 0.01) {

@@ -26,7 +26,7 @@ NODES = {("race1", "trajectory_broadcaster"), ("race2", "trajectory_broadcaster"
 
 
 class Robot:
-    """The local replanner's side of one broadcaster."""
+    """The local replanner's and the tracker's side of one broadcaster."""
 
     def __init__(self, name, clock):
         self.name = name
@@ -39,6 +39,8 @@ class Robot:
         self.intents = []
         self.instructions = []
         self.diagnosis = {}
+        self.driven = rospy.Publisher("/%s/driven_trajectory" % name, Trajectory, queue_size=1, latch=True)
+        self.driven.publish(Trajectory())  # nothing yet
         self.proposals = rospy.Publisher("/%s/proposed_trajectory" % name, Trajectory, queue_size=10, tcp_nodelay=True)
         rospy.Subscriber("/%s/committed_trajectory" % name, Trajectory, self.on_committed, tcp_nodelay=True)
         rospy.Subscriber("/%s/settlement" % name, Settlement, self.on_settlement, tcp_nodelay=True)
@@ -56,6 +58,7 @@ class Robot:
 
     def on_committed(self, message):
         self.committed.append(message)
+        self.driven.publish(message)
 
     def renew(self):
         """The lease of what is driven, at every step of the clock."""
@@ -273,13 +276,20 @@ class BroadcasterTest(unittest.TestCase):
         self.assertEqual(instruction.epoch, intent.epoch)
         self.assertFalse(self.first.intents or self.first.instructions)  # its own
 
-    def test_a_killed_broadcaster_comes_back_with_a_new_epoch(self):
+    def test_a_killed_broadcaster_comes_back_with_a_new_epoch_and_what_is_driven(self):
+        self.first.set_down((-17.0, -25.0))
         self.second.set_down((-20.0, -20.0))
         self.second.bind((-20.0, -20.0), (-15.0, -20.0))
-        epoch = self.second.committed[-1].epoch
+        driven = self.second.committed[-1]
+        epoch = driven.epoch
         end("/race2/trajectory_broadcaster", signal.SIGTERM)
         self.start()
-        # Elsewhere: nothing is known to be binding any more, so no continuity is asked.
+        resumed = self.second.committed[-1]
+        self.assertEqual((resumed.epoch, resumed.sequence), (epoch + 1, driven.sequence))
+        self.assertAlmostEqual(resumed.phases[-1].x[-1], -15.0, delta=1e-3)
+        across = self.first.settlement(self.first.propose((-17.0, -25.0), (-15.0, -20.0)))
+        self.assertEqual((across.refusal, across.peer), (Settlement.PEER_PROMISE, "race2"), across.message)
+        self.second.set_down((-20.0, -30.0))
         self.second.bind((-20.0, -30.0), (-15.0, -30.0))
         self.assertEqual(self.second.committed[-1].epoch, epoch + 1)
         heard = lambda: any(each.agent == "race2" and each.epoch == epoch + 1

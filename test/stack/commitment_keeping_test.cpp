@@ -106,6 +106,29 @@ TEST_F(CommitmentKeepingTest, StoppedForAnEmergencyItPromisesEmergencyMotionsAlo
                std::invalid_argument);
 }
 
+TEST_F(CommitmentKeepingTest, StartedAnewItPromisesTheRestOfWhatIsDriven) {
+  CommittedTrajectory driven = wish(drive_, TrajectoryState::kCommitted);
+  driven.id = {4, 17};
+  const double now_s = kNow_s + 2.0;
+  keeping_.resume(driven, now_s);
+  const CommitmentNews news = keeping_.tick(now_s);
+  ASSERT_EQ(news.settled.size(), 1u);
+  ASSERT_TRUE(news.settled[0].in_force);
+  EXPECT_EQ(news.settled[0].in_force->lease.id, (MotionId{1, 17}));
+  const Motion& rest = *protocol_.binding().newest().motion;
+  EXPECT_DOUBLE_EQ(rest.start_time(), now_s);
+  for (double t = now_s; t < drive_.end_time() + 1.0; t += 0.1)
+    EXPECT_LT((rest.position(t) - drive_.position(t)).norm(), 0.01) << t;
+}
+
+TEST_F(CommitmentKeepingTest, StartedAnewItPromisesToStandWhereItsMotionHasEnded) {
+  keeping_.resume(wish(drive_, TrajectoryState::kCommitted), drive_.end_time() + 5.0);
+  const Motion& rest =
+      *keeping_.tick(drive_.end_time() + 5.0).settled.at(0).in_force->trajectory.motion;
+  EXPECT_TRUE(rest.at(rest.start_time()).at_rest);
+  EXPECT_LT((rest.end_pose().position - drive_.end_pose().position).norm(), 0.01);
+}
+
 TEST_F(CommitmentKeepingTest, TellsThePeersPromisesWhenTheyChangeAndNowAndThen) {
   ASSERT_TRUE(keeping_.fleet_news(kNow_s));
   EXPECT_FALSE(keeping_.fleet_news(kNow_s + 0.1));

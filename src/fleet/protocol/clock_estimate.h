@@ -31,6 +31,8 @@ class ClockEstimate {
   std::optional<ClockReading> reading(double now) const;
 
  private:
+  friend class ProtocolFingerprint;  // of test/fleet/model
+
   struct Sample {
     ClockReading reading;
     double time_s;

@@ -28,6 +28,7 @@ namespace mocha {
 /// until then: a fleet of N robots that all plan anew sends N heartbeats more in that time, not
 /// N^2. Emergency motions bind at once.
 ///
+/// All that can happen to two and three robots, within bounds, has been tried: test/fleet/model.
 /// Why two motions a and b that meet never both settle while their robots A and B are in reach of
 /// each other, whatever is lost, late or out of order: suppose they did. When A endorsed b, A had
 /// not promised a, nor was a pending (A would have withdrawn a, or not endorsed b). So A proposed a
@@ -47,12 +48,14 @@ namespace mocha {
 /// promised path, if it hears of that and brakes within the reaction time, each as it promised to
 /// brake. Assumed are: one map frame (its errors belong into the margins), clocks that agree as
 /// ClockOptions say or were measured (PeerTable; nothing is endorsed or settled with a peer in
-/// reach whose clock is not known), unique names, true radii and braking, and robots that are in
-/// reach of each other while they settle, or messages faster than delta_dc. An emergency motion
-/// breaks a promise. It is sent to all at once, and a robot whose own promise meets it is told
-/// (kBreached) and has to brake in turn; until it stands, those two have only their planners'
-/// margins. Robots that already are closer than demanded (after braking, or set down so) may move
-/// as long as they come no closer.
+/// reach whose clock is not known), a robot that after a restart makes binding, before it hears or
+/// says anything, what it is driving (its peers keep the former epoch's promise until then, but
+/// where they have not heard of that, only this robot can object), unique names, true radii and
+/// braking, and robots that are in reach of each other while they settle, or messages faster than
+/// delta_dc. An emergency motion breaks a promise. It is sent to all at once, and a robot whose own
+/// promise meets it is told (kBreached) and has to brake in turn; until it stands, those two have
+/// only their planners' margins. Robots that already are closer than demanded (after braking, or
+/// set down so) may move as long as they come no closer.
 class CommitmentProtocol : public SettlingProtocol {
  public:
   enum class State {
@@ -90,6 +93,8 @@ class CommitmentProtocol : public SettlingProtocol {
   int impostors() const { return impostors_; }
 
  private:
+  friend class ProtocolFingerprint;  // of test/fleet/model
+
   struct Pending {
     CommittedTrajectory trajectory;
     Proposal proposal;

@@ -8,6 +8,7 @@
 namespace mocha {
 namespace {
 
+constexpr double kNever_s = std::numeric_limits<double>::infinity();
 constexpr double kSameClock_s = 1e-3;  // smaller corrections are not worth telling anew
 
 template <typename Drop>
@@ -23,6 +24,10 @@ const CommittedTrajectory* Peer::unanswered() const {
   const CommittedTrajectory& proposal = open.back();
   const bool current = proposal.id.epoch == epoch && proposal.id == newest;
   return current && endorsed < proposal.id ? &proposal : nullptr;
+}
+
+bool Peer::bound_by_former_epoch() const {
+  return binding.empty() || binding.newest().id.epoch < epoch;
 }
 
 Reservation Peer::reservation_of_open(const CommittedTrajectory& proposal) const {
@@ -54,40 +59,39 @@ PeerTable::Verdict PeerTable::count(Verdict verdict) {
   return verdict;
 }
 
-Peer* PeerTable::find(const std::string& name, std::uint32_t epoch, double now, Verdict& refusal) {
-  refusal = Verdict::kCrowded;
-  if (peers_.size() >= kMostPeers && peers_.count(name) == 0) return nullptr;
-  Peer& peer = peers_[name];
-  refusal = Verdict::kOld;
+Peer* PeerTable::find(const std::string& name) {
+  const bool crowded = peers_.size() >= kMostPeers && peers_.count(name) == 0;
+  return crowded ? nullptr : &peers_[name];
+}
+
+bool PeerTable::is_former(Peer& peer, std::uint32_t epoch, double now) {
   if (epoch < peer.epoch) {
     peer.last_old_s = now;
-    return nullptr;
+    return true;
   }
   if (epoch > peer.epoch) {
     peer.epoch = epoch;
     peer.of_us.reset();  // it has forgotten
-    peer.stamp_s = -std::numeric_limits<double>::infinity();
-    drop_if(peer.open, [&](const CommittedTrajectory& open) { return peer.endorsed < open.id; });
+    peer.stamp_s = -kNever_s;
   }
   peer.last_heard_s = std::max(peer.last_heard_s, now);
-  return &peer;
+  return false;
 }
 
 PeerTable::Verdict PeerTable::receive(const CommittedTrajectory& trajectory, double now) {
-  Verdict refusal;
-  Peer* peer = find(trajectory.agent, trajectory.id.epoch, now, refusal);
-  if (peer == nullptr) return count(refusal);
+  Peer* peer = find(trajectory.agent);
+  if (peer == nullptr) return count(Verdict::kCrowded);
+  const bool former = is_former(*peer, trajectory.id.epoch, now);
+  if (former && !(is_binding(trajectory.state) && peer->bound_by_former_epoch()))
+    return count(Verdict::kOld);
   return count(take(*peer, reclocked(trajectory, -peer->clock_ahead_s, peer->clock_error_s)));
 }
 
 PeerTable::Verdict PeerTable::take(Peer& peer, const CommittedTrajectory& trajectory) {
   const TrajectoryId former = peer.newest;
   if (is_binding(trajectory.state)) {
-    if (!peer.binding.empty() && !(peer.binding.newest().id < trajectory.id)) {
-      return peer.binding.newest().id == trajectory.id ? Verdict::kDuplicate : Verdict::kOld;
-    }
-    bind(peer, trajectory);
-    return Verdict::kNews;
+    if (peer.binding.holds(trajectory.id)) return Verdict::kDuplicate;
+    return bind(peer, trajectory) ? Verdict::kNews : Verdict::kOld;
   }
   peer.newest = std::max(peer.newest, trajectory.id);
   if (trajectory.state == TrajectoryState::kWithdrawn) {
@@ -102,20 +106,23 @@ PeerTable::Verdict PeerTable::take(Peer& peer, const CommittedTrajectory& trajec
   return Verdict::kNews;
 }
 
-void PeerTable::bind(Peer& peer, const CommittedTrajectory& trajectory) {
+bool PeerTable::bind(Peer& peer, const CommittedTrajectory& trajectory) {
   peer.newest = std::max(peer.newest, trajectory.id);
   if (!(trajectory.id < peer.endorsed)) {
     peer.endorsed = trajectory.id;
     peer.endorsed_state = trajectory.state;
   }
-  peer.binding.bind(trajectory);
   drop_if(peer.open, [&](const CommittedTrajectory& open) { return open.id == trajectory.id; });
+  return peer.binding.bind(trajectory);
 }
 
 PeerTable::Verdict PeerTable::receive(const Heartbeat& heartbeat, double now) {
-  Verdict refusal;
-  Peer* peer = find(heartbeat.agent, heartbeat.epoch, now, refusal);
-  if (peer == nullptr) return count(refusal);
+  Peer* peer = find(heartbeat.agent);
+  if (peer == nullptr) return count(Verdict::kCrowded);
+  if (is_former(*peer, heartbeat.epoch, now)) {
+    const bool tells = peer->bound_by_former_epoch() && resolve(*peer, heartbeat);
+    return count(tells ? Verdict::kNews : Verdict::kOld);
+  }
   peer->last_heartbeat_s = std::max(peer->last_heartbeat_s, now);
   const bool reclocked = read_clock(*peer, heartbeat, now);
   for (const Acknowledgement& line : heartbeat.acknowledgements) {
@@ -212,11 +219,19 @@ bool PeerTable::clock_known(const Peer& peer, double now) const {
 void PeerTable::prune(double now) {
   for (auto& [name, peer] : peers_) {
     peer.binding.prune(now);
-    const bool silent = now - peer.last_heard_s > reach_timeout_s_;
-    drop_if(peer.open, [&, &peer = peer](const CommittedTrajectory& open) {
-      return peer.reservation_of_open(open).until_s <= now || (silent && peer.endorsed < open.id);
+    drop_if(peer.open, [now, &peer = peer](const CommittedTrajectory& open) {
+      const bool forgotten = open.id.epoch < peer.epoch && peer.endorsed < open.id;
+      const double end_s = forgotten ? open.motion->end_time() : kNever_s;
+      return std::min(end_s, peer.reservation_of_open(open).until_s) <= now;
     });
+    if (now - peer.last_heard_s > reach_timeout_s_) forget_unendorsed(peer);
   }
+}
+
+/// Heard again, they are news.
+void PeerTable::forget_unendorsed(Peer& peer) {
+  drop_if(peer.open, [&](const CommittedTrajectory& open) { return peer.endorsed < open.id; });
+  peer.newest = std::min(peer.newest, peer.endorsed);
 }
 
 std::vector<Acknowledgement> PeerTable::acknowledgements(double now) const {

@@ -39,18 +39,23 @@ struct Peer {
 
   /// Its proposal waits for our answer (an endorsement, or silence while we object).
   const CommittedTrajectory* unanswered() const;
+  /// Since its last start it has made nothing binding: what it promised before is in force.
+  bool bound_by_former_epoch() const;
   /// The stretch of time for which an open proposal may be in force.
   Reservation reservation_of_open(const CommittedTrajectory& proposal) const;
 };
 
 /// The newest promises of each peer, told by our clock. Messages may come late, twice, in any
-/// order, or not at all; a message older than what is known changes nothing.
+/// order, or not at all; a message older than what is known changes nothing, but for a promise that
+/// is in force until a known one begins.
 ///
 /// A peer that has been silent for the reach timeout is out of reach: no robot waits for it.
 /// What it promised still holds to its end, and after that it is an obstacle at its last place. A
 /// proposal of it that we endorsed may have become binding, and counts as promised; others are
-/// dropped. A higher epoch (the peer was started anew) makes all former messages old. The former
-/// promise stays until the new epoch makes one binding: the robot has not vanished.
+/// dropped. A higher epoch (the peer was started anew) makes former messages old, but not what they
+/// bind: the robot has not vanished, and its tracker drives on. Until the new epoch makes something
+/// binding, a former promise stays, one that comes late is taken, and a former proposal may have
+/// become one: it stays to its motion's end, and if we endorsed it, longer.
 ///
 /// A peer's clock is taken to agree with ours to within the tolerance until echoed heartbeats prove
 /// the contrary. Then its promises are shifted by what was measured, and its footprint is wider by
@@ -108,13 +113,18 @@ class PeerTable {
   int crowded_out() const { return crowded_; }
 
  private:
+  friend class ProtocolFingerprint;  // of test/fleet/model
+
   Verdict take(Peer& peer, const CommittedTrajectory& trajectory);
-  void bind(Peer& peer, const CommittedTrajectory& trajectory);
+  /// False where later promises have replaced it.
+  bool bind(Peer& peer, const CommittedTrajectory& trajectory);
   /// Whether the heartbeat tells the fate of open proposals.
   bool resolve(Peer& peer, const Heartbeat& heartbeat);
-  /// The peer of this name in this epoch; none if the message is of a former epoch, or there are
-  /// too many peers; then `refusal` says which.
-  Peer* find(const std::string& name, std::uint32_t epoch, double now, Verdict& refusal);
+  /// The peer of this name; none if there are too many.
+  Peer* find(const std::string& name);
+  /// Whether what the peer said in this epoch was said before it was started anew.
+  static bool is_former(Peer& peer, std::uint32_t epoch, double now);
+  void forget_unendorsed(Peer& peer);
   Verdict count(Verdict verdict);
   /// Whether the peer's promises are told by another clock from now on.
   bool read_clock(Peer& peer, const Heartbeat& heartbeat, double now);

@@ -46,11 +46,26 @@ std::optional<Conflict> first_conflict(const Reservation& mine, const Reservatio
   return Conflict{theirs.trajectory.agent, *time, distance, required_m, place};
 }
 
-void ReservationChain::bind(CommittedTrajectory trajectory) {
+bool ReservationChain::bind(CommittedTrajectory trajectory) {
   const double start = trajectory.motion->start_time();
-  while (!reservations_.empty() && newest().motion->start_time() >= start) reservations_.pop_back();
-  reservations_.push_back({std::move(trajectory)});
+  const auto later = std::find_if(reservations_.begin(), reservations_.end(),
+                                  [&trajectory](const Reservation& reservation) {
+                                    return trajectory.id < reservation.trajectory.id;
+                                  });
+  if (later != reservations_.end() && later->trajectory.motion->start_time() <= start) return false;
+  const auto replaced =
+      std::find_if(reservations_.begin(), later, [start](const Reservation& reservation) {
+        return reservation.trajectory.motion->start_time() >= start;
+      });
+  reservations_.insert(reservations_.erase(replaced, later), {std::move(trajectory)});
   join();
+  return true;
+}
+
+bool ReservationChain::holds(TrajectoryId id) const {
+  return std::any_of(
+      reservations_.begin(), reservations_.end(),
+      [id](const Reservation& reservation) { return reservation.trajectory.id == id; });
 }
 
 void ReservationChain::reclock(double later_s, double less_sure_s) {

@@ -39,8 +39,10 @@ std::optional<Conflict> first_conflict(const Reservation& mine, const Reservatio
 /// force.
 class ReservationChain {
  public:
-  /// The promise replaces everything from its start on. Its motion must not be empty.
-  void bind(CommittedTrajectory trajectory);
+  /// The promise replaces everything from its start on, but for promises of higher numbers: one
+  /// that comes late goes before those. False where these replaced it before it began. Its motion
+  /// must not be empty.
+  bool bind(CommittedTrajectory trajectory);
 
   /// See reclocked().
   void reclock(double later_s, double less_sure_s);
@@ -48,6 +50,7 @@ class ReservationChain {
   /// Forgets what has been replaced by time `now`.
   void prune(double now);
 
+  bool holds(TrajectoryId id) const;
   bool empty() const { return reservations_.empty(); }
   /// The promise bound last; the chain must not be empty.
   const CommittedTrajectory& newest() const { return reservations_.back().trajectory; }
@@ -65,6 +68,8 @@ class ReservationChain {
   std::shared_ptr<const Motion> composed(double now) const;
 
  private:
+  friend class ProtocolFingerprint;  // of test/fleet/model
+
   void join();
 
   std::vector<Reservation> reservations_;  // by start, which is also by number

@@ -52,6 +52,16 @@ TEST_F(PeerTableTest, KeepsTheNewestAndCountsTheRest) {
   EXPECT_DOUBLE_EQ(peer().last_heard_s, 0.6);
 }
 
+TEST_F(PeerTableTest, WhatIsInForceUntilTheNextPromiseBeginsMayComeAfterThat) {
+  table_.receive(trajectory({1, 2}, TrajectoryState::kCommitted, 20.0), 0.0);
+  EXPECT_EQ(table_.receive(trajectory({1, 1}, TrajectoryState::kCommitted), 0.1), Verdict::kNews);
+  EXPECT_EQ(table_.receive(trajectory({1, 1}, TrajectoryState::kCommitted), 0.2),
+            Verdict::kDuplicate);
+  EXPECT_EQ(peer().binding.newest().id, (TrajectoryId{1, 2}));
+  ASSERT_EQ(peer().binding.reservations().size(), 2u);
+  EXPECT_DOUBLE_EQ(peer().binding.reservations()[0].until_s, 20.0);
+}
+
 TEST_F(PeerTableTest, AWithdrawalMayOvertakeItsProposal) {
   EXPECT_EQ(table_.receive(trajectory({1, 1}, TrajectoryState::kWithdrawn), 0.0), Verdict::kNews);
   EXPECT_EQ(table_.receive(trajectory({1, 1}, TrajectoryState::kProposed), 0.0),
@@ -122,16 +132,14 @@ TEST_F(PeerTableTest, OfASilentPeerOnlyEndorsedProposalsStay) {
   EXPECT_EQ(peer().open[0].id.sequence, 1u);
 }
 
-TEST_F(PeerTableTest, AHigherEpochMakesEverythingFormerOld) {
+TEST_F(PeerTableTest, AHigherEpochMakesFormerMessagesOld) {
   table_.receive(trajectory({1, 8}, TrajectoryState::kCommitted), 0.0);
-  table_.receive(trajectory({1, 9}, TrajectoryState::kProposed), 0.0);
   table_.receive(heartbeat(1, {{"me", {3, 4}, TrajectoryState::kProposed}}), 0.0);
   ASSERT_TRUE(peer().of_us);
   table_.receive(heartbeat(2), 0.5);
   EXPECT_FALSE(peer().of_us);
-  EXPECT_TRUE(peer().open.empty());
   EXPECT_EQ(peer().binding.newest().id, (TrajectoryId{1, 8}));  // it has not vanished
-  EXPECT_EQ(table_.receive(trajectory({1, 10}, TrajectoryState::kCommitted), 0.6), Verdict::kOld);
+  EXPECT_EQ(table_.receive(trajectory({1, 10}, TrajectoryState::kProposed), 0.6), Verdict::kOld);
   EXPECT_EQ(table_.receive(heartbeat(1), 0.6), Verdict::kOld);
   // It is told what it is known as.
   ASSERT_EQ(table_.acknowledgements(0.6).size(), 1u);
@@ -144,6 +152,48 @@ TEST_F(PeerTableTest, AHigherEpochMakesEverythingFormerOld) {
   EXPECT_EQ(table_.receive(trajectory({2, 1}, TrajectoryState::kCommitted, 11.0), 0.8),
             Verdict::kNews);
   EXPECT_EQ(peer().binding.newest().id, (TrajectoryId{2, 1}));
+  EXPECT_EQ(table_.receive(trajectory({1, 10}, TrajectoryState::kCommitted, 12.0), 0.9),
+            Verdict::kOld);
+}
+
+TEST_F(PeerTableTest, WhatAFormerEpochBoundCountsUntilTheNewOneBindsSomething) {
+  table_.receive(trajectory({1, 8}, TrajectoryState::kCommitted), 0.0);
+  table_.receive(trajectory({1, 9}, TrajectoryState::kProposed, 20.0), 0.0);
+  table_.receive(heartbeat(2), 0.5);
+  EXPECT_EQ(peer().open.size(), 1u);  // it may have become binding
+  EXPECT_EQ(peer().unanswered(), nullptr);
+  PeerTable told = table_;  // that it has, by a heartbeat that comes late
+  EXPECT_EQ(told.receive(heartbeat(1, {{"a", {1, 9}, TrajectoryState::kCommitted}}), 0.6),
+            Verdict::kNews);
+  EXPECT_EQ(told.peers().at("a").binding.newest().id, (TrajectoryId{1, 9}));
+  EXPECT_EQ(table_.receive(trajectory({1, 10}, TrajectoryState::kCommitted, 15.0), 0.6),
+            Verdict::kNews);
+  EXPECT_EQ(peer().binding.newest().id, (TrajectoryId{1, 10}));
+  EXPECT_EQ(peer().epoch, 2u);
+  EXPECT_TRUE(table_.acknowledgements(0.6)[0].id == (TrajectoryId{2, 0}));
+  table_.receive(trajectory({2, 1}, TrajectoryState::kEmergency, 12.0), 0.7);
+  EXPECT_EQ(peer().binding.newest().id, (TrajectoryId{2, 1}));
+  table_.receive(heartbeat(2), 12.0);
+  table_.prune(12.0);
+  EXPECT_EQ(peer().binding.reservations().size(), 1u);
+}
+
+TEST_F(PeerTableTest, AFormerProposalThatWeDidNotEndorseStaysToItsEnd) {
+  table_.receive(trajectory({1, 1}, TrajectoryState::kProposed), 0.0);
+  const double end_s = peer().open[0].motion->end_time();
+  table_.receive(heartbeat(2), end_s - 0.1);
+  table_.prune(end_s - 0.1);
+  EXPECT_EQ(peer().open.size(), 1u);
+  table_.prune(end_s);
+  EXPECT_TRUE(peer().open.empty());
+}
+
+TEST_F(PeerTableTest, AProposalThatIsHeardAgainAfterASilenceIsNews) {
+  table_.receive(trajectory({1, 1}, TrajectoryState::kProposed), 0.0);
+  table_.prune(1.1);
+  EXPECT_TRUE(peer().open.empty());
+  EXPECT_EQ(table_.receive(trajectory({1, 1}, TrajectoryState::kProposed), 1.2), Verdict::kNews);
+  EXPECT_NE(peer().unanswered(), nullptr);
 }
 
 TEST_F(PeerTableTest, ReadsOnlyWhatConcernsThisEpochOfUs) {

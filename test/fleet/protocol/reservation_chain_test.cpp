@@ -52,6 +52,20 @@ TEST(ReservationChain, WhatStartsLaterThanANewPromiseIsReplaced) {
   EXPECT_NEAR(chain.position(9.0).y(), -2.0, 1e-9);
 }
 
+TEST(ReservationChain, WhatComesLateGoesBeforeItsSuccessors) {
+  ReservationChain chain;
+  EXPECT_TRUE(chain.bind(trajectory(3, test::drive(5.0, {{3.0, 0.0}, {7.0, 0.0}}, 1.0))));
+  EXPECT_TRUE(chain.bind(trajectory(1, test::drive(0.0, {{0.0, 0.0}, {3.0, 0.0}}, 1.0))));
+  ASSERT_EQ(chain.reservations().size(), 2u);
+  EXPECT_EQ(chain.newest().id.sequence, 3u);
+  EXPECT_DOUBLE_EQ(chain.reservations()[0].until_s, 5.0);
+  EXPECT_NEAR((chain.position(1.5) - Vector2(1.5, 0.0)).norm(), 0.0, 1e-9);
+  EXPECT_FALSE(chain.bind(trajectory(2, test::stand(5.0, {9.0, 9.0}))));  // never began
+  EXPECT_TRUE(chain.holds({1, 1}));
+  EXPECT_FALSE(chain.holds({1, 2}));
+  EXPECT_EQ(chain.reservations().size(), 2u);
+}
+
 TEST(ReservationChain, ComposesOneMotionFromNowOn) {
   const ReservationChain chain = two_drives();
   const auto motion = chain.composed(1.0);
