@@ -108,7 +108,7 @@ TEST_F(LatePlansTest, AnAnswerForAGoalIsNotDrivenWhereTheRobotHasToMakeRoom) {
 TEST_F(LatePlansTest, NoAnswerIsDrivenWhereTheRobotHasToWait) {
   late_ = true;
   step();
-  executive_.hear(ordered({{0.0, 0.0}, {0.0, 2.0}}, {1}), now_s_);
+  executive_.hear(ordered({{0.0, 0.0}, {2.0, 0.0}}, {1}), now_s_);
   step();
   EXPECT_TRUE(query_.should_stop());
   late_ = false;

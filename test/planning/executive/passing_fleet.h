@@ -152,6 +152,15 @@ class PassingFleet : public ::testing::Test {
     return found;
   }
 
+  /// What a robot orders another to do; leaders say what they do themselves, too.
+  static std::vector<PassingInstruction> told(const Robot& leader, const std::string& robot) {
+    std::vector<PassingInstruction> found = said<PassingInstruction>(leader);
+    found.erase(std::remove_if(found.begin(), found.end(),
+                               [&](const auto& each) { return each.robot != robot; }),
+                found.end());
+    return found;
+  }
+
   static constexpr double kStep_s = 0.1;
   double now_s_ = 1.7e9;
   double speed_ = 0.8;
