@@ -12,8 +12,8 @@
 #include "ros_bridge/inputs/emergency_stop_controls.h"
 #include "ros_bridge/messages/committed_trajectory_conversions.h"
 #include "ros_bridge/messages/conversions.h"
-#include "ros_bridge/messages/passing_conversions.h"
 #include "ros_bridge/network/fleet_network.h"
+#include "ros_bridge/network/passing_relay.h"
 #include "ros_bridge/outputs/peer_diagnostics.h"
 #include "ros_bridge/outputs/promise_diagnostics.h"
 #include "ros_bridge/runtime/memory_file.h"
@@ -59,19 +59,16 @@ class TrajectoryBroadcasterNode {
         drawings_(node.advertise<visualization_msgs::MarkerArray>("motion_markers", 2, true)),
         leases_out_(node.advertise<mocha_ugv::Lease>("lease", 10)),
         settlements_(node.advertise<mocha_ugv::Settlement>("settlement", 20)),
-        intents_out_(node.advertise<mocha_ugv::PassingIntent>("fleet/passing_intents", 100)),
-        instructions_out_(
-            node.advertise<mocha_ugv::PassingInstruction>("fleet/passing_instructions", 100)),
         proposals_(node.subscribe("proposed_trajectory", 100,
                                   &TrajectoryBroadcasterNode::on_proposal, this, at_once())),
         tracker_(node.subscribe("driven_trajectory", 1, &TrajectoryBroadcasterNode::on_driven, this,
                                 at_once())),
         leases_(
             node.subscribe("lease", 100, &TrajectoryBroadcasterNode::on_lease, this, at_once())),
-        intents_(node.subscribe("passing_intent", 10, &TrajectoryBroadcasterNode::on_intent, this,
-                                at_once())),
-        instructions_(node.subscribe("passing_instruction", 100,
-                                     &TrajectoryBroadcasterNode::on_instruction, this, at_once())),
+        passing_(
+            node, robot_, commitment_.epoch(),
+            {[this](const PassingMessage& message) { send(message); },
+             [this](const std::string& topic, const std::string& why) { refuse(topic, why); }}),
         network_(node, robot_, {values.text("lcm_url"), values.text("fleet_key")},
                  [this](const FleetMessage& message) { hear(message); }),
         stop_(node, robot_, commitment_.epoch(), beside(epoch_file_, ".stops"),
@@ -143,25 +140,9 @@ class TrajectoryBroadcasterNode {
     ROS_WARN_THROTTLE(1.0, "Refused a message on %s: %s", topic.c_str(), why.c_str());
   }
 
-  void on_intent(const mocha_ugv::PassingIntent& message) { relay(message, "passing_intent"); }
-
-  void on_instruction(const mocha_ugv::PassingInstruction& message) {
-    relay(message, "passing_instruction");
-  }
-
-  /// To all team-mates, which refuse one in another name.
-  template <typename Message>
-  void relay(Message message, const std::string& topic) {
+  void send(const PassingMessage& message) {
     if (!advance_clock(ros::Time::now())) return;
-    try {
-      if (message.agent != robot_.name) {
-        throw std::invalid_argument("is of '" + message.agent + "'");
-      }
-      message.epoch = commitment_.epoch();
-      network_.send(passing_from_message(message, robot_.map_frame), now_);
-    } catch (const std::invalid_argument& error) {
-      refuse(topic, error.what());
-    }
+    std::visit([this](const auto& each) { network_.send(each, now_); }, message);
   }
 
   void on_lease(const mocha_ugv::Lease& message) {
@@ -171,9 +152,9 @@ class TrajectoryBroadcasterNode {
   void hear(const FleetMessage& message) {
     if (!advance_clock(ros::Time::now())) return;
     if (const auto* intent = std::get_if<PassingIntent>(&message)) {
-      intents_out_.publish(to_message(*intent, robot_.map_frame, now_));
+      passing_.publish(*intent, now_);
     } else if (const auto* instruction = std::get_if<PassingInstruction>(&message)) {
-      instructions_out_.publish(to_message(*instruction, robot_.map_frame, now_));
+      passing_.publish(*instruction, now_);
     } else if (const auto* stops = std::get_if<FleetStops>(&message)) {
       stop_.hear(*stops, now_);
     } else if (!awake_) {
@@ -311,13 +292,10 @@ class TrajectoryBroadcasterNode {
   ros::Publisher drawings_;
   ros::Publisher leases_out_;
   ros::Publisher settlements_;
-  ros::Publisher intents_out_;
-  ros::Publisher instructions_out_;
   ros::Subscriber proposals_;
   ros::Subscriber tracker_;
   ros::Subscriber leases_;
-  ros::Subscriber intents_;
-  ros::Subscriber instructions_;
+  PassingRelay passing_;
   FleetNetwork network_;
   EmergencyStopControls stop_;
   StepLoop loop_;
