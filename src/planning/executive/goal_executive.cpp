@@ -141,7 +141,7 @@ GoalExecutive::Ending GoalExecutive::note_arrival(const Input& input) {
       begin_errand(E::kAllReached);
       return Ending::kReached;
     case GoalQueue::Event::kReached:
-      begin_goal(E::kGoalReached);
+      begin_errand(E::kGoalReached);
       return Ending::kNone;
     case GoalQueue::Event::kTimedOut:
       return Ending::kNoProgress;

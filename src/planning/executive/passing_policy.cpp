@@ -79,7 +79,7 @@ void PassingPolicy::leave_order() {
 
 void PassingPolicy::hear(const PassingMessage& message, double now_s) {
   if (const auto* instruction = std::get_if<PassingInstruction>(&message)) {
-    if (instruction->robot == name_ && instruction->id.leader != name_) follow(*instruction, now_s);
+    if (instruction->robot == name_ && instruction->id.leader != name_) follow(*instruction);
     return;
   }
   const auto& intent = std::get<PassingIntent>(message);
@@ -97,14 +97,16 @@ void PassingPolicy::hear(const PassingMessage& message, double now_s) {
 }
 
 /// Of a new order the first part, with which the robot can begin; or more of what it follows.
-void PassingPolicy::follow(const PassingInstruction& instruction, double now_s) {
+void PassingPolicy::follow(const PassingInstruction& instruction) {
   if (followed_ && followed_->id() == instruction.id) {
     followed_->add(instruction);
     return;
   }
-  if (instruction.first != 0) return;
+  const bool is_late =
+      instruction.id.leader == newest_.leader && instruction.id.number < newest_.number;
+  if (instruction.first != 0 || is_late) return;
+  newest_ = instruction.id;
   offered_ = instruction;
-  progressed_s_ = now_s;
 }
 
 std::vector<PassingIntent> PassingPolicy::others(double now_s) const {
@@ -200,13 +202,14 @@ void PassingPolicy::watch(const PassingSituation& situation, const SceneSource& 
   const bool called = calls_;
   if (is_stuck(situation)) {
     leave_order();
-    calls_ = situation.goal.has_value();
-  } else if (!follows() && situation.goal) {
-    const Vector2& here = situation.measured.pose.position;
-    calls_ =
-        impediment_.is_impeded(stands(situation.measured), here, *situation.goal,
-                               scene({here, *situation.goal}), robot_, travel_, situation.now_s);
+    calls_until_s_ = situation.now_s + kMakeAgain_s;
   }
+  const Vector2& here = situation.measured.pose.position;
+  calls_ =
+      !follows() && situation.goal &&
+      (situation.now_s < calls_until_s_ ||
+       impediment_.is_impeded(stands(situation.measured), here, *situation.goal,
+                              scene({here, *situation.goal}), robot_, travel_, situation.now_s));
   if (calls_ && !called) calls_since_s_ = situation.now_s;
 }
 

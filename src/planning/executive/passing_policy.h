@@ -69,7 +69,7 @@ class PassingPolicy {
     double made_s;
   };
 
-  void follow(const PassingInstruction& instruction, double now_s);
+  void follow(const PassingInstruction& instruction);
   void leave_order();
   void progress(const PassingSituation& situation);
   void watch(const PassingSituation& situation, const SceneSource& scene);
@@ -92,10 +92,12 @@ class PassingPolicy {
   ImpedimentWatch impediment_;
   bool calls_ = false;
   double calls_since_s_ = 0.0;
+  double calls_until_s_ = 0.0;  // at least, after an order that it was stuck in
   std::optional<FollowedOrder> followed_;
   std::map<std::string, std::uint32_t> promised_;  // moves of it, by others
   PassingOrderId finished_;  // all its moves are made; others may wait for that
   std::uint32_t finished_moves_ = 0;
+  PassingOrderId newest_;                      // heard of
   std::optional<PassingInstruction> offered_;  // not taken up yet
   std::optional<PassingStretch> stretch_;
   double news_s_ = 0.0;        // of anybody

@@ -17,10 +17,14 @@ class Grouping {
            const std::vector<PassingMember>& members, const PlaceGraphOptions& options,
            const PassingPace& pace, const Eigen::AlignedBox2d& window)
       : members_(members), options_(options), pace_(pace) {
-    for (const PassingMember& member : members) problem_.starts.push_back(number_of(member.place));
+    FixedPlaces fixed;
+    for (const PassingMember& member : members) {
+      const int place = number_of(member.goal.value_or(member.place), fixed.goals);
+      problem_.goals.push_back(member.goal ? place : PassingProblem::kAnywhere);
+    }
     for (const PassingMember& member : members)
-      problem_.goals.push_back(member.goal ? number_of(*member.goal) : PassingProblem::kAnywhere);
-    problem_.graph = make_place_graph(static_map, window, std::move(blocked), fixed_, options);
+      problem_.starts.push_back(start_number_of(member.place, fixed));
+    problem_.graph = make_place_graph(static_map, window, std::move(blocked), fixed, options);
     give_up_what_is_out_of_reach();
   }
 
@@ -38,12 +42,20 @@ class Grouping {
  private:
   int robots() const { return static_cast<int>(members_.size()); }
 
-  int number_of(const Vector2& place) {
-    for (std::size_t i = 0; i < fixed_.size(); ++i) {
-      if ((fixed_[i] - place).norm() < kSamePlace_m) return static_cast<int>(i);
+  /// Of a place that is there, or is added.
+  static int number_of(const Vector2& place, std::vector<Vector2>& places) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if ((places[i] - place).norm() < kSamePlace_m) return static_cast<int>(i);
     }
-    fixed_.push_back(place);
-    return static_cast<int>(fixed_.size()) - 1;
+    places.push_back(place);
+    return static_cast<int>(places.size()) - 1;
+  }
+
+  static int start_number_of(const Vector2& place, FixedPlaces& fixed) {
+    const int goals = static_cast<int>(fixed.goals.size());
+    std::vector<Vector2> known = fixed.goals;
+    const int goal = number_of(place, known);
+    return goal < goals ? goal : goals + number_of(place, fixed.starts);
   }
 
   bool has_goal(std::size_t member) const {
@@ -58,7 +70,8 @@ class Grouping {
       bool possible = std::isfinite(distances_to(problem_.graph, goal)[problem_.starts[i]]);
       for (std::size_t j = 0; j < i && possible; ++j) {
         if (!has_goal(j)) continue;
-        const Vector2 apart = fixed_[problem_.goals[j]] - fixed_[goal];
+        const auto& places = problem_.graph.places;
+        const Vector2 apart = places[problem_.goals[j]] - places[goal];
         possible = problem_.goals[j] != goal && apart.norm() >= options_.apart_m;
       }
       if (!possible) problem_.goals[i] = PassingProblem::kAnywhere;
@@ -100,7 +113,6 @@ class Grouping {
   const std::vector<PassingMember>& members_;
   const PlaceGraphOptions options_;
   const PassingPace pace_;
-  std::vector<Vector2> fixed_;
   PassingProblem problem_;
 };
 

@@ -19,11 +19,14 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSame_m = 1e-3;
-const Vector2 kFarAway(1e6, 1e6);  // no robot leaves a wall or a disc that it is in
+constexpr double kAroundStart = 1.6;  // times what robots keep: the neighbours of a start
+const Vector2 kFarAway(1e6, 1e6);     // no robot leaves a wall or a disc that it is in
 
 /// Nodes by their distance, nearest first.
 using NearestFirst = std::priority_queue<std::pair<double, int>,
                                          std::vector<std::pair<double, int>>, std::greater<>>;
+
+using Paths = std::map<std::pair<int, int>, std::vector<Vector2>>;  // by their two places
 
 /// The lattice within a window, and how far each of its nodes is from the nearest of some places.
 class Surroundings {
@@ -34,8 +37,9 @@ class Surroundings {
         lattice_(static_map, options.lattice_m),
         cost_(static_map, kFarAway, std::move(blocked), without_escape(options.travel)) {}
 
-  /// Grows from all places at once; what they reach is nearest to the place `owner`.
-  void grow(const std::vector<Vector2>& places) {
+  /// Grows from all places at once, as far as `most_m`; what they reach is nearest to the place
+  /// `owner`.
+  void grow(const std::vector<Vector2>& places, double most_m = kInfinity) {
     reached_m_.assign(lattice_.size(), kInfinity);
     owner_.assign(lattice_.size(), -1);
     parent_.assign(lattice_.size(), -1);
@@ -46,7 +50,7 @@ class Surroundings {
       queue.pop();
       if (reached_m > reached_m_[node]) continue;
       lattice_.visit_neighbours(node, [&](int next, double length_m) {
-        if (!joined(node, next)) return;
+        if (reached_m + length_m > most_m || !joined(node, next)) return;
         if (!improve(next, reached_m + length_m, owner_[node], node)) return;
         queue.emplace(reached_m + length_m, next);
       });
@@ -62,10 +66,29 @@ class Surroundings {
     return found;
   }
 
+  /// The shortest path to `place` from the one that the surroundings have grown from; empty where
+  /// they did not reach it.
+  std::vector<Vector2> path_from(const Vector2& start, const Vector2& place) const {
+    int nearest = -1;
+    double least_m = kInfinity;
+    for (int which = 0; which < 4; ++which) {
+      const int node = lattice_.corner(place, which);
+      const double length_m = reached_m_[node] + (lattice_.position(node) - place).norm();
+      if (!(length_m < least_m)) continue;
+      least_m = length_m;
+      nearest = node;
+    }
+    if (nearest < 0) return {};
+    std::vector<Vector2> path = traced(nearest, start);
+    std::reverse(path.begin(), path.end());
+    if ((path.back() - place).norm() > kSame_m) path.push_back(place);
+    path.back() = place;
+    return shortened(path);
+  }
+
   /// The shortest path between each two places of which the surroundings meet, through where they
   /// do.
-  std::map<std::pair<int, int>, std::vector<Vector2>> paths(
-      const std::vector<Vector2>& places) const {
+  Paths paths(const std::vector<Vector2>& places) const {
     struct Meeting {
       double length_m = kInfinity;
       int here = -1;
@@ -81,13 +104,13 @@ class Surroundings {
         if (through_m < meeting.length_m) meeting = {through_m, node, next};
       });
     }
-    std::map<std::pair<int, int>, std::vector<Vector2>> paths;
+    Paths paths;
     for (const auto& [pair, meeting] : meetings) {
       std::vector<Vector2> path = traced(meeting.here, places[pair.first]);
       std::reverse(path.begin(), path.end());
       const std::vector<Vector2> rest = traced(meeting.there, places[pair.second]);
       path.insert(path.end(), rest.begin(), rest.end());
-      paths[pair] = few_places(with_shortcuts(path, cost_, Cuts<2>({})), kMostTurnPlaces);
+      paths[pair] = shortened(path);
     }
     return paths;
   }
@@ -96,6 +119,10 @@ class Surroundings {
   static TravelOptions without_escape(TravelOptions options) {
     options.escape_radius_m = 0.0;
     return options;
+  }
+
+  std::vector<Vector2> shortened(const std::vector<Vector2>& path) const {
+    return few_places(with_shortcuts(path, cost_, Cuts<2>({})), kMostTurnPlaces);
   }
 
   bool is_free(int node) const {
@@ -167,29 +194,55 @@ std::vector<int> blocking(const std::vector<Vector2>& places, int from, int to,
   return blocking;
 }
 
-}  // namespace
+/// To all places that are near.
+void add_paths_from(int start, const std::vector<Vector2>& places, double most_m,
+                    Surroundings& surroundings, Paths& paths) {
+  surroundings.grow({places[start]}, most_m);
+  for (int place = 0; place < static_cast<int>(places.size()); ++place) {
+    const bool known = paths.count({place, start}) > 0;
+    if (place == start || known || (places[place] - places[start]).norm() > most_m) continue;
+    std::vector<Vector2> path = surroundings.path_from(places[start], places[place]);
+    if (!path.empty()) paths[{start, place}] = std::move(path);
+  }
+}
 
-PlaceGraph make_place_graph(const StaticMap& static_map, const Eigen::AlignedBox2d& window,
-                            std::vector<BlockedDisc> blocked, const std::vector<Vector2>& fixed,
-                            const PlaceGraphOptions& options) {
-  Surroundings surroundings(static_map, window, std::move(blocked), options);
-  surroundings.grow(fixed);
-  const std::vector<Vector2> candidates = surroundings.reached();
-  PlaceGraph graph;
-  graph.places = fixed;
-  for (const int i : packed(candidates, fixed, options.apart_m))
-    graph.places.push_back(candidates[i]);
-  surroundings.grow(graph.places);
+void add_moves(const Paths& paths, double apart_m, PlaceGraph& graph) {
   graph.moves.resize(graph.places.size());
-  for (auto& [pair, path] : surroundings.paths(graph.places)) {
+  for (const auto& [pair, path] : paths) {
     const auto [a, b] = pair;
     const double length_m = length_of(path);
     const std::vector<Vector2> back(path.rbegin(), path.rend());
-    graph.moves[a].push_back(
-        {b, length_m, path, blocking(graph.places, a, b, path, options.apart_m)});
-    graph.moves[b].push_back(
-        {a, length_m, back, blocking(graph.places, b, a, back, options.apart_m)});
+    graph.moves[a].push_back({b, length_m, path, blocking(graph.places, a, b, path, apart_m)});
+    graph.moves[b].push_back({a, length_m, back, blocking(graph.places, b, a, back, apart_m)});
   }
+}
+
+}  // namespace
+
+PlaceGraph make_place_graph(const StaticMap& static_map, const Eigen::AlignedBox2d& window,
+                            std::vector<BlockedDisc> blocked, const FixedPlaces& fixed,
+                            const PlaceGraphOptions& options) {
+  Surroundings surroundings(static_map, window, std::move(blocked), options);
+  PlaceGraph graph;
+  graph.places = fixed.goals;
+  graph.places.insert(graph.places.end(), fixed.starts.begin(), fixed.starts.end());
+  surroundings.grow(graph.places);
+  std::vector<Vector2> lasting = fixed.goals;
+  const std::vector<Vector2> candidates = surroundings.reached();
+  for (const int i : packed(candidates, fixed.goals, options.apart_m)) {
+    graph.places.push_back(candidates[i]);
+    lasting.push_back(candidates[i]);
+  }
+  const int goals = static_cast<int>(fixed.goals.size());
+  const int starts = static_cast<int>(fixed.starts.size());
+  const auto number = [&](int place) { return place < goals ? place : place + starts; };
+  Paths paths;
+  surroundings.grow(lasting);
+  for (auto& [pair, path] : surroundings.paths(lasting))
+    paths[{number(pair.first), number(pair.second)}] = std::move(path);
+  for (int start = goals; start < goals + starts; ++start)
+    add_paths_from(start, graph.places, kAroundStart * options.apart_m, surroundings, paths);
+  add_moves(paths, options.apart_m, graph);
   return graph;
 }
 

@@ -32,13 +32,20 @@ struct PlaceGraphOptions {
   double lattice_m = 0.1;  ///< of the paths
 };
 
-/// The graph of the free space within `window` that can be reached from the places of `fixed`,
-/// which are its first places, in this order: where robots are, and where they are to be. Other
-/// places are added as long as they are `apart_m` from all others; narrow ends first, so that
-/// corridors hold as many as they can. Neighbours are places of which the surroundings meet. Robots
-/// that are closer than `apart_m` at their places can still leave each other.
+/// The first places of a PlaceGraph.
+struct FixedPlaces {
+  std::vector<Vector2> goals;   ///< robots are to be able to stay there: others are chosen apart
+  std::vector<Vector2> starts;  ///< robots are there now; others are chosen as if they were not
+};
+
+/// The graph of the free space within `window`, and outside of `blocked` discs, that can be reached
+/// from the fixed places, which are its first places: the goals, then the starts, in this order.
+/// Other places are added as long as they are `apart_m` from all others and the goals; narrow ends
+/// first, so that corridors hold as many as they can. Neighbours are places of which the
+/// surroundings meet; a start has all around it. Robots that are closer than `apart_m` at their
+/// places can still leave each other.
 PlaceGraph make_place_graph(const StaticMap& static_map, const Eigen::AlignedBox2d& window,
-                            std::vector<BlockedDisc> blocked, const std::vector<Vector2>& fixed,
+                            std::vector<BlockedDisc> blocked, const FixedPlaces& fixed,
                             const PlaceGraphOptions& options);
 
 /// How far it is from each place to `goal` along the graph, other robots aside [m]; infinite where

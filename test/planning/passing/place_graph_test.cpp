@@ -88,7 +88,7 @@ TEST(PlaceGraph, StaysInsideItsWindow) {
   const auto static_map = test::static_map_of_cells(rows);
   const Eigen::AlignedBox2d window(Vector2(0.0, 0.0), Vector2(3.0, 2.4));
   const PlaceGraph graph =
-      make_place_graph(*static_map, window, {}, {{0.6, 0.6}}, test::graph_options());
+      make_place_graph(*static_map, window, {}, {{{0.6, 0.6}}, {}}, test::graph_options());
   EXPECT_GE(graph.size(), 5);
   for (const Vector2& place : graph.places) EXPECT_TRUE(window.contains(place));
 }
@@ -97,7 +97,7 @@ TEST(PlaceGraph, RobotsThatAreTooCloseCanLeaveEachOther) {
   const std::vector<std::string> rows = {"....."};
   const auto static_map = test::static_map_of_cells(rows);
   const PlaceGraph graph = make_place_graph(*static_map, static_map->bounds(), {},
-                                            {{2.7, 0.6}, {3.3, 0.6}}, test::graph_options());
+                                            {{{2.7, 0.6}, {3.3, 0.6}}, {}}, test::graph_options());
   ASSERT_FALSE(graph.moves[0].empty());
   bool leaves = false;
   for (const PlaceMove& move : graph.moves[0]) {
@@ -107,6 +107,23 @@ TEST(PlaceGraph, RobotsThatAreTooCloseCanLeaveEachOther) {
     leaves = leaves || away;
   }
   EXPECT_TRUE(leaves);
+}
+
+TEST(PlaceGraph, AStartKeepsNoPlaceFromBeingChosenBesideIt) {
+  const std::vector<std::string> rows = {"......"};
+  const auto static_map = test::static_map_of_cells(rows);
+  const auto graph_from = [&](const FixedPlaces& fixed) {
+    return make_place_graph(*static_map, static_map->bounds(), {}, fixed, test::graph_options());
+  };
+  const Vector2 end(0.6, 0.6);
+  const PlaceGraph without = graph_from({{end}, {}});
+  for (double x = 1.2; x < 6.0; x += 0.13) {
+    const PlaceGraph graph = graph_from({{end}, {{x, 0.6}}});
+    EXPECT_EQ(graph.size(), without.size() + 1) << x;
+    EXPECT_EQ(graph.places[1], Vector2(x, 0.6));
+    EXPECT_GE(graph.moves[1].size(), 2u) << x;  // to both sides
+    for (const double distance_m : distances_to(graph, 1)) EXPECT_TRUE(std::isfinite(distance_m));
+  }
 }
 
 }  // namespace
