@@ -239,6 +239,8 @@ bool PassingPolicy::is_not_kept(double now_s) const {
   });
 }
 
+/// Whether it is to make an order now: others are about, and none of them that calls
+/// outranks it.
 bool PassingPolicy::leads(double now_s) const {
   const bool is_asked = calls_ && now_s >= calls_since_s_ + kGather_s;
   if (!is_asked && !is_not_kept(now_s)) return false;
@@ -247,9 +249,10 @@ bool PassingPolicy::leads(double now_s) const {
   own.agent = name_;
   own.priority = priority_;
   const auto fresh = others(now_s);
-  return std::none_of(fresh.begin(), fresh.end(), [&](const PassingIntent& other) {
-    return other.calls && outranks(other, own);
-  });
+  const bool is_outranked =
+      std::any_of(fresh.begin(), fresh.end(),
+                  [&](const PassingIntent& other) { return other.calls && outranks(other, own); });
+  return !fresh.empty() && !is_outranked;
 }
 
 void PassingPolicy::lead(const PassingSituation& situation, const PlanningScene& scene) {
