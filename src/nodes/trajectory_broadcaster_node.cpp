@@ -43,9 +43,9 @@ constexpr double kTrackerWait_s = 1.0;  // for the word of a tracker that may no
 ///
 /// Restarts: the tracker drives on what a former epoch promised. So this node first of all promises
 /// what the latched `driven_trajectory` says, under the same number; its lease stays the
-/// replanner's to renew. Until it has heard that (or a second is over and there is no tracker) it
-/// neither hears its peers nor says anything, as if it were still dead; only an emergency motion of
-/// its replanner is binding at once, as ever.
+/// replanner's to renew. Until it has heard that, or a second is over without a tracker, this node
+/// takes no message of its peers and sends none. An emergency motion of its replanner is binding at
+/// once even then.
 class TrajectoryBroadcasterNode {
  public:
   TrajectoryBroadcasterNode(ros::NodeHandle& node, const ParameterTable& values)

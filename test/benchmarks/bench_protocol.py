@@ -1,6 +1,6 @@
 """The commitment protocol, proved by machine: all that can happen to two and three robots, within the harm that each scenario allows.
 
-The real protocol runs in steps of 1/16 s: delta_dc is one of them, heartbeats are two apart, and who is silent for four is out of reach. Breadth first,
+The real protocol runs in steps of 1/16 s: delta_dc is one step, heartbeats are two steps apart, and a robot that is silent for four is out of reach. Breadth first,
 every order of proposing, sending, loss, delay, duplication, falling out of reach, restart and braking is tried. In all states, what settles
 meets no motion that it must not meet (safety), and where nothing more goes wrong, proposals are settled or outdone, and somebody wins
 (liveness). scripts/test does the same with less harm. A million states take a third of a gigabyte.
@@ -43,4 +43,4 @@ def run(options):
     summary = summarise(rows)
     print(f"\n{summary['states']} states, {summary['transitions']} transitions, {summary['violations']} violations")
     benchmark.write({"rows": rows, "summary": summary}, options.json)
-    return 0
+    return 1 if summary["violations"] else 0

@@ -28,7 +28,9 @@ namespace mocha {
 /// until then: a fleet of N robots that all plan anew sends N heartbeats more in that time, not
 /// N^2. Emergency motions bind at once.
 ///
-/// All that can happen to two and three robots, within bounds, has been tried: test/fleet/model.
+/// A model checker tries all that can happen to two and three robots within bounds, room to brake
+/// aside: test/fleet/model.
+///
 /// Why two motions a and b that meet never both settle while their robots A and B are in reach of
 /// each other, whatever is lost, late or out of order: suppose they did. When A endorsed b, A had
 /// not promised a, nor was a pending (A would have withdrawn a, or not endorsed b). So A proposed a

@@ -17,8 +17,8 @@ Scenario three_cross(const Harm& harm);
 /// Two robots that want to cross while they may fall out of reach of each other.
 Scenario out_of_reach(const Harm& harm);
 
-/// The first robot proposes where to drive on past the crossing, before or after its first motion is
-/// settled; the second one wants to cross, and they may fall out of reach of each other.
+/// The first robot proposes where to drive on past the crossing, before or after its first motion
+/// is settled; the second one wants to cross, and they may fall out of reach of each other.
 Scenario one_changes_its_mind(const Harm& harm);
 
 /// The first robot drives as its broadcaster is started anew, and then drives on; the second wants
