@@ -282,7 +282,9 @@ void PassingPolicy::lead(const PassingSituation& situation, const PlanningScene&
   number_ = std::max(number_ + 1, static_cast<std::uint32_t>(std::fmod(situation.now_s, 1e9)));
   led_ = Led{{name_, 0, number_}, {}, {}, situation.now_s};
   const double apart_m = radius_m + distance_to_peers_m(robot_) + kSpare_m;
-  const auto group = order_group(*scene.static_map, std::move(blocked), members, {travel_, apart_m},
+  const auto unseen = scene.unseen ? scene.unseen() : nullptr;
+  const auto group = order_group({*scene.static_map, std::move(blocked), unseen.get()}, members,
+                                 {travel_, apart_m},
                                  {robot_.limits.max_speed, robot_.limits.max_acceleration,
                                   robot_.limits.max_yaw_rate, kHandover_s});
   if (!group) return;

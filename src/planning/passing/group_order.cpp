@@ -13,9 +13,9 @@ constexpr int kMoreSteps = 10000;    // the same, for quicker ones
 
 class Grouping {
  public:
-  Grouping(const StaticMap& static_map, std::vector<BlockedDisc> blocked,
+  Grouping(const PassingGround& ground, const Eigen::AlignedBox2d& window,
            const std::vector<PassingMember>& members, const PlaceGraphOptions& options,
-           const PassingPace& pace, const Eigen::AlignedBox2d& window)
+           const PassingPace& pace)
       : members_(members), options_(options), pace_(pace) {
     FixedPlaces fixed;
     for (const PassingMember& member : members) {
@@ -24,7 +24,7 @@ class Grouping {
     }
     for (const PassingMember& member : members)
       problem_.starts.push_back(start_number_of(member.place, fixed));
-    problem_.graph = make_place_graph(static_map, window, std::move(blocked), fixed, options);
+    problem_.graph = make_place_graph(ground, window, fixed, options);
     give_up_what_is_out_of_reach();
   }
 
@@ -116,32 +116,45 @@ class Grouping {
   PassingProblem problem_;
 };
 
+Eigen::AlignedBox2d around(const std::vector<PassingMember>& members) {
+  Eigen::AlignedBox2d box(members.front().place);
+  for (const PassingMember& member : members) {
+    box.extend(member.place);
+    if (member.goal) box.extend(*member.goal);
+  }
+  box.extend(box.min() - Vector2::Constant(kAround_m));
+  box.extend(box.max() + Vector2::Constant(kAround_m));
+  return box;
+}
+
+bool all_get_there(const GroupOrder& order, const std::vector<PassingMember>& members) {
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (members[i].goal && !order.gets_there[i]) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
-std::optional<GroupOrder> order_group(const StaticMap& static_map, std::vector<BlockedDisc> blocked,
+std::optional<GroupOrder> order_group(const PassingGround& ground,
                                       const std::vector<PassingMember>& members,
                                       const PlaceGraphOptions& options, const PassingPace& pace,
                                       const std::function<bool()>& should_stop) {
   if (members.empty() || static_cast<int>(members.size()) > JointStep::kMostRobots)
     return std::nullopt;
-  Eigen::AlignedBox2d near(members.front().place);
-  for (const PassingMember& member : members) {
-    near.extend(member.place);
-    if (member.goal) near.extend(*member.goal);
+  const PassingGround unseen_too{ground.static_map, ground.blocked};
+  const Eigen::AlignedBox2d& everywhere = ground.static_map.bounds();
+  const Eigen::AlignedBox2d near = around(members);
+  std::vector<std::pair<const PassingGround*, Eigen::AlignedBox2d>> attempts = {{&ground, near}};
+  if (!near.contains(everywhere)) attempts.emplace_back(&ground, everywhere);
+  if (ground.unseen != nullptr) attempts.emplace_back(&unseen_too, everywhere);
+  std::optional<GroupOrder> best;
+  for (const auto& [where, window] : attempts) {
+    auto order = Grouping(*where, window, members, options, pace).order(should_stop);
+    if (order && all_get_there(*order, members)) return order;
+    if (order && !best) best = std::move(order);
   }
-  near.extend(near.min() - Vector2::Constant(kAround_m));
-  near.extend(near.max() + Vector2::Constant(kAround_m));
-  auto order = Grouping(static_map, blocked, members, options, pace, near).order(should_stop);
-  const auto all_get_there = [&] {
-    for (std::size_t i = 0; i < members.size(); ++i) {
-      if (members[i].goal && !order->gets_there[i]) return false;
-    }
-    return true;
-  };
-  if ((order && all_get_there()) || near.contains(static_map.bounds())) return order;
-  auto farther =
-      Grouping(static_map, blocked, members, options, pace, static_map.bounds()).order(should_stop);
-  return farther ? farther : order;
+  return best;
 }
 
 }  // namespace mocha

@@ -24,12 +24,13 @@ struct GroupOrder {
 };
 
 /// In which order a group passes, the quickest of some; the members highest rank first. Where not
-/// all can get to their goals, those of the lowest rank give theirs up, and make room. Where
-/// `blocked`, nobody can go; `static_map` must live as long as the call. Nothing where not even the
-/// first can get to its goal, there are more than JointStep::kMostRobots, or it was stopped.
+/// all can get to their goals, those of the lowest rank give theirs up, and make room. Robots make
+/// room near by if that suffices, and on ground that was not seen only if nothing else does. What
+/// `ground` refers to must live as long as the call. Nothing where not even the first can get to
+/// its goal, there are more than JointStep::kMostRobots, or it was stopped.
 std::optional<GroupOrder> order_group(
-    const StaticMap& static_map, std::vector<BlockedDisc> blocked,
-    const std::vector<PassingMember>& members, const PlaceGraphOptions& options,
-    const PassingPace& pace, const std::function<bool()>& should_stop = [] { return false; });
+    const PassingGround& ground, const std::vector<PassingMember>& members,
+    const PlaceGraphOptions& options, const PassingPace& pace,
+    const std::function<bool()>& should_stop = [] { return false; });
 
 }  // namespace mocha

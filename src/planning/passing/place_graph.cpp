@@ -31,11 +31,13 @@ using Paths = std::map<std::pair<int, int>, std::vector<Vector2>>;  // by their 
 /// The lattice within a window, and how far each of its nodes is from the nearest of some places.
 class Surroundings {
  public:
-  Surroundings(const StaticMap& static_map, const Eigen::AlignedBox2d& window,
-               std::vector<BlockedDisc> blocked, const PlaceGraphOptions& options)
+  Surroundings(const PassingGround& ground, const Eigen::AlignedBox2d& window,
+               const PlaceGraphOptions& options)
       : window_(window),
-        lattice_(static_map, options.lattice_m),
-        cost_(static_map, kFarAway, std::move(blocked), without_escape(options.travel)) {}
+        lattice_(ground.static_map, options.lattice_m),
+        cost_(ground.static_map, kFarAway, ground.blocked, without_escape(options.travel)),
+        unseen_(ground.unseen),
+        from_unseen_m_(options.travel.required_clearance_m) {}
 
   /// Grows from all places at once, as far as `most_m`; what they reach is nearest to the place
   /// `owner`.
@@ -57,11 +59,13 @@ class Surroundings {
     }
   }
 
-  /// All that was reached.
-  std::vector<Vector2> reached() const {
+  /// All that was reached of the ground that was seen: behind a wall of which only the other side
+  /// is known, there is more of it.
+  std::vector<Vector2> reached_and_seen() const {
     std::vector<Vector2> found;
     for (int node = 0; node < static_cast<int>(lattice_.size()); ++node) {
-      if (owner_[node] >= 0) found.push_back(lattice_.position(node));
+      const Vector2 place = lattice_.position(node);
+      if (owner_[node] >= 0 && is_seen(place)) found.push_back(place);
     }
     return found;
   }
@@ -130,6 +134,10 @@ class Surroundings {
     return window_.contains(place) && cost_.at(place) < kInfinity;
   }
 
+  bool is_seen(const Vector2& place) const {
+    return unseen_ == nullptr || unseen_->distance_bound(place) >= from_unseen_m_;
+  }
+
   bool joined(int a, int b) const {
     return is_free(b) && cost_.of_line(lattice_.position(a), lattice_.position(b)) < kInfinity;
   }
@@ -164,6 +172,8 @@ class Surroundings {
   const Eigen::AlignedBox2d window_;
   const Lattice lattice_;
   const TravelCost cost_;
+  const ObstacleField<2>* const unseen_;
+  const double from_unseen_m_;
   std::vector<double> reached_m_;
   std::vector<int> owner_;
   std::vector<int> parent_;  // towards the place; itself beside it
@@ -219,16 +229,15 @@ void add_moves(const Paths& paths, double apart_m, PlaceGraph& graph) {
 
 }  // namespace
 
-PlaceGraph make_place_graph(const StaticMap& static_map, const Eigen::AlignedBox2d& window,
-                            std::vector<BlockedDisc> blocked, const FixedPlaces& fixed,
-                            const PlaceGraphOptions& options) {
-  Surroundings surroundings(static_map, window, std::move(blocked), options);
+PlaceGraph make_place_graph(const PassingGround& ground, const Eigen::AlignedBox2d& window,
+                            const FixedPlaces& fixed, const PlaceGraphOptions& options) {
+  Surroundings surroundings(ground, window, options);
   PlaceGraph graph;
   graph.places = fixed.goals;
   graph.places.insert(graph.places.end(), fixed.starts.begin(), fixed.starts.end());
   surroundings.grow(graph.places);
   std::vector<Vector2> lasting = fixed.goals;
-  const std::vector<Vector2> candidates = surroundings.reached();
+  const std::vector<Vector2> candidates = surroundings.reached_and_seen();
   for (const int i : packed(candidates, fixed.goals, options.apart_m)) {
     graph.places.push_back(candidates[i]);
     lasting.push_back(candidates[i]);

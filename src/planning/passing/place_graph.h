@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "topology/static_map/travel_cost.h"
+#include "world/obstacle_field.h"
 
 namespace mocha {
 
@@ -25,6 +26,13 @@ struct PlaceGraph {
   int size() const { return static_cast<int>(places.size()); }
 };
 
+/// Where robots can go, and where they can be sent to.
+struct PassingGround {
+  const StaticMap& static_map;               ///< what was not seen counts as free
+  std::vector<BlockedDisc> blocked;          ///< nobody goes there
+  const ObstacleField<2>* unseen = nullptr;  ///< what was not seen free; null: all was seen
+};
+
 /// How a PlaceGraph is made.
 struct PlaceGraphOptions {
   TravelOptions travel;
@@ -38,15 +46,14 @@ struct FixedPlaces {
   std::vector<Vector2> starts;  ///< robots are there now; others are chosen as if they were not
 };
 
-/// The graph of the free space within `window`, and outside of `blocked` discs, that can be reached
-/// from the fixed places, which are its first places: the goals, then the starts, in this order.
-/// Other places are added as long as they are `apart_m` from all others and the goals; narrow ends
-/// first, so that corridors hold as many as they can. Neighbours are places of which the
-/// surroundings meet; a start has all around it. Robots that are closer than `apart_m` at their
-/// places can still leave each other.
-PlaceGraph make_place_graph(const StaticMap& static_map, const Eigen::AlignedBox2d& window,
-                            std::vector<BlockedDisc> blocked, const FixedPlaces& fixed,
-                            const PlaceGraphOptions& options);
+/// The graph of the free space within `window` that can be reached from the fixed places, which are
+/// its first places: the goals, then the starts, in this order. Other places are added where the
+/// ground was seen, as long as they are `apart_m` from all others and the goals; narrow ends first,
+/// so that corridors hold as many as they can. Neighbours are places of which the surroundings
+/// meet; a start has all around it. Robots that are closer than `apart_m` at their places can still
+/// leave each other.
+PlaceGraph make_place_graph(const PassingGround& ground, const Eigen::AlignedBox2d& window,
+                            const FixedPlaces& fixed, const PlaceGraphOptions& options);
 
 /// How far it is from each place to `goal` along the graph, other robots aside [m]; infinite where
 /// there is no way. Ways are as long there as back.

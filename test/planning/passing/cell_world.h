@@ -114,7 +114,7 @@ inline PassingProblem in_space(const CellPuzzle& puzzle) {
   for (const Vector2& goal : letters_of(puzzle.goals)) problem.goals.push_back(number(goal));
   const auto static_map = static_map_of_cells(puzzle.starts);
   problem.graph =
-      make_place_graph(*static_map, static_map->bounds(), {}, {fixed, {}}, graph_options());
+      make_place_graph({*static_map, {}}, static_map->bounds(), {fixed, {}}, graph_options());
   return problem;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "planning/passing/cell_world.h"
+#include "world/primitive_field.h"
 
 namespace mocha {
 namespace {
@@ -29,7 +30,7 @@ std::vector<PassingMember> members_of(const Rows& starts, const Rows& goals) {
 
 std::optional<GroupOrder> order_in(const Rows& starts, const Rows& goals,
                                    std::vector<BlockedDisc> blocked = {}) {
-  return order_group(*test::static_map_of_cells(starts), std::move(blocked),
+  return order_group({*test::static_map_of_cells(starts), std::move(blocked)},
                      members_of(starts, goals), test::graph_options(), kPace);
 }
 
@@ -95,7 +96,7 @@ TEST(GroupOrder, OnlyTheLowestRankGivesUpWhereTheOthersCanPass) {
   const auto members = members_of(starts, goals);
   auto with_far_goal = members;
   with_far_goal[2].goal = Vector2(0.6, 0.6);  // in the wall
-  const auto group = order_group(*test::static_map_of_cells(starts), {}, with_far_goal,
+  const auto group = order_group({*test::static_map_of_cells(starts), {}}, with_far_goal,
                                  test::graph_options(), kPace);
   ASSERT_TRUE(group);
   EXPECT_EQ(group->gets_there, std::vector<bool>({true, true, false}));
@@ -106,7 +107,7 @@ TEST(GroupOrder, AGoalOutOfReachIsGivenUpWhateverTheRank) {
   auto members = members_of(starts, {"b.a.", "....", "####", "...."});
   members[0].goal = test::centre_of_cell(starts, 3, 1);  // beyond the wall
   const auto group =
-      order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options(), kPace);
+      order_group({*test::static_map_of_cells(starts), {}}, members, test::graph_options(), kPace);
   ASSERT_TRUE(group);
   EXPECT_EQ(group->gets_there, std::vector<bool>({false, true}));
   EXPECT_LT((end_of(*group, 1, members) - *members[1].goal).norm(), 0.03);
@@ -118,14 +119,14 @@ TEST(GroupOrder, OfGoalsThatAreTooNearToEachOtherTheHigherRankGetsItsOwn) {
   for (const double apart_m : {0.0, 0.01, 0.9 * test::kApart_m}) {
     members[0].goal = Vector2(3.0, 0.6);
     members[1].goal = Vector2(3.0 + apart_m, 0.6);
-    const auto group =
-        order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options(), kPace);
+    const auto group = order_group({*test::static_map_of_cells(starts), {}}, members,
+                                   test::graph_options(), kPace);
     ASSERT_TRUE(group);
     EXPECT_EQ(group->gets_there, std::vector<bool>({true, false})) << apart_m;
   }
   members[1].goal = Vector2(3.0 + 1.1 * test::kApart_m, 0.6);
   const auto group =
-      order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options(), kPace);
+      order_group({*test::static_map_of_cells(starts), {}}, members, test::graph_options(), kPace);
   ASSERT_TRUE(group);
   EXPECT_EQ(group->gets_there, std::vector<bool>({true, true}));
 }
@@ -136,7 +137,7 @@ TEST(GroupOrder, WhoCannotStandBesideAHigherRankCostsNoThirdItsGoal) {
   members[0].goal = Vector2(3.0, 1.8);
   members[1].goal = Vector2(3.5, 1.8);
   const auto group =
-      order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options(), kPace);
+      order_group({*test::static_map_of_cells(starts), {}}, members, test::graph_options(), kPace);
   ASSERT_TRUE(group);
   EXPECT_EQ(group->gets_there, std::vector<bool>({true, false, true}));
 }
@@ -162,7 +163,7 @@ TEST(GroupOrder, TheWayThatIsBlockedIsNone) {
   const Rows starts = {"a....", "##.##"};
   const auto members = members_of(starts, {"....a", "##.##"});
   const BlockedDisc disc{test::centre_of_cell(starts, 0, 3), 0.8};
-  const auto group = order_group(*test::static_map_of_cells(starts), {disc}, members,
+  const auto group = order_group({*test::static_map_of_cells(starts), {disc}}, members,
                                  test::graph_options(), kPace);
   if (group) {
     EXPECT_FALSE(group->gets_there[0]);
@@ -183,19 +184,46 @@ TEST(GroupOrder, LooksForRoomFartherAwayWhereThereIsNoneNearBy) {
   EXPECT_LT(farthest_m, 4.0);
 }
 
+/// The siding nearby was not seen; the one far away was.
+TEST(GroupOrder, MakesRoomOnGroundThatWasNotSeenOnlyIfNothingElseDoes) {
+  const Rows starts = {"..ab...........", "##.#########.##"};
+  const Rows goals = {"..ba...........", "##.#########.##"};
+  const auto lowest_of_all = [&](const ObstacleField<2>* unseen, double from_x) {
+    const auto group = order_group({*test::static_map_of_cells(starts), {}, unseen},
+                                   members_of(starts, goals), test::graph_options(), kPace);
+    EXPECT_TRUE(group && group->gets_there == std::vector<bool>({true, true}));
+    double lowest_m = 1e9;
+    for (const auto& turns : group->order) {
+      for (const PassingTurn& turn : turns) {
+        const Vector2& end = turn.path.back();
+        if (end.x() >= from_x) lowest_m = std::min(lowest_m, end.y());
+      }
+    }
+    return lowest_m;
+  };
+  const Circle near_siding{test::centre_of_cell(starts, 1, 2), 0.6};
+  const Circle far_siding{test::centre_of_cell(starts, 1, 12), 0.6};
+  const double below_m = test::centre_of_cell(starts, 0, 0).y() - 0.4;
+  EXPECT_LT(lowest_of_all(nullptr, 0.0), below_m);
+  const PrimitiveField<2> near_unseen({near_siding}, 1.0);
+  EXPECT_LT(lowest_of_all(&near_unseen, 10.0), below_m);
+  const PrimitiveField<2> both_unseen({near_siding, far_siding}, 1.0);
+  EXPECT_LT(lowest_of_all(&both_unseen, 0.0), below_m);
+}
+
 TEST(GroupOrder, NothingForNobodyAndForTooMany) {
   const Rows rows = {"....."};
   const auto static_map = test::static_map_of_cells(rows);
-  EXPECT_FALSE(order_group(*static_map, {}, {}, test::graph_options(), kPace));
+  EXPECT_FALSE(order_group({*static_map, {}}, {}, test::graph_options(), kPace));
   const std::vector<PassingMember> many(JointStep::kMostRobots + 1,
                                         {"a", test::centre_of_cell(rows, 0, 0), std::nullopt});
-  EXPECT_FALSE(order_group(*static_map, {}, many, test::graph_options(), kPace));
+  EXPECT_FALSE(order_group({*static_map, {}}, many, test::graph_options(), kPace));
 }
 
 TEST(GroupOrder, NothingWhereItIsStopped) {
   const Rows starts = {"ab...cd", "###.###"};
   const auto members = members_of(starts, {"cd...ab", "###.###"});
-  EXPECT_FALSE(order_group(*test::static_map_of_cells(starts), {}, members, test::graph_options(),
+  EXPECT_FALSE(order_group({*test::static_map_of_cells(starts), {}}, members, test::graph_options(),
                            kPace, [] { return true; }));
 }
 

@@ -7,6 +7,7 @@
 
 #include "planning/passing/cell_world.h"
 #include "world/obstacle.h"
+#include "world/primitive_field.h"
 
 namespace mocha {
 namespace {
@@ -88,15 +89,31 @@ TEST(PlaceGraph, StaysInsideItsWindow) {
   const auto static_map = test::static_map_of_cells(rows);
   const Eigen::AlignedBox2d window(Vector2(0.0, 0.0), Vector2(3.0, 2.4));
   const PlaceGraph graph =
-      make_place_graph(*static_map, window, {}, {{{0.6, 0.6}}, {}}, test::graph_options());
+      make_place_graph({*static_map, {}}, window, {{{0.6, 0.6}}, {}}, test::graph_options());
   EXPECT_GE(graph.size(), 5);
   for (const Vector2& place : graph.places) EXPECT_TRUE(window.contains(place));
+}
+
+TEST(PlaceGraph, ChoosesNoPlacesWhereTheGroundWasNotSeen) {
+  const std::vector<std::string> rows = {".....", "....."};
+  const auto static_map = test::static_map_of_cells(rows);
+  const Circle hidden{{4.8, 1.2}, 0.6};
+  const PrimitiveField<2> unseen({hidden}, 1.0);
+  const Vector2 goal = hidden.centre;
+  const PlaceGraph graph = make_place_graph({*static_map, {}, &unseen}, static_map->bounds(),
+                                            {{goal}, {{0.6, 0.6}}}, test::graph_options());
+  ASSERT_GE(graph.size(), 6);
+  for (int place = 2; place < graph.size(); ++place) {
+    EXPECT_GE((graph.places[place] - hidden.centre).norm(),
+              hidden.radius_m + test::graph_options().travel.required_clearance_m);
+  }
+  EXPECT_TRUE(std::isfinite(distances_to(graph, 0)[1]));
 }
 
 TEST(PlaceGraph, RobotsThatAreTooCloseCanLeaveEachOther) {
   const std::vector<std::string> rows = {"....."};
   const auto static_map = test::static_map_of_cells(rows);
-  const PlaceGraph graph = make_place_graph(*static_map, static_map->bounds(), {},
+  const PlaceGraph graph = make_place_graph({*static_map, {}}, static_map->bounds(),
                                             {{{2.7, 0.6}, {3.3, 0.6}}, {}}, test::graph_options());
   ASSERT_FALSE(graph.moves[0].empty());
   bool leaves = false;
@@ -113,7 +130,7 @@ TEST(PlaceGraph, AStartKeepsNoPlaceFromBeingChosenBesideIt) {
   const std::vector<std::string> rows = {"......"};
   const auto static_map = test::static_map_of_cells(rows);
   const auto graph_from = [&](const FixedPlaces& fixed) {
-    return make_place_graph(*static_map, static_map->bounds(), {}, fixed, test::graph_options());
+    return make_place_graph({*static_map, {}}, static_map->bounds(), fixed, test::graph_options());
   };
   const Vector2 end(0.6, 0.6);
   const PlaceGraph without = graph_from({{end}, {}});
