@@ -19,8 +19,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSame_m = 1e-3;
-constexpr double kAroundStart = 1.6;  // times what robots keep: the neighbours of a start
-const Vector2 kFarAway(1e6, 1e6);     // no robot leaves a wall or a disc that it is in
+constexpr double kEnoughRoom_m = 0.2;  // beyond what robots have to keep
+constexpr double kNextNode = 1.5;      // times the lattice: also the diagonal ones
+constexpr double kAroundStart = 1.6;   // times what robots keep: the neighbours of a start
+const Vector2 kFarAway(1e6, 1e6);      // no robot leaves a wall or a disc that it is in
 
 /// Nodes by their distance, nearest first.
 using NearestFirst = std::priority_queue<std::pair<double, int>,
@@ -36,8 +38,9 @@ class Surroundings {
       : window_(window),
         lattice_(ground.static_map, options.lattice_m),
         cost_(ground.static_map, kFarAway, ground.blocked, without_escape(options.travel)),
+        walls_(ground.static_map.field()),
         unseen_(ground.unseen),
-        from_unseen_m_(options.travel.required_clearance_m) {}
+        clearance_m_(options.travel.required_clearance_m) {}
 
   /// Grows from all places at once, as far as `most_m`; what they reach is nearest to the place
   /// `owner`.
@@ -59,15 +62,21 @@ class Surroundings {
     }
   }
 
-  /// All that was reached of the ground that was seen: behind a wall of which only the other side
+  /// All that was reached of the ground that was seen. Behind a wall of which only the other side
   /// is known, there is more of it.
   std::vector<Vector2> reached_and_seen() const {
     std::vector<Vector2> found;
     for (int node = 0; node < static_cast<int>(lattice_.size()); ++node) {
       const Vector2 place = lattice_.position(node);
-      if (owner_[node] >= 0 && is_seen(place)) found.push_back(place);
+      if (owner_[node] >= 0 && room_m(place) >= 0.0) found.push_back(place);
     }
     return found;
+  }
+
+  /// How much farther it is from walls, and from what was not seen, than robots have to keep.
+  double room_m(const Vector2& place) const {
+    const double to_unseen_m = unseen_ != nullptr ? unseen_->distance_bound(place) : kInfinity;
+    return std::min(walls_.distance_bound(place), to_unseen_m) - clearance_m_;
   }
 
   /// The shortest path to `place` from the one that the surroundings have grown from; empty where
@@ -134,10 +143,6 @@ class Surroundings {
     return window_.contains(place) && cost_.at(place) < kInfinity;
   }
 
-  bool is_seen(const Vector2& place) const {
-    return unseen_ == nullptr || unseen_->distance_bound(place) >= from_unseen_m_;
-  }
-
   bool joined(int a, int b) const {
     return is_free(b) && cost_.of_line(lattice_.position(a), lattice_.position(b)) < kInfinity;
   }
@@ -172,8 +177,9 @@ class Surroundings {
   const Eigen::AlignedBox2d window_;
   const Lattice lattice_;
   const TravelCost cost_;
+  const ObstacleField<2>& walls_;
   const ObstacleField<2>* const unseen_;
-  const double from_unseen_m_;
+  const double clearance_m_;
   std::vector<double> reached_m_;
   std::vector<int> owner_;
   std::vector<int> parent_;  // towards the place; itself beside it
@@ -227,6 +233,19 @@ void add_moves(const Paths& paths, double apart_m, PlaceGraph& graph) {
   }
 }
 
+/// As many places as there is room for, away from the walls if they can.
+std::vector<Vector2> with_more(std::vector<Vector2> places, const Surroundings& surroundings,
+                               const PlaceGraphOptions& options) {
+  const std::vector<Vector2> candidates = surroundings.reached_and_seen();
+  std::vector<double> room_m;
+  for (const Vector2& place : candidates)
+    room_m.push_back(std::min(surroundings.room_m(place), kEnoughRoom_m));
+  const auto chosen = settled(packed(candidates, places, options.apart_m), candidates, room_m,
+                              places, options.apart_m, kNextNode * options.lattice_m);
+  for (const int i : chosen) places.push_back(candidates[i]);
+  return places;
+}
+
 }  // namespace
 
 PlaceGraph make_place_graph(const PassingGround& ground, const Eigen::AlignedBox2d& window,
@@ -236,12 +255,8 @@ PlaceGraph make_place_graph(const PassingGround& ground, const Eigen::AlignedBox
   graph.places = fixed.goals;
   graph.places.insert(graph.places.end(), fixed.starts.begin(), fixed.starts.end());
   surroundings.grow(graph.places);
-  std::vector<Vector2> lasting = fixed.goals;
-  const std::vector<Vector2> candidates = surroundings.reached_and_seen();
-  for (const int i : packed(candidates, fixed.goals, options.apart_m)) {
-    graph.places.push_back(candidates[i]);
-    lasting.push_back(candidates[i]);
-  }
+  const std::vector<Vector2> lasting = with_more(fixed.goals, surroundings, options);
+  graph.places.insert(graph.places.end(), lasting.begin() + fixed.goals.size(), lasting.end());
   const int goals = static_cast<int>(fixed.goals.size());
   const int starts = static_cast<int>(fixed.starts.size());
   const auto number = [&](int place) { return place < goals ? place : place + starts; };

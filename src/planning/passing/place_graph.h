@@ -48,10 +48,10 @@ struct FixedPlaces {
 
 /// The graph of the free space within `window` that can be reached from the fixed places, which are
 /// its first places: the goals, then the starts, in this order. Other places are added where the
-/// ground was seen, as long as they are `apart_m` from all others and the goals; narrow ends first,
-/// so that corridors hold as many as they can. Neighbours are places of which the surroundings
-/// meet; a start has all around it. Robots that are closer than `apart_m` at their places can still
-/// leave each other.
+/// ground was seen, as long as they are `apart_m` from all others and the goals; away from walls
+/// first, and narrow ends first, so that corridors hold as many as they can. Neighbours are places
+/// of which the surroundings meet; a start has all around it. Robots that are closer than `apart_m`
+/// at their places can still leave each other.
 PlaceGraph make_place_graph(const PassingGround& ground, const Eigen::AlignedBox2d& window,
                             const FixedPlaces& fixed, const PlaceGraphOptions& options);
 

@@ -1,5 +1,6 @@
 #include "planning/passing/place_packing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -8,6 +9,8 @@
 
 namespace mocha {
 namespace {
+
+constexpr int kMostRounds = 20;
 
 /// Points by square cells as wide as the distance that matters.
 class Buckets {
@@ -78,6 +81,34 @@ std::vector<int> packed(const std::vector<Vector2>& candidates, const std::vecto
         fewest_first.erase({rivals[j], j});
         fewest_first.emplace(--rivals[j], j);
       });
+    }
+  }
+  return chosen;
+}
+
+std::vector<int> settled(std::vector<int> chosen, const std::vector<Vector2>& candidates,
+                         const std::vector<double>& room_m, const std::vector<Vector2>& fixed,
+                         double apart_m, double step_m) {
+  Buckets steps(step_m);
+  for (int i = 0; i < static_cast<int>(candidates.size()); ++i) steps.add(i, candidates[i]);
+  const auto keeps_apart = [&](int place, int except) {
+    const auto is_near = [&](const Vector2& other) {
+      return (other - candidates[place]).norm() < apart_m;
+    };
+    return std::none_of(fixed.begin(), fixed.end(), is_near) &&
+           std::none_of(chosen.begin(), chosen.end(),
+                        [&](int other) { return other != except && is_near(candidates[other]); });
+  };
+  bool goes_on = true;
+  for (int round = 0; goes_on && round < kMostRounds; ++round) {
+    goes_on = false;
+    for (int& place : chosen) {
+      int best = place;
+      steps.visit_near(candidates[place], [&](int next) {
+        if (room_m[next] > room_m[best] && keeps_apart(next, place)) best = next;
+      });
+      goes_on = goes_on || best != place;
+      place = best;
     }
   }
   return chosen;

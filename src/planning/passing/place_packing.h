@@ -12,4 +12,10 @@ namespace mocha {
 std::vector<int> packed(const std::vector<Vector2>& candidates, const std::vector<Vector2>& fixed,
                         double apart_m);
 
+/// Moves what was chosen to where there is more `room_m` (of each candidate), each by steps of at
+/// most `step_m` between candidates, as far as all stay `apart_m` from each other and from `fixed`.
+std::vector<int> settled(std::vector<int> chosen, const std::vector<Vector2>& candidates,
+                         const std::vector<double>& room_m, const std::vector<Vector2>& fixed,
+                         double apart_m, double step_m);
+
 }  // namespace mocha

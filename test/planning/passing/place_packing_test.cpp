@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace mocha {
@@ -56,7 +57,29 @@ TEST(PlacePacking, EveryCandidateIsNearAChosenOne) {
   EXPECT_GT(points.size(), 20u);
 }
 
+TEST(PlacePacking, SettlesWhereThereIsRoomWithoutCrowding) {
+  const auto candidates = lattice(4.0, 1.0);  // a corridor, roomiest in its midst
+  std::vector<double> room_m;
+  for (const Vector2& place : candidates) room_m.push_back(0.5 - std::abs(place.y() - 0.5));
+  const std::vector<Vector2> fixed = {{2.0, 0.0}};
+  const std::vector<int> chosen = packed(candidates, fixed, 0.95);
+  const std::vector<int> moved = settled(chosen, candidates, room_m, fixed, 0.95, 0.15);
+  ASSERT_EQ(moved.size(), chosen.size());
+  std::vector<Vector2> points = fixed;
+  double before_m = 0.0;
+  double after_m = 0.0;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    points.push_back(candidates[moved[i]]);
+    before_m += room_m[chosen[i]];
+    after_m += room_m[moved[i]];
+    EXPECT_GE(room_m[moved[i]], room_m[chosen[i]]);
+  }
+  EXPECT_GT(after_m, before_m + 0.3);
+  EXPECT_GE(least_gap_m(points), 0.95);
+}
+
 TEST(PlacePacking, NothingToChooseFrom) {
+  EXPECT_TRUE(settled({}, {}, {}, {}, 1.0, 0.1).empty());
   EXPECT_TRUE(packed({}, {}, 1.0).empty());
   EXPECT_TRUE(packed({{0.0, 0.0}, {0.3, 0.0}}, {{0.1, 0.0}}, 1.0).empty());
 }
