@@ -25,6 +25,13 @@ Motion postponed(const Motion& committed, const Motion& plan, double now_s, doub
   return splice(committed, now_s, join_s, later) ? later : plan;
 }
 
+/// How long it still turns in place before it drives [s]. Others can do with more of what follows:
+/// whoever waits for it to drive on need not wait for the turn.
+double turns_for_s(const Motion& plan, double now_s) {
+  const double from_s = std::max(now_s, plan.start_time());
+  return plan.switch_time(from_s) - from_s;
+}
+
 }  // namespace
 
 Maneuvers LocalReplanner::maneuvers(const Rung& rung, Step& step) {
@@ -73,17 +80,16 @@ std::optional<Maneuver> LocalReplanner::following(Step& step) {
   if (plan_.empty() || plan_.end_time() <= now_s + options_.settle_s) return std::nullopt;
   const double reach_s = committed_source_.follows_until_s;
   const double every_s = step.situation == Situation::kHolds ? options_.extend_every_s : 0.0;
-  const bool far_enough =
-      reach_s >= plan_.end_time() - kRounding_s || reach_s > now_s + options_.horizon_s - every_s;
+  const double until_s = now_s + options_.horizon_s + turns_for_s(plan_, now_s);
+  const bool far_enough = reach_s >= plan_.end_time() - kRounding_s || reach_s > until_s - every_s;
   if (same_plan && far_enough) return std::nullopt;
   const double join_s =
       committed.switch_time(std::max(plan_.start_time(), now_s + options_.settle_s));
   const bool waits = !same_plan && committed.at(join_s).at_rest;
   const double least_reach_s = same_plan || waits ? (waits ? join_s : reach_s) + kWorthwhile_s
                                                   : -std::numeric_limits<double>::infinity();
-  return Maneuver{
-      join_s, plan_,          join_s, now_s + options_.horizon_s, least_reach_s, robot.braking(),
-      false,  Follows::kPlan, ""};
+  return Maneuver{join_s,          plan_, join_s,         until_s, least_reach_s,
+                  robot.braking(), false, Follows::kPlan, ""};
 }
 
 Detour::Start LocalReplanner::detour_start(const Step& step) const {
