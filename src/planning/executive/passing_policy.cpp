@@ -15,9 +15,8 @@ namespace mocha {
 namespace {
 
 constexpr double kSayAgain_s = 0.3;
-constexpr double kLapse_s = 1.5;  // of what is not heard any more
-constexpr double kGather_s =
-    0.5;  // from the first call on, until all have said where they are to get
+constexpr double kLapse_s = 1.5;       // of what is not heard any more
+constexpr double kGather_s = 0.5;      // from the first call on, until all have said where to
 constexpr double kMakeAgain_s = 2.0;   // an order that is not kept to
 constexpr double kStuck_s = 6.0;       // it may go on, and does not
 constexpr double kForgotten_s = 40.0;  // it waits, and nobody of the order gets on
