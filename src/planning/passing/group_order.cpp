@@ -3,13 +3,18 @@
 #include <cmath>
 #include <utility>
 
+#include "planning/passing/move_search.h"
+#include "planning/passing/passing_search.h"
+#include "planning/passing/quick_passing.h"
+
 namespace mocha {
 namespace {
 
 constexpr double kAround_m = 8.0;  // of the group, in which it looks for room first
 constexpr double kSamePlace_m = 0.02;
-constexpr int kMostSteps = 1000000;  // of the search, until there is an order
-constexpr int kMoreSteps = 10000;    // the same, for quicker ones
+constexpr int kMostMoves = 500000;    // that the search for the fewest may look at ...
+constexpr int kMostSteps = 300000;    // ... and steps, where that does not suffice
+constexpr int kMostChoices = 100000;  // to find quicker ones
 
 class Grouping {
  public:
@@ -31,17 +36,15 @@ class Grouping {
   /// Gives up goals from the lowest rank on, until the others can be reached.
   std::optional<GroupOrder> order(const std::function<bool()>& should_stop) {
     for (;;) {
-      int left = kMostSteps;
-      const PassingSequence sequence = find_passing(problem_, 0, left, should_stop);
+      PassingSequence sequence = some_sequence(should_stop);
       if (sequence.outcome == PassingSequence::Outcome::kFound)
-        return quickest(order_of(sequence, robots()), should_stop);
+        return group_of(
+            quickened(problem_, std::move(sequence.steps), pace_, kMostChoices, should_stop));
       if (should_stop() || !give_up_lowest()) return std::nullopt;
     }
   }
 
  private:
-  int robots() const { return static_cast<int>(members_.size()); }
-
   /// Of a place that is there, or is added.
   static int number_of(const Vector2& place, std::vector<Vector2>& places) {
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -91,20 +94,14 @@ class Grouping {
     return true;
   }
 
-  /// Of a first order and what other variants of the search find.
-  GroupOrder quickest(PassingOrder order, const std::function<bool()>& should_stop) const {
-    double least_s = duration_s(order, pace_);
-    int left = kMoreSteps;
-    for (std::uint32_t variant = 1; left > 0 && !should_stop(); ++variant, --left) {
-      const PassingSequence other = find_passing(problem_, variant, left, should_stop);
-      if (other.outcome != PassingSequence::Outcome::kFound) continue;
-      PassingOrder other_order = order_of(other, robots());
-      const double other_s = duration_s(other_order, pace_);
-      if (other_s >= least_s) continue;
-      least_s = other_s;
-      order = std::move(other_order);
-    }
-    GroupOrder group{std::move(order), {}};
+  PassingSequence some_sequence(const std::function<bool()>& should_stop) const {
+    PassingSequence best = find_fewest_moves(problem_, kMostMoves, should_stop);
+    if (best.outcome != PassingSequence::Outcome::kStopped) return best;
+    return find_passing(problem_, kMostSteps, should_stop);
+  }
+
+  GroupOrder group_of(const std::vector<JointStep>& sequence) const {
+    GroupOrder group{order_of(sequence, problem_.robots()), {}};
     for (std::size_t i = 0; i < members_.size(); ++i)
       group.gets_there.push_back(members_[i].goal && has_goal(i));
     return group;

@@ -15,14 +15,13 @@ bool blocks(const PlaceMove* move, int place) {
 }  // namespace
 
 JointStep::JointStep(const PlaceGraph& graph, const Placing& from)
-    : graph_(&graph),
-      from_(from),
-      to_(from),
-      moves_(from.size(), nullptr),
-      before_(from.size(), 0) {
-  if (robots() <= kMostRobots) return;
-  throw std::invalid_argument("JointStep: " + std::to_string(robots()) + " robots, allowed are " +
-                              std::to_string(kMostRobots));
+    : graph_(&graph), robots_(static_cast<int>(from.size())) {
+  if (robots() > kMostRobots) {
+    throw std::invalid_argument("JointStep: " + std::to_string(robots()) + " robots, allowed are " +
+                                std::to_string(kMostRobots));
+  }
+  std::copy(from.begin(), from.end(), from_.begin());
+  std::copy(from.begin(), from.end(), to_.begin());
 }
 
 /// The first goes while the second is where it was; then that goes, past where the first is.
@@ -31,7 +30,7 @@ bool JointStep::may_precede(int first, int second) const {
 }
 
 bool JointStep::choose(int robot, const PlaceMove* move) {
-  const std::vector<Robots> before = before_;
+  const auto before = before_;
   moves_[robot] = move;
   to_[robot] = move != nullptr ? move->to : from_[robot];
   bool possible = true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -24,13 +25,13 @@ class JointStep {
   bool choose(int robot, const PlaceMove* move);
   bool is_chosen(int robot) const { return chosen_ >> robot & 1U; }
 
-  int robots() const { return static_cast<int>(from_.size()); }
+  int robots() const { return robots_; }
   int from(int robot) const { return from_[robot]; }
   /// The move chosen for a robot; null where it stays.
   const PlaceMove* move(int robot) const { return moves_[robot]; }
   /// Where a robot is after its move; where it is now while none is chosen.
   int to(int robot) const { return to_[robot]; }
-  const Placing& placing() const { return to_; }
+  Placing placing() const { return {to_.begin(), to_.begin() + robots_}; }
   /// Robots that stand in the way of a move, other than `robot`.
   std::vector<int> in_the_way(int robot, const PlaceMove& move) const;
   /// The robots that move, in a possible order.
@@ -45,10 +46,12 @@ class JointStep {
   bool leads_back(int robot) const;
 
   const PlaceGraph* graph_;
-  Placing from_;
-  Placing to_;
-  std::vector<const PlaceMove*> moves_;
-  std::vector<Robots> before_;  // of each: who has to go after it
+  // Steps are copied by the million.
+  int robots_;
+  std::array<int, kMostRobots> from_;
+  std::array<int, kMostRobots> to_;
+  std::array<const PlaceMove*, kMostRobots> moves_{};
+  std::array<Robots, kMostRobots> before_{};  // of each: who has to go after it
   Robots chosen_ = 0;
 };
 

@@ -22,10 +22,10 @@ bool has_to_follow(const Made& later, const Made& earlier) {
 
 }  // namespace
 
-PassingOrder order_of(const PassingSequence& sequence, int robots) {
+PassingOrder order_of(const std::vector<JointStep>& steps, int robots) {
   PassingOrder order(robots);
   std::vector<std::vector<Made>> made(robots);
-  for (const JointStep& step : sequence.steps) {
+  for (const JointStep& step : steps) {
     for (const int robot : step.order()) {
       const Made next{step.move(robot), step.from(robot)};
       PassingTurn turn{next.move->path, {}};

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fleet/protocol/passing_messages.h"
-#include "planning/passing/passing_search.h"
+#include "planning/passing/joint_step.h"
 
 namespace mocha {
 
@@ -12,6 +12,6 @@ namespace mocha {
 /// and there is always a next one until all are at their goals.
 using PassingOrder = std::vector<std::vector<PassingTurn>>;
 
-PassingOrder order_of(const PassingSequence& sequence, int robots);
+PassingOrder order_of(const std::vector<JointStep>& steps, int robots);
 
 }  // namespace mocha

@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSame_m = 1e-3;
+constexpr double kSamePlace_m = 0.02;
 constexpr double kEnoughRoom_m = 0.2;  // beyond what robots have to keep
 constexpr double kNextNode = 1.5;      // times the lattice: also the diagonal ones
 constexpr double kAroundStart = 1.6;   // times what robots keep: the neighbours of a start
@@ -233,16 +234,23 @@ void add_moves(const Paths& paths, double apart_m, PlaceGraph& graph) {
   }
 }
 
-/// As many places as there is room for, away from the walls if they can.
-std::vector<Vector2> with_more(std::vector<Vector2> places, const Surroundings& surroundings,
+/// The goals, and as many places as there is room for, away from the walls if they can; where a
+/// robot starts at one of them, that does for both.
+std::vector<Vector2> with_more(const FixedPlaces& fixed, const Surroundings& surroundings,
                                const PlaceGraphOptions& options) {
+  std::vector<Vector2> places = fixed.goals;
   const std::vector<Vector2> candidates = surroundings.reached_and_seen();
   std::vector<double> room_m;
   for (const Vector2& place : candidates)
     room_m.push_back(std::min(surroundings.room_m(place), kEnoughRoom_m));
   const auto chosen = settled(packed(candidates, places, options.apart_m), candidates, room_m,
                               places, options.apart_m, kNextNode * options.lattice_m);
-  for (const int i : chosen) places.push_back(candidates[i]);
+  for (const int i : chosen) {
+    const bool is_start = std::any_of(
+        fixed.starts.begin(), fixed.starts.end(),
+        [&](const Vector2& start) { return (start - candidates[i]).norm() < kSamePlace_m; });
+    if (!is_start) places.push_back(candidates[i]);
+  }
   return places;
 }
 
@@ -255,7 +263,7 @@ PlaceGraph make_place_graph(const PassingGround& ground, const Eigen::AlignedBox
   graph.places = fixed.goals;
   graph.places.insert(graph.places.end(), fixed.starts.begin(), fixed.starts.end());
   surroundings.grow(graph.places);
-  const std::vector<Vector2> lasting = with_more(fixed.goals, surroundings, options);
+  const std::vector<Vector2> lasting = with_more(fixed, surroundings, options);
   graph.places.insert(graph.places.end(), lasting.begin() + fixed.goals.size(), lasting.end());
   const int goals = static_cast<int>(fixed.goals.size());
   const int starts = static_cast<int>(fixed.starts.size());
@@ -270,7 +278,7 @@ PlaceGraph make_place_graph(const PassingGround& ground, const Eigen::AlignedBox
   return graph;
 }
 
-std::vector<double> distances_to(const PlaceGraph& graph, int goal) {
+std::vector<double> distances_to(const PlaceGraph& graph, int goal, double per_move_m) {
   std::vector<double> distances_m(graph.places.size(), kInfinity);
   distances_m[goal] = 0.0;
   NearestFirst queue;
@@ -280,8 +288,9 @@ std::vector<double> distances_to(const PlaceGraph& graph, int goal) {
     queue.pop();
     if (reached_m > distances_m[place]) continue;
     for (const PlaceMove& move : graph.moves[place]) {
-      if (!(reached_m + move.length_m < distances_m[move.to])) continue;
-      distances_m[move.to] = reached_m + move.length_m;
+      const double next_m = reached_m + move.length_m + per_move_m;
+      if (!(next_m < distances_m[move.to])) continue;
+      distances_m[move.to] = next_m;
       queue.emplace(distances_m[move.to], move.to);
     }
   }

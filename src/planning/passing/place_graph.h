@@ -55,8 +55,8 @@ struct FixedPlaces {
 PlaceGraph make_place_graph(const PassingGround& ground, const Eigen::AlignedBox2d& window,
                             const FixedPlaces& fixed, const PlaceGraphOptions& options);
 
-/// How far it is from each place to `goal` along the graph, other robots aside [m]; infinite where
-/// there is no way. Ways are as long there as back.
-std::vector<double> distances_to(const PlaceGraph& graph, int goal);
+/// How far it is from each place to `goal` along the graph, other robots aside [m], where each move
+/// counts as so much longer; infinite where there is no way. Ways are as long there as back.
+std::vector<double> distances_to(const PlaceGraph& graph, int goal, double per_move_m = 0.0);
 
 }  // namespace mocha

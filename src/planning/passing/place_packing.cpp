@@ -11,6 +11,7 @@ namespace mocha {
 namespace {
 
 constexpr int kMostRounds = 20;
+constexpr double kMoreRoom_m = 0.01;  // for which a place moves
 
 /// Points by square cells as wide as the distance that matters.
 class Buckets {
@@ -91,21 +92,28 @@ std::vector<int> settled(std::vector<int> chosen, const std::vector<Vector2>& ca
                          double apart_m, double step_m) {
   Buckets steps(step_m);
   for (int i = 0; i < static_cast<int>(candidates.size()); ++i) steps.add(i, candidates[i]);
-  const auto keeps_apart = [&](int place, int except) {
-    const auto is_near = [&](const Vector2& other) {
-      return (other - candidates[place]).norm() < apart_m;
+  const auto least_room_m = [&](int candidate, int except) {
+    double least_m = room_m[candidate];
+    const auto heed = [&](const Vector2& other) {
+      least_m = std::min(least_m, (other - candidates[candidate]).norm() - apart_m);
     };
-    return std::none_of(fixed.begin(), fixed.end(), is_near) &&
-           std::none_of(chosen.begin(), chosen.end(),
-                        [&](int other) { return other != except && is_near(candidates[other]); });
+    for (const Vector2& other : fixed) heed(other);
+    for (const int other : chosen) {
+      if (other != except) heed(candidates[other]);
+    }
+    return least_m;
   };
   bool goes_on = true;
   for (int round = 0; goes_on && round < kMostRounds; ++round) {
     goes_on = false;
     for (int& place : chosen) {
       int best = place;
+      double most_m = least_room_m(place, place) + kMoreRoom_m;
       steps.visit_near(candidates[place], [&](int next) {
-        if (room_m[next] > room_m[best] && keeps_apart(next, place)) best = next;
+        const double next_m = least_room_m(next, place);
+        if (!(next_m > most_m)) return;
+        most_m = next_m;
+        best = next;
       });
       goes_on = goes_on || best != place;
       place = best;

@@ -12,8 +12,9 @@ namespace mocha {
 std::vector<int> packed(const std::vector<Vector2>& candidates, const std::vector<Vector2>& fixed,
                         double apart_m);
 
-/// Moves what was chosen to where there is more `room_m` (of each candidate), each by steps of at
-/// most `step_m` between candidates, as far as all stay `apart_m` from each other and from `fixed`.
+/// Moves what was chosen to where there is more room, each by steps of at most `step_m` between
+/// candidates: to walls, as `room_m` says of each candidate, and beyond `apart_m` to each other and
+/// to `fixed`, whichever is less.
 std::vector<int> settled(std::vector<int> chosen, const std::vector<Vector2>& candidates,
                          const std::vector<double>& room_m, const std::vector<Vector2>& fixed,
                          double apart_m, double step_m);

@@ -6,11 +6,6 @@
 namespace mocha {
 namespace {
 
-/// Some order of the numbers, another one in each variant.
-std::uint32_t mixed(std::uint32_t number, std::uint32_t variant) {
-  return (number + 1) * (2654435761U + 2 * variant * 40503U) ^ (variant * 2246822519U);
-}
-
 constexpr int kMostTries = 400;  // of one step; robots that push each other about in vain
 
 }  // namespace
@@ -35,8 +30,7 @@ std::vector<const PlaceMove*> StepSearch::choices(int robot, const Placing& from
   const auto rank = [&](const PlaceMove* move) {
     const int there = move != nullptr ? move->to : here;
     const bool taken = move != nullptr && std::count(from.begin(), from.end(), there) > 0;
-    const auto tie = variant_ == 0 ? static_cast<std::uint32_t>(there) : mixed(there, variant_);
-    return std::make_tuple(to_goal_m(robot, there), taken, move != nullptr, tie);
+    return std::make_tuple(distances_m_(robot, there), taken, move != nullptr, there);
   };
   std::sort(choices.begin(), choices.end(),
             [&](const PlaceMove* a, const PlaceMove* b) { return rank(a) < rank(b); });

@@ -120,9 +120,9 @@ inline PassingProblem in_space(const CellPuzzle& puzzle) {
 
 /// With so many steps of the search.
 inline PassingSequence solved(
-    const PassingProblem& problem, int left = 1000000,
+    const PassingProblem& problem, int most_steps = 1000000,
     const std::function<bool()>& should_stop = [] { return false; }) {
-  return find_passing(problem, 0, left, should_stop);
+  return find_passing(problem, most_steps, should_stop);
 }
 
 inline const std::vector<CellPuzzle>& puzzles() {

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
 #include "planning/passing/cell_world.h"
+#include "world/obstacle.h"
 #include "world/primitive_field.h"
 
 namespace mocha {
@@ -62,6 +66,59 @@ TEST(GroupOrder, LeadsAllToTheirGoalsWhereThatIsPossible) {
     }
   }
   EXPECT_GE(possible, 3);
+}
+
+/// How near a way comes to a place.
+double gap_m(const std::vector<Vector2>& path, const Vector2& place) {
+  double least_m = (path.front() - place).norm();
+  for (std::size_t i = 1; i < path.size(); ++i)
+    least_m = std::min(least_m, (nearest_on_segment(place, path[i - 1], path[i]) - place).norm());
+  return least_m;
+}
+
+bool may_begin(const PassingTurn& turn, const std::vector<std::size_t>& made) {
+  return std::all_of(turn.after.begin(), turn.after.end(), [&](const PassingProgress& progress) {
+    return made[progress.robot] >= progress.moves;
+  });
+}
+
+/// Makes the moves one by one, whichever the order allows, drawn by lot; each has to keep away from
+/// where the others are. Returns where all are in the end.
+std::vector<Vector2> drive(const PassingOrder& order, std::vector<Vector2> places, int seed) {
+  std::mt19937 random(seed);
+  std::vector<std::size_t> made(order.size(), 0);
+  for (;;) {
+    std::vector<std::size_t> next;
+    for (std::size_t robot = 0; robot < order.size(); ++robot) {
+      const bool is_through = made[robot] == order[robot].size();
+      if (!is_through && may_begin(order[robot][made[robot]], made)) next.push_back(robot);
+    }
+    if (next.empty()) return places;
+    const std::size_t robot = next[random() % next.size()];
+    const std::vector<Vector2>& path = order[robot][made[robot]++].path;
+    EXPECT_LT((path.front() - places[robot]).norm(), 0.03);
+    for (std::size_t other = 0; other < order.size(); ++other) {
+      if (other == robot) continue;
+      const double apart_m = std::min(test::kApart_m, (places[other] - path.front()).norm());
+      EXPECT_GE(gap_m(path, places[other]), apart_m - 0.03);
+    }
+    places[robot] = path.back();
+  }
+}
+
+/// They are too many for the search for the fewest moves.
+TEST(GroupOrder, LeadsTenToTheirGoals) {
+  const Rows starts = {"abcde", ".....", "fghij"};
+  const Rows goals = {"jihgf", ".....", "edcba"};
+  const auto members = members_of(starts, goals);
+  const auto group = order_in(starts, goals);
+  ASSERT_TRUE(group);
+  EXPECT_EQ(group->gets_there, std::vector<bool>(10, true));
+  for (int seed = 0; seed < 20; ++seed) {
+    const auto ends = drive(group->order, test::letters_of(starts), seed);
+    for (std::size_t i = 0; i < members.size(); ++i)
+      EXPECT_LT((ends[i] - *members[i].goal).norm(), 0.03) << members[i].name;
+  }
 }
 
 TEST(GroupOrder, WhoHasNoGoalMakesRoom) {

@@ -64,7 +64,7 @@ TEST(PassingOrder, LeadsToTheGoalsInWhateverOrderItAllows) {
     const PassingProblem problem = test::in_space(puzzle);
     const PassingSequence sequence = test::solved(problem);
     if (sequence.outcome != PassingSequence::Outcome::kFound) continue;
-    const PassingOrder order = order_of(sequence, static_cast<int>(problem.starts.size()));
+    const PassingOrder order = order_of(sequence.steps, static_cast<int>(problem.starts.size()));
     for (int seed = 0; seed < 50; ++seed) drive(problem, order, seed);
     for (const auto& turns : order) {
       for (const PassingTurn& turn : turns) waits += static_cast<int>(turn.after.size());
@@ -76,7 +76,7 @@ TEST(PassingOrder, LeadsToTheGoalsInWhateverOrderItAllows) {
 TEST(PassingOrder, RobotsThatDoNotMeetDoNotWait) {
   const PassingProblem problem =
       test::in_space({"apart", {"a..", "###", "b.."}, {"..a", "###", "..b"}});
-  const PassingOrder order = order_of(test::solved(problem), 2);
+  const PassingOrder order = order_of(test::solved(problem).steps, 2);
   for (const auto& turns : order) {
     EXPECT_GE(turns.size(), 2u);
     for (const PassingTurn& turn : turns) EXPECT_TRUE(turn.after.empty());

@@ -110,6 +110,24 @@ TEST(PlaceGraph, ChoosesNoPlacesWhereTheGroundWasNotSeen) {
   EXPECT_TRUE(std::isfinite(distances_to(graph, 0)[1]));
 }
 
+TEST(PlaceGraph, WhoStartsAtAPlaceIsThereAlready) {
+  const std::vector<std::string> rows = {".....", "....."};
+  const auto static_map = test::static_map_of_cells(rows);
+  const auto graph_from = [&](const std::vector<Vector2>& starts) {
+    return make_place_graph({*static_map, {}}, static_map->bounds(), {{{0.6, 0.6}}, starts},
+                            test::graph_options());
+  };
+  const PlaceGraph before = graph_from({});
+  const PlaceGraph graph = graph_from({before.places.back()});
+  EXPECT_EQ(graph.size(), before.size());
+  for (const auto& moves : graph.moves) {
+    for (const PlaceMove& move : moves) {
+      EXPECT_GE(move.path.size(), 2u);
+      EXPECT_GT(move.length_m, 0.1);
+    }
+  }
+}
+
 TEST(PlaceGraph, RobotsThatAreTooCloseCanLeaveEachOther) {
   const std::vector<std::string> rows = {"....."};
   const auto static_map = test::static_map_of_cells(rows);
@@ -136,7 +154,7 @@ TEST(PlaceGraph, AStartKeepsNoPlaceFromBeingChosenBesideIt) {
   const PlaceGraph without = graph_from({{end}, {}});
   for (double x = 1.2; x < 6.0; x += 0.13) {
     const PlaceGraph graph = graph_from({{end}, {{x, 0.6}}});
-    EXPECT_EQ(graph.size(), without.size() + 1) << x;
+    EXPECT_NEAR(graph.size(), without.size() + 0.5, 0.5) << x;  // the same where it starts at one
     EXPECT_EQ(graph.places[1], Vector2(x, 0.6));
     EXPECT_GE(graph.moves[1].size(), 2u) << x;  // to both sides
     for (const double distance_m : distances_to(graph, 1)) EXPECT_TRUE(std::isfinite(distance_m));

@@ -1,0 +1,113 @@
+#include "planning/passing/move_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+namespace mocha {
+namespace {
+
+constexpr double kPerMove_m = 1.0;  // what it costs to begin and to end a move, as a distance
+
+struct Node {
+  Placing placing;
+  int parent;
+  int robot;              // that has moved
+  const PlaceMove* move;  // and how
+  double cost_m;
+};
+
+class Search {
+ public:
+  explicit Search(const PassingProblem& problem)
+      : problem_(problem), distances_m_(problem, kPerMove_m) {}
+
+  PassingSequence run(int left, const std::function<bool()>& should_stop) {
+    add({problem_.starts, -1, -1, nullptr, 0.0});
+    while (!queue_.empty()) {
+      const auto [least_m, unused, number] = queue_.top();
+      queue_.pop();
+      if (best_m_.at(nodes_[number].placing) < nodes_[number].cost_m) continue;
+      if (is_solved(nodes_[number].placing)) return {Outcome::kFound, steps_to(number)};
+      if (should_stop()) return {Outcome::kStopped, {}};
+      for (int robot = 0; robot < problem_.robots(); ++robot) {
+        for (const PlaceMove& move : problem_.graph.moves[nodes_[number].placing[robot]]) {
+          if (--left < 0) return {Outcome::kStopped, {}};
+          if (is_free(nodes_[number].placing, robot, move)) make(number, robot, move);
+        }
+      }
+    }
+    return {Outcome::kImpossible, {}};
+  }
+
+ private:
+  using Outcome = PassingSequence::Outcome;
+  using Entry = std::tuple<double, int, int>;  // costs at least; newest first; the node
+
+  bool is_solved(const Placing& placing) const {
+    for (int robot = 0; robot < problem_.robots(); ++robot) {
+      if (!problem_.is_at_goal(robot, placing[robot])) return false;
+    }
+    return true;
+  }
+
+  static bool is_free(const Placing& placing, int robot, const PlaceMove& move) {
+    for (int other = 0; other < static_cast<int>(placing.size()); ++other) {
+      const bool blocks =
+          std::binary_search(move.blocked_by.begin(), move.blocked_by.end(), placing[other]);
+      if (other != robot && blocks) return false;
+    }
+    return true;
+  }
+
+  void make(int from, int robot, const PlaceMove& move) {
+    Node next{nodes_[from].placing, from, robot, &move,
+              nodes_[from].cost_m + move.length_m + kPerMove_m};
+    next.placing[robot] = move.to;
+    add(std::move(next));
+  }
+
+  void add(Node node) {
+    double least_m = node.cost_m;
+    for (int robot = 0; robot < problem_.robots(); ++robot)
+      least_m += distances_m_(robot, node.placing[robot]);
+    if (!std::isfinite(least_m)) return;
+    const auto [known, is_new] = best_m_.emplace(node.placing, node.cost_m);
+    if (!is_new && known->second <= node.cost_m) return;
+    known->second = node.cost_m;
+    const int number = static_cast<int>(nodes_.size());
+    queue_.emplace(least_m, -number, number);
+    nodes_.push_back(std::move(node));
+  }
+
+  std::vector<JointStep> steps_to(int goal) const {
+    std::vector<JointStep> steps;
+    for (int node = goal; nodes_[node].parent >= 0; node = nodes_[node].parent) {
+      JointStep step(problem_.graph, nodes_[nodes_[node].parent].placing);
+      for (int robot = 0; robot < problem_.robots(); ++robot)
+        step.choose(robot, robot == nodes_[node].robot ? nodes_[node].move : nullptr);
+      steps.push_back(step);
+    }
+    std::reverse(steps.begin(), steps.end());
+    return steps;
+  }
+
+  const PassingProblem& problem_;
+  const GoalDistances distances_m_;
+  std::vector<Node> nodes_;
+  std::map<Placing, double> best_m_;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+};
+
+}  // namespace
+
+PassingSequence find_fewest_moves(const PassingProblem& problem, int most_moves,
+                                  const std::function<bool()>& should_stop) {
+  validate(problem);
+  return Search(problem).run(most_moves, should_stop);
+}
+
+}  // namespace mocha
