@@ -225,7 +225,7 @@ class GlobalPlannerNode {
     }
     for (const PassingMessage& message : output.messages) passing_.send(message, now_);
     finish(output.ending);
-    if (output.plan) outputs_.adopt(*output.plan, now_);
+    if (output.plan) outputs_.adopt(*output.plan, now_, output.kind);
   }
 
   void finish(GoalExecutive::Ending ending) {

@@ -70,7 +70,9 @@ class LocalReplannerNode {
  private:
   void on_plan(const mocha_ugv::Trajectory& message) {
     try {
-      replanning_.set_plan(message.phases.empty() ? Motion() : from_message(message));
+      const bool in_turn = message.state == mocha_ugv::Trajectory::IN_TURN;
+      replanning_.set_plan(message.phases.empty() ? Motion() : from_message(message),
+                           in_turn ? PlanKind::kInTurn : PlanKind::kFree);
       if (replanning_.step_is_due()) step(ros::Time::now());
     } catch (const std::exception& error) {
       refuse("global_trajectory", error.what());

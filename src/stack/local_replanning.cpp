@@ -30,9 +30,9 @@ LocalReplanning::LocalReplanning(const RobotModel& robot, const ParameterTable& 
       replanner_(robot, LocalReplannerOptions::from(values, robot), LocalOptions::from(values),
                  watch) {}
 
-void LocalReplanning::set_plan(Motion plan) {
+void LocalReplanning::set_plan(Motion plan, PlanKind kind) {
   if (plan.empty()) step_is_due_ = true;
-  replanner_.set_plan(std::move(plan));
+  replanner_.set_plan(std::move(plan), kind);
 }
 
 void LocalReplanning::set_committed(const MotionId& id, Motion motion) {

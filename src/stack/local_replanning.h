@@ -76,7 +76,7 @@ class LocalReplanning {
       const LocalPlanner::Watch& watch = [](LocalStage) {});
 
   /// As LocalReplanner::set_plan(); where there is nothing to drive to, a step is due at once.
-  void set_plan(Motion plan);
+  void set_plan(Motion plan, PlanKind kind = PlanKind::kFree);
   void set_committed(const MotionId& id, Motion motion);
   void hear(const Answer& answer);
 

@@ -114,7 +114,7 @@ RobotStack::Messages RobotStack::pursue(double now_s, const RobotState& measured
   pursued_ = planning_.step(now_s, measured, committed(), [&](const std::vector<Vector2>&) {
     return PlanningScene{scene.static_map, peers_, scene.unseen};
   });
-  if (pursued_.plan) replanning_.set_plan(*pursued_.plan);
+  if (pursued_.plan) replanning_.set_plan(*pursued_.plan, pursued_.kind);
   Messages messages;
   for (const PassingMessage& message : pursued_.messages) {
     std::visit([&](const auto& each) { messages.emplace_back(of_epoch(each, protocol_.epoch())); },

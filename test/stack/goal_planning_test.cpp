@@ -152,7 +152,10 @@ TEST_F(GoalPlanningTest, TakesNewOptions) {
   values.assign(YAML::Load("{goal_search_radius: 0.0}"), "test");
   OccupancyGrid grid = free_grid({-2.0, -3.0}, {12.0, 3.0});
   fill_box(grid, {1.15, -0.1}, {1.35, 0.1});
-  const PlanQuery query{kNow_s, standing_, {1.1, 0.0}, {}, {}};  // near, where the radius counts
+  PlanQuery query;
+  query.start_time_s = kNow_s;
+  query.committed = standing_;
+  query.goal = {1.1, 0.0};  // near, where the radius counts
   const SceneSource scene = [&](const auto&) { return PlanningScene{static_map_of(grid), {}}; };
   const auto go_on = [] { return false; };
   EXPECT_EQ(planning_.work_on(query, scene)(go_on).reason, PlanReason::kSolved);

@@ -20,6 +20,8 @@ PassingInstruction fitting_part(const PassingInstruction& whole, std::uint32_t f
   const auto from = whole.part.begin() + (first - whole.first);
   PassingInstruction part = whole;
   part.first = first;
+  part.part.assign(from, whole.part.end());
+  if (fits(part)) return part;
   auto fitting = from;
   for (auto most = whole.part.end(); fitting != most;) {
     const auto tried = most - (most - fitting) / 2;

@@ -118,6 +118,7 @@ void GoalExecutive::adopt(const PlanResult& result, Output& output) {
   handle(E::kPlanFound);
   errand_.plan = result.motion;
   output.plan = result.motion;
+  output.kind = errand_.stretch ? PlanKind::kInTurn : PlanKind::kFree;
 }
 
 void GoalExecutive::fail(PlanReason reason, const Input& input, Output& output) {
@@ -126,7 +127,11 @@ void GoalExecutive::fail(PlanReason reason, const Input& input, Output& output) 
   if (drives_plan(state_)) return;
   if (state_ != before) {
     errand_.without_plan_since_s = input.now_s;
-    output.plan = Motion();
+    if (errand_.stretch) {
+      keep_promise(input, output);
+    } else {
+      output.plan = Motion();
+    }
   }
   const auto patience_s = options_.patience_s(state_);
   if (!patience_s || input.now_s - errand_.without_plan_since_s + kRounding_s < *patience_s) return;

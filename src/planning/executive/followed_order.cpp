@@ -9,7 +9,7 @@
 namespace mocha {
 namespace {
 
-constexpr double kAtEnd_m = 0.15;  // of a move, along its path
+constexpr double kAtEnd_m = 0.03;  // of a move, along its path
 constexpr double kOnPath_m = 0.5;  // a motion that ends farther off it is not of this order
 constexpr double kTurnsBack_rad = 1.9;
 

@@ -173,16 +173,24 @@ void GoalExecutive::pass(const Input& input, Output& output) {
   output.messages =
       passing_.step({input.now_s, input.measured, input.committed, goal}, input.planner.scene);
   const auto& stretch = passing_.stretch();
-  if (!passing_.follows()) {
+  if (passing_.holds()) {
+    if (goal) wait_for_turn(input, output);
+  } else if (!passing_.follows()) {
     if (state_ != S::kWaiting && is_to_goal()) return;
     begin_errand(goal ? E::kPassed : E::kPassedToTheEnd);
-    output.plan = Motion();
+    keep_promise(input, output);
   } else if (!stretch) {
     wait_for_turn(input, output);
   } else if (!errand_.stretch || !errand_.stretch->ends_with(*stretch)) {
     begin_errand(E::kTurn);
     errand_.stretch = stretch;
   }
+}
+
+/// Drives what is promised, and no farther.
+void GoalExecutive::keep_promise(const Input& input, Output& output) {
+  output.plan = input.committed;
+  output.kind = PlanKind::kInTurn;
 }
 
 /// Turns to where it will go on.
@@ -195,7 +203,7 @@ void GoalExecutive::wait_for_turn(const Input& input, Output& output) {
   if (is_turned || (!may_turn && !errand_.turns_at)) {
     if (state_ == S::kWaiting) return;
     begin_errand(E::kNotItsTurn);
-    output.plan = Motion();
+    keep_promise(input, output);  // an order begins where that ends
   } else if (!errand_.turns_at) {
     begin_errand(E::kTurn);
     errand_.turns_at = Goal{input.committed.end_pose().position, heading_rad};

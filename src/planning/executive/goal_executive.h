@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "planning/candidates/plan_kind.h"
 #include "planning/executive/executive_state.h"
 #include "planning/executive/goal_executive_options.h"
 #include "planning/executive/goal_queue.h"
@@ -35,6 +36,7 @@ class GoalExecutive {
     std::optional<Planned> planned;  ///< what was found, whatever became of it
     std::optional<Report> report;
     std::optional<Motion> plan;  ///< from now on; an empty one: there is nothing to drive to
+    PlanKind kind = PlanKind::kFree;
     std::vector<PassingMessage> messages;  ///< for team-mates
     Ending ending = Ending::kNone;         ///< of all goals
   };
@@ -107,6 +109,7 @@ class GoalExecutive {
   void note_progress(const Input& input);
   void pass(const Input& input, Output& output);
   void wait_for_turn(const Input& input, Output& output);
+  static void keep_promise(const Input& input, Output& output);
   void plan(const Input& input, Output& output);
   void ask_for_plan(const Input& input, Output& output);
   void consider(Planned planned, const Input& input, Output& output);

@@ -27,15 +27,16 @@ bool passes(const std::vector<Vector2>& path, const BlockedDisc& disc) {
 bool ImpedimentWatch::is_impeded(bool stands, const Vector2& here, const Vector2& goal,
                                  const PlanningScene& scene, const RobotModel& robot,
                                  const TravelOptions& travel, double now_s) {
-  if (!stands) reset();
-  if (!stands_since_s_) stands_since_s_ = now_s;
-  if (!stands || now_s < *stands_since_s_ + kPatience_s) return false;
+  if (!stands) stands_since_s_.reset();
+  if (stands && !stands_since_s_) stands_since_s_ = now_s;
+  const bool is_patient = !stands || now_s < *stands_since_s_ + kPatience_s;
+  if (is_patient && !is_impeded_) return false;
   if (now_s < looked_s_ + kPeriod_s) return is_impeded_;
   looked_s_ = now_s;
   const TravelCost cost(*scene.static_map, here, {}, travel);
   const auto path = find_grid_path(*scene.static_map, here, goal, cost, kLattice_m).points;
   is_impeded_ = std::any_of(scene.peers.begin(), scene.peers.end(), [&](const auto& peer) {
-    return passes(path, peer_keep_out(*peer, now_s, robot, 0.0));
+    return passes(path, peer_keep_out(*peer, peer->rest_time(), robot, 0.0));
   });
   return is_impeded_;
 }

@@ -10,7 +10,9 @@
 #include "control/robot_state.h"
 #include "fleet/protocol/passing_messages.h"
 #include "planning/executive/followed_order.h"
+#include "planning/executive/heard_intents.h"
 #include "planning/executive/impediment_watch.h"
+#include "planning/executive/passing_leader.h"
 #include "planning/executive/planner_interface.h"
 #include "planning/global/planner_options.h"
 #include "world/robot_model.h"
@@ -52,45 +54,38 @@ class PassingPolicy {
 
   /// Whether it keeps to an order; then, what it may drive; nothing where it has to wait.
   bool follows() const { return followed_.has_value(); }
+  /// Whether it had better drive no farther than it has promised: an order is being made.
+  bool holds() const { return !follows() && holds_; }
   const std::optional<PassingStretch>& stretch() const { return stretch_; }
   /// Where it has to wait: which way it will go on [rad], if it knows.
-  std::optional<double> next_heading_rad() const { return followed_->next_heading_rad(); }
+  std::optional<double> next_heading_rad() const {
+    return followed_ ? followed_->next_heading_rad() : std::nullopt;
+  }
 
  private:
-  struct Heard {
-    PassingIntent intent;
-    double time_s;
-  };
-  /// An order that this robot has made.
-  struct Led {
-    PassingOrderId id;
-    std::map<std::string, PassingInstruction> instructions;  ///< of each robot
-    std::map<std::string, std::uint32_t> promised;           ///< moves of it, as far as was heard
-    double made_s;
-  };
-
   void follow(const PassingInstruction& instruction);
   void leave_order();
   void progress(const PassingSituation& situation);
+  void hold(double now_s);
   void watch(const PassingSituation& situation, const SceneSource& scene);
   bool is_stuck(const PassingSituation& situation) const;
   bool leads(double now_s) const;
-  bool is_not_kept(double now_s) const;
-  void lead(const PassingSituation& situation, const PlanningScene& scene);
+  void lead(const PassingSituation& situation, const SceneSource& scene);
   PassingIntent intent(const PassingSituation& situation) const;
-  std::vector<PassingIntent> others(double now_s) const;
   bool somebody_calls(double now_s) const;
   std::uint32_t promised_by(const std::string& name) const;
-  void note_promised();
-  void say_instructions(double now_s, std::vector<PassingMessage>& messages);
+  void note_promised(double now_s);
 
   const std::string name_;
   const int priority_;
   const RobotModel robot_;
   TravelOptions travel_;
-  std::map<std::string, Heard> heard_;
+  HeardIntents heard_;
+  PassingLeader leader_;
   ImpedimentWatch impediment_;
   bool calls_ = false;
+  bool holds_ = false;
+  double called_s_ = -std::numeric_limits<double>::infinity();  // the first call, after silence
   double calls_since_s_ = 0.0;
   double calls_until_s_ = 0.0;  // at least, after an order that it was stuck in
   std::optional<FollowedOrder> followed_;
@@ -103,8 +98,6 @@ class PassingPolicy {
   double news_s_ = 0.0;        // of anybody
   double progressed_s_ = 0.0;  // it, or who it waits for, got on last
   std::uint32_t seen_moves_ = 0;
-  std::optional<Led> led_;
-  std::uint32_t number_ = 0;  // of the orders that it has made
   double said_s_ = -std::numeric_limits<double>::infinity();
   PassingIntent said_;
 };

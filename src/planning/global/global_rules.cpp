@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "planning/candidates/exposure.h"
 #include "planning/candidates/peer_discs.h"
 #include "planning/candidates/warm_start.h"
 #include "safety/certifier.h"
@@ -13,6 +14,9 @@ namespace {
 
 constexpr double kSetOff_m = 0.15;  // of any point of the body, after which it has seen more
 constexpr double kStep_s = 0.05;
+constexpr double kUnderWay_s = 10.0;
+constexpr double kSpare_m = 0.005;
+constexpr double kRounding_m = 0.001;
 constexpr double kWorkPerSecond = 5e5;  // evaluations of single pieces, by a slow core
 
 /// When a motion from rest has moved a point of the body, `arm_m` off the base at most, so far; not
@@ -46,6 +50,30 @@ Violation certify_setting_off(const Motion& motion, const RobotModel& robot,
   required.unseen_margin = requirements[RequirementName::kPromise].unseen_margin;
   const double until_s = set_off_s(motion, robot.footprint.circumscribed_radius_m());
   return certify(motion, robot.footprint, scene, required.from(from_s).until(until_s));
+}
+
+/// As far as promises do, and a little more, for what a drive is off its path.
+double kept_in_turn_m(const RobotModel& robot) {
+  return *Requirements(robot)[RequirementName::kPromise].peer_distance_m + kSpare_m;
+}
+
+/// The first violation of a plan by team-mates where they come to rest: it goes by no other way.
+/// One that is too near already may not come nearer; one that is under way may be promised more
+/// before the plan gets there.
+Violation certify_in_turn(const Motion& motion, const RobotModel& robot, const PlanningScene& scene,
+                          double from_s) {
+  const double required_m = *Requirements(robot)[RequirementName::kPromise].peer_distance_m;
+  std::vector<MovingThing> things;
+  for (const auto& peer : scene.peers) {
+    const MovingObstacle::Disc disc = peer->at(peer->rest_time());
+    const double gap_m = (disc.centre - motion.position(from_s)).norm() - disc.radius_m;
+    const auto resting = std::make_shared<PredictedDisc>(peer->name(), from_s, disc.centre,
+                                                         Vector2::Zero(), disc.radius_m, 0.0);
+    const double until_s = stands(*peer, from_s) ? motion.end_time() : from_s + kUnderWay_s;
+    things.push_back({resting, std::min(required_m, gap_m - kRounding_m), until_s});
+  }
+  return conflict_of(motion, things, robot.footprint.circumscribed_radius_m(), from_s,
+                     motion.end_time() - from_s);
 }
 
 }  // namespace
@@ -86,9 +114,10 @@ DriveQuery GlobalRules::drive(const Seed& seed, const StartManeuver& start_maneu
     // A team-mate that stands on the goal will hardly stay: drive up, and let the promises keep
     // apart.
     if (standing && (disc.centre - start_maneuver.path.back()).norm() <= disc.radius_m) continue;
+    const bool stays = standing || !query_.along.empty();
     drive.moving.push_back(
-        {peer, distance_to_peers_m(robot_),
-         standing ? std::numeric_limits<double>::infinity() : peer->rest_time()});
+        {peer, query_.along.empty() ? distance_to_peers_m(robot_) : kept_in_turn_m(robot_),
+         stays ? std::numeric_limits<double>::infinity() : peer->rest_time()});
   }
   return drive;
 }
@@ -118,6 +147,8 @@ void GlobalRules::certify(PlanCandidate& candidate) const {
   const ObstacleField<2>& obstacles = scene_.static_map->field();
   const double from_s = query_.start_time_s;
   candidate.violation = certify_plan(candidate.motion, robot_, obstacles, from_s);
+  if (!candidate.violation && !query_.along.empty())
+    candidate.violation = certify_in_turn(candidate.motion, robot_, scene_, from_s);
   if (!candidate.violation && unseen_) {
     candidate.violation = certify_setting_off(candidate.motion, robot_, obstacles, unseen_, from_s);
   }

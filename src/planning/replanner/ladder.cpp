@@ -35,6 +35,7 @@ constexpr Rung kBrakeAnyway{Row::kLastResort, K::kBrakeHard, R::kNone, true};
 const std::vector<Rung>& ladder_of(Situation situation) {
   static const std::vector<Rung> kHolds = {kRejoinSooner, kFollow, kDetour, kDetourLikely};
   static const std::vector<Rung> kPlanMeets = {kDetour, kWeave, kDetourLikely, kFollow};
+  static const std::vector<Rung> kInTurn = {kFollow};
   static const std::vector<Rung> kThreatened = {kFollow,
                                                 kDetour,
                                                 kWeave,
@@ -72,6 +73,8 @@ const std::vector<Rung>& ladder_of(Situation situation) {
       return kHolds;
     case Situation::kPlanMeets:
       return kPlanMeets;
+    case Situation::kInTurn:
+      return kInTurn;
     case Situation::kThreatened:
       return kThreatened;
     case Situation::kBlocked:

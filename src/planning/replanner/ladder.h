@@ -10,6 +10,7 @@ namespace mocha {
 enum class Situation {
   kHolds,       ///< the promise is certified, and the plan meets nothing that moves
   kPlanMeets,   ///< the promise is certified, but the plan meets something that moves, paper (37)
+  kInTurn,      ///< the promise is certified, and others count on the robot's way (PlanKind)
   kThreatened,  ///< under way, the promise meets something that moves
   kBlocked,     ///< under way, the promise violates anything else
   kInTheWay,    ///< the robot stands, though it wants to go on, in the way of something that moves

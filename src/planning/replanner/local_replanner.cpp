@@ -27,7 +27,9 @@ LocalReplanner::LocalReplanner(const RobotModel& robot, const LocalReplannerOpti
       detour_(robot, local_options, watch),
       proposals_(options.answer_timeout_s) {}
 
-void LocalReplanner::set_plan(Motion plan) { offered_ = std::move(plan); }
+void LocalReplanner::set_plan(Motion plan, PlanKind kind) {
+  offered_ = Offer{std::move(plan), kind};
+}
 
 void LocalReplanner::set_committed(std::uint32_t sequence, Motion motion) {
   committed_ = std::move(motion);
@@ -104,22 +106,23 @@ Vector2 LocalReplanner::target_at(double now_s) const {
 void LocalReplanner::take_offer(double now_s, const LocalScene& scene, Output& output) {
   if (!offered_) return;
   const bool to_the_same_place =
-      !plan_.empty() && !offered_->empty() &&
-      (plan_.end_pose().position - offered_->end_pose().position).norm() < kSamePlace_m;
+      !plan_.empty() && !offered_->plan.empty() && offered_->kind == PlanKind::kFree &&
+      (plan_.end_pose().position - offered_->plan.end_pose().position).norm() < kSamePlace_m;
   const bool is_proposed = proposals_.pending(now_s) && proposals_.newest_source().plan == plan_id_;
   if (to_the_same_place && (follows_plan_at(now_s) || is_proposed)) {
     const double horizon_s = scene.predicted_until_s - now_s;
     const Violation of_plan = conflict(plan_, now_s, scene, RequirementName::kTrigger, horizon_s);
     const Violation of_offer =
-        conflict(*offered_, now_s, scene, RequirementName::kTrigger, horizon_s);
+        conflict(offered_->plan, now_s, scene, RequirementName::kTrigger, horizon_s);
     output.keeps_plan = of_offer && (!of_plan || of_plan.time_s > of_offer.time_s);
   }
-  if (!output.keeps_plan) replace_plan(std::move(*offered_));
+  if (!output.keeps_plan) replace_plan(std::move(offered_->plan), offered_->kind);
   offered_.reset();
 }
 
-void LocalReplanner::replace_plan(Motion plan) {
+void LocalReplanner::replace_plan(Motion plan, PlanKind kind) {
   plan_ = std::move(plan);
+  kind_ = kind;
   detour_.forget();
   ++plan_id_;
   plan_required_ = RequirementName::kPromise;
@@ -162,13 +165,16 @@ void LocalReplanner::assess(Step& step) const {
     step.situation = Situation::kInTheWay;
     step.plan_is_clear = !plan_meets;
   } else {
-    step.situation = plan_meets ? Situation::kPlanMeets : Situation::kHolds;
+    step.situation = kind_ == PlanKind::kInTurn ? Situation::kInTurn
+                     : plan_meets               ? Situation::kPlanMeets
+                                                : Situation::kHolds;
     step.plan_is_clear = true;
   }
 }
 
 bool LocalReplanner::go_down_the_ladder(Situation situation, Step& step) {
-  const bool holds = situation == Situation::kHolds || situation == Situation::kPlanMeets;
+  const bool holds = situation == Situation::kHolds || situation == Situation::kPlanMeets ||
+                     situation == Situation::kInTurn;
   for (const Rung& rung : ladder_of(situation)) {
     if (step.pending && !rung.replaces_pending) continue;
     const Climb climb = try_rung(rung, step);
@@ -197,14 +203,14 @@ LocalReplanner::Climb LocalReplanner::try_rung(const Rung& rung, Step& step) {
 
 LocalReplanner::Climb LocalReplanner::try_follow(Step& step) {
   if (!step.plan_is_clear && step.situation != Situation::kPlanMeets) return Climb::kNext;
-  const auto maneuver = following(step);
+  auto maneuver = following(step);
   if (!maneuver) return Climb::kKeep;
   const ManeuverStart& start = step.start;
   if (!splice(committed_, start.now_s, maneuver->join_s, maneuver->motion)) {
     ask_for_plan({}, "the plan does not join the promised motion any more", step.output);
     return Climb::kNext;
   }
-  const auto part = certified_part(start, *maneuver, plan_required_);
+  const auto part = certified_of(*maneuver, step);
   if (!part) {
     ask_for_plan({}, "nothing of the plan can be promised from here", step.output);
     return Climb::kNext;
@@ -215,7 +221,9 @@ LocalReplanner::Climb LocalReplanner::try_follow(Step& step) {
   // What was not seen yet will be seen on the way.
   const bool unseen = part->cut_by.term == ViolatedTerm::kUnseenSpace;
   step.output.violation = part->cut_by;
-  if (part->cut_by && ((waits && nowhere) || !unseen))
+  const bool awaits_peer =
+      kind_ == PlanKind::kInTurn && part->cut_by.term == ViolatedTerm::kSeparation;
+  if (part->cut_by && !awaits_peer && ((waits && nowhere) || !unseen))
     ask_for_plan(part->cut_by, describe(part->cut_by), step.output);
   else if (part->cut_by && nowhere && stands)
     object(part->cut_by, describe(part->cut_by), step.output);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "control/robot_state.h"
+#include "planning/candidates/plan_kind.h"
 #include "planning/local/detour.h"
 #include "planning/replanner/certified_part.h"
 #include "planning/replanner/ladder.h"
@@ -39,7 +40,7 @@ class LocalReplanner {
   /// The newest plan to the goal. An empty motion means that there is nothing to drive to: what is
   /// in force is left by braking along it, at once. A plan that leads to where the one at hand
   /// leads is passed over where it meets something that moves, and that one does not or later.
-  void set_plan(Motion plan);
+  void set_plan(Motion plan, PlanKind kind = PlanKind::kFree);
   /// The motion in force, as the broadcaster says. Sequences of own proposals continue after it.
   void set_committed(std::uint32_t sequence, Motion motion);
   /// The proposal was turned down.
@@ -78,7 +79,7 @@ class LocalReplanner {
   ManeuverStart start_at(double now_s, const LocalScene& scene) const;
   Vector2 target_at(double now_s) const;
   void take_offer(double now_s, const LocalScene& scene, Output& output);
-  void replace_plan(Motion plan);
+  void replace_plan(Motion plan, PlanKind kind = PlanKind::kFree);
   /// The plan leads farther than what is in force.
   bool under_way() const;
   Violation conflict(const Motion& plan, double now_s, const LocalScene& scene,
@@ -98,6 +99,8 @@ class LocalReplanner {
   Detour::Start detour_start(const Step& step) const;
   /// The plan, from where it meets what is committed; nothing where no more of it is due.
   std::optional<Maneuver> following(Step& step);
+  /// What of it may be promised. In turn, a robot that rests waits until its way is free.
+  std::optional<CertifiedPart> certified_of(Maneuver& maneuver, const Step& step);
   /// Makes what local planning found the plan.
   void take_detour(const Rung& rung, Step& step);
   void propose(const Rung& rung, const Maneuver& maneuver, const CertifiedPart& part, Step& step);
@@ -129,8 +132,13 @@ class LocalReplanner {
   const Requirements requirements_;
   const LocalReplannerOptions options_;
   Detour detour_;
-  std::optional<Motion> offered_;
+  struct Offer {
+    Motion plan;
+    PlanKind kind;
+  };
+  std::optional<Offer> offered_;
   Motion plan_;  // what is followed: the newest plan, or a detour
+  PlanKind kind_ = PlanKind::kFree;
   std::uint32_t plan_id_ = 0;
   RequirementName plan_required_ = RequirementName::kPromise;  // what its promises are held to
   Motion committed_;

@@ -1,5 +1,6 @@
 // What the rows of the ladder try: the maneuvers that need the replanner's plan.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "planning/maneuvers/brake.h"
@@ -14,6 +15,8 @@ namespace {
 
 constexpr double kWorthwhile_s = 0.15;  // of reach, for which a proposal is made
 constexpr double kRounding_s = 1e-6;    // of times
+constexpr double kWait_s = 0.25;        // by so much longer each time, for the way to get free ...
+constexpr double kLongestWait_s = 4.0;
 
 /// A plan from rest that came too late for its own times is as good later, while the robot stands
 /// where it begins: the same from `join_s` on. Else the plan as it is.
@@ -23,6 +26,13 @@ Motion postponed(const Motion& committed, const Motion& plan, double now_s, doub
     return plan;
   Motion later(join_s, plan.phases());
   return splice(committed, now_s, join_s, later) ? later : plan;
+}
+
+/// The same, so much later.
+Motion after_a_wait(const Motion& motion, double wait_s) {
+  std::vector<Phase> phases = {StandPhase{motion.at(motion.start_time()).pose, wait_s}};
+  phases.insert(phases.end(), motion.phases().begin(), motion.phases().end());
+  return {motion.start_time(), std::move(phases)};
 }
 
 /// How long it still turns in place before it drives [s]. Others can do with more of what follows:
@@ -79,7 +89,8 @@ std::optional<Maneuver> LocalReplanner::following(Step& step) {
   if (!same_plan) plan_ = postponed(committed, plan_, now_s, settled_s);
   if (plan_.empty() || plan_.end_time() <= now_s + options_.settle_s) return std::nullopt;
   const double reach_s = committed_source_.follows_until_s;
-  const double every_s = step.situation == Situation::kHolds ? options_.extend_every_s : 0.0;
+  const bool holds = step.situation == Situation::kHolds || step.situation == Situation::kInTurn;
+  const double every_s = holds ? options_.extend_every_s : 0.0;
   const double until_s = now_s + options_.horizon_s + turns_for_s(plan_, now_s);
   const bool far_enough = reach_s >= plan_.end_time() - kRounding_s || reach_s > until_s - every_s;
   if (same_plan && far_enough) return std::nullopt;
@@ -90,6 +101,28 @@ std::optional<Maneuver> LocalReplanner::following(Step& step) {
                                                   : -std::numeric_limits<double>::infinity();
   return Maneuver{join_s,          plan_, join_s,         until_s, least_reach_s,
                   robot.braking(), false, Follows::kPlan, ""};
+}
+
+std::optional<CertifiedPart> LocalReplanner::certified_of(Maneuver& maneuver, const Step& step) {
+  auto part = certified_part(step.start, maneuver, plan_required_);
+  const double begins_s = maneuver.motion.start_time();
+  const bool rests = committed_.at(maneuver.join_s).at_rest &&
+                     std::abs(begins_s - maneuver.join_s) < kRounding_s &&
+                     maneuver.motion.at(begins_s).at_rest;
+  if (kind_ != PlanKind::kInTurn || !rests || !part ||
+      part->cut_by.term != ViolatedTerm::kSeparation)
+    return part;
+  for (double later_s = kWait_s; later_s < kLongestWait_s; later_s += kWait_s) {
+    Maneuver late = maneuver;
+    late.motion = after_a_wait(maneuver.motion, later_s);
+    late.brake_until_s += later_s;
+    auto found = certified_part(step.start, late, plan_required_);
+    if (!found || found->cut_by) continue;
+    plan_ = late.motion;
+    maneuver = late;
+    return found;
+  }
+  return part;
 }
 
 Detour::Start LocalReplanner::detour_start(const Step& step) const {

@@ -59,9 +59,11 @@ mocha_ugv::PlanTrajectory::Response PlannerOutputs::answer(const PlanResult& res
   return response;
 }
 
-void PlannerOutputs::adopt(const Motion& motion, ros::Time now) {
+void PlannerOutputs::adopt(const Motion& motion, ros::Time now, PlanKind kind) {
   ++adopted_;
-  plans_.publish(planned(motion, now));
+  mocha_ugv::Trajectory message = planned(motion, now);
+  if (kind == PlanKind::kInTurn) message.state = mocha_ugv::Trajectory::IN_TURN;
+  plans_.publish(message);
   paths_.publish(to_path(motion, identity_.map_frame, kPathStep_s));
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "planning/candidates/plan_kind.h"
 #include "planning/candidates/plan_result.h"
 #include "planning/executive/goal_queue.h"
 #include "ros_bridge/runtime/robot_identity.h"
@@ -25,7 +26,7 @@ class PlannerOutputs {
   PlannerOutputs(ros::NodeHandle& node, const RobotIdentity& identity, const RobotModel& model);
 
   /// The plan that is to be driven from now on; an empty one: there is nothing to drive to.
-  void adopt(const Motion& motion, ros::Time now);
+  void adopt(const Motion& motion, ros::Time now, PlanKind kind = PlanKind::kFree);
   /// What the service `plan` answers; nothing is adopted.
   mocha_ugv::PlanTrajectory::Response answer(const PlanResult& result, ros::Time now) const;
 

@@ -132,7 +132,9 @@ TEST(FollowedOrder, PromisedIsWhatTheMotionInForceLeadsThrough) {
   EXPECT_EQ(order.promised(), 1u);
   order.note_promise(to_rest_at({2.0, 0.5}));
   EXPECT_EQ(order.promised(), 2u);
-  order.note_promise(to_rest_at({2.0, 0.95}));
+  order.note_promise(to_rest_at({2.0, 0.9}));
+  EXPECT_EQ(order.promised(), 2u) << "not all the way";
+  order.note_promise(to_rest_at({2.0, 0.98}));
   EXPECT_EQ(order.promised(), 3u);
   EXPECT_FALSE(order.is_over()) << "it is on its way";
 }

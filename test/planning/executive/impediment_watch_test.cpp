@@ -80,9 +80,12 @@ TEST_F(ImpedimentWatchTest, DrivingIsNotStanding) {
   }
 }
 
-TEST_F(ImpedimentWatchTest, WhoSetsOffAgainIsNotImpeded) {
+TEST_F(ImpedimentWatchTest, WhoMovesOnALittleStaysImpededUntilTheWayIsFree) {
   stand_at({4.0, 0.0});
-  run(3.0);
+  ASSERT_GT(run(3.0), 0);
+  EXPECT_GT(run(0.5, false), 0);
+  stand_at({4.0, 2.9});
+  run(0.5, false);
   EXPECT_EQ(run(0.5, false), 0);
   EXPECT_EQ(run(0.9), 0);
 }

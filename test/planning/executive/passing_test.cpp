@@ -36,8 +36,11 @@ class PassingTest : public ExecutiveFixture {
     ASSERT_EQ(executive_.state(), S::kParked);
   }
 
-  static bool stops(const GoalExecutive::Output& output) {
-    return output.plan && output.plan->empty();
+  /// Drives what is promised, and no farther.
+  bool keeps_promise(const GoalExecutive::Output& output) const {
+    return output.plan && output.kind == PlanKind::kInTurn &&
+           output.plan->start_time() == committed_.start_time() &&
+           output.plan->end_time() == committed_.end_time();
   }
 
   Vector2 end_of_plan() const { return executive_.plan().end_pose().position; }
@@ -55,19 +58,20 @@ TEST_F(PassingTest, DrivesTheStretchAndNotToTheGoal) {
   EXPECT_EQ(asked_[0].along, path);
   EXPECT_TRUE(asked_[0].driven.empty());
   ASSERT_TRUE(output.plan);
+  EXPECT_EQ(output.kind, PlanKind::kInTurn);
   EXPECT_NEAR((end_of_plan() - Vector2(0.0, 2.0)).norm(), 0.0, 1e-6);
   EXPECT_EQ(executive_.state(), S::kDriving);
 }
 
 TEST_F(PassingTest, ToTheGoalAnyPathWillDo) {
-  step();
+  EXPECT_EQ(step().kind, PlanKind::kFree);
   EXPECT_TRUE(asked_[0].along.empty());
 }
 
-TEST_F(PassingTest, WaitsForItsTurnWithoutAPlan) {
+TEST_F(PassingTest, WaitsForItsTurnWhereItsPromiseEnds) {
   step();
   hear(ordered({{0.0, 0.0}, {2.0, 0.0}}, {1}));
-  EXPECT_TRUE(stops(step()));
+  EXPECT_TRUE(keeps_promise(step()));
   EXPECT_EQ(executive_.state(), S::kWaiting);
   EXPECT_FALSE(run_beside(0, 4.0).plan);
   EXPECT_TRUE(asked_.empty());
@@ -87,7 +91,7 @@ TEST_F(PassingTest, TurnsToWhereItGoesOnWhileItWaits) {
   EXPECT_TRUE(asked_[0].along.empty());
   state_.pose.yaw_rad = M_PI / 2.0;
   committed_ = standing(now_s_, {0.0, 0.0}, M_PI / 2.0);
-  EXPECT_TRUE(stops(step()));
+  EXPECT_TRUE(keeps_promise(step()));
   EXPECT_EQ(executive_.state(), S::kWaiting);
   run_beside(1, 0.5);
   EXPECT_EQ(asked_.at(0).goal, Vector2(0.0, 2.0));
@@ -97,7 +101,7 @@ TEST_F(PassingTest, DoesNotTurnBeforeItStands) {
   step();
   state_.twist = {0.3, 0.0};
   hear(ordered({{0.0, 0.0}, {0.0, 2.0}}, {1}));
-  EXPECT_TRUE(stops(step()));
+  EXPECT_TRUE(keeps_promise(step()));
   EXPECT_EQ(executive_.state(), S::kWaiting);
   EXPECT_FALSE(run_beside(0, 1.0).planned);
   state_.twist = {0.0, 0.0};
@@ -111,7 +115,7 @@ TEST_F(PassingTest, WaitsAgainWhereTheNextMoveIsNotItsTurn) {
   committed_ = executive_.plan();
   run_beside(0, 0.25);
   stand_at({0.0, 2.0});
-  EXPECT_TRUE(stops(step()));
+  EXPECT_TRUE(keeps_promise(step()));
   EXPECT_EQ(executive_.state(), S::kWaiting);
   run_beside(1, 0.5);
   EXPECT_EQ(asked_.at(0).goal, Vector2(2.0, 2.0));
@@ -197,10 +201,10 @@ TEST_F(PassingTest, AStretchThatIsLeftInItsMidstIsNotDrivenOn) {
   park();
   hear(ordered({{kLength_m, 0.0}, {kLength_m, 2.0}}));
   ASSERT_TRUE(run_beside(0, 0.5).plan);
-  bool stopped = false;
-  for (int i = 0; i < 200; ++i) stopped = stopped || stops(step());
+  bool kept = false;
+  for (int i = 0; i < 200; ++i) kept = kept || keeps_promise(step());
   EXPECT_EQ(executive_.state(), S::kParked);
-  EXPECT_TRUE(stopped);
+  EXPECT_TRUE(kept);
 }
 
 TEST_F(PassingTest, WhoWasToldToStopMakesNoRoom) {

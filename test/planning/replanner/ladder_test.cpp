@@ -10,9 +10,9 @@
 namespace mocha {
 namespace {
 
-constexpr Situation kSituations[] = {Situation::kHolds,      Situation::kPlanMeets,
-                                     Situation::kThreatened, Situation::kBlocked,
-                                     Situation::kInTheWay,   Situation::kNoGoal};
+constexpr Situation kSituations[] = {
+    Situation::kHolds,   Situation::kPlanMeets, Situation::kInTurn, Situation::kThreatened,
+    Situation::kBlocked, Situation::kInTheWay,  Situation::kNoGoal};
 constexpr Situation kInDanger[] = {Situation::kThreatened, Situation::kBlocked,
                                    Situation::kInTheWay};
 constexpr int kRows = static_cast<int>(Row::kLastResort) + 1;
@@ -50,6 +50,7 @@ TEST(Ladder, RowsAreInTheirOrder) {
   const std::map<Situation, std::vector<Row>> expected = {
       {Situation::kHolds, {R::kRejoinSooner, R::kFollow, R::kDetour, R::kDetourLikely}},
       {Situation::kPlanMeets, {R::kDetour, R::kWeave, R::kDetourLikely, R::kFollow}},
+      {Situation::kInTurn, {R::kFollow}},
       {Situation::kThreatened,
        {R::kFollow, R::kDetour, R::kWeave, R::kDetourLikely, R::kBrakeSoon, R::kBrakeInTime,
         R::kBrakeInTimeAtOnce, R::kBrakeLikely, R::kBrakeInTimeLikely, R::kBrakeInTimeAtOnceLikely,
