@@ -17,6 +17,7 @@ namespace mocha {
 namespace {
 
 constexpr double kSameGoal_m = 0.5;
+constexpr double kOnPath_m = 0.3;
 constexpr double kReachableStep_m = 0.1;  // between the places that are tried
 // To what a drive costs, the costs of paths are in proportion to within a few percent, measured on
 // maps of 100 m.
@@ -69,19 +70,33 @@ std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_spe
 
 namespace {
 
+double off_m(const std::vector<Vector2>& path, std::size_t segment, const Vector2& from) {
+  return (from - nearest_on_segment(from, path[segment - 1], path[segment])).norm();
+}
+
 /// What is left of a path for who is at `from`.
 std::vector<Vector2> rest_of(const std::vector<Vector2>& path, const Vector2& from) {
-  std::size_t next = 0;
-  double least_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const double off_m = (from - nearest_on_segment(from, path[i - 1], path[i])).norm();
-    if (!(off_m < least_m)) continue;
-    least_m = off_m;
-    next = i;
+  std::size_t next = std::min<std::size_t>(1, path.size() - 1);
+  for (std::size_t i = 2; i < path.size(); ++i) {
+    if (off_m(path, i, from) < off_m(path, next, from)) next = i;
   }
   std::vector<Vector2> rest = {from};
   rest.insert(rest.end(), path.begin() + static_cast<std::ptrdiff_t>(next), path.end());
   return rest;
+}
+
+/// The path that the query gives, from `from` on: by the way that is promised, for who is still to
+/// get to where it begins.
+std::vector<Vector2> given_path(const PlanQuery& query, const Vector2& from, double max_speed) {
+  const std::vector<Vector2>& path = query.along;
+  const Vector2& promised = query.committed.end_pose().position;
+  bool is_on_path = (promised - path.front()).norm() > kOnPath_m;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    is_on_path = is_on_path || off_m(path, i, from) < kOnPath_m;
+  if (is_on_path) return rest_of(path, from);
+  std::vector<Vector2> way = rest_of(path_of(query.committed, query.start_time_s, max_speed), from);
+  way.insert(way.end(), path.begin() + 1, path.end());
+  return way;
 }
 
 HomotopyPaths only(std::vector<Vector2> path) {
@@ -112,7 +127,7 @@ std::vector<BlockedDisc> FrontEnd::standing_peers(const PlanningScene& scene, do
 HomotopyPaths FrontEnd::paths(std::vector<Vector2> lead_in, const PlanQuery& query,
                               const PlanningScene& scene, const Vector2& goal,
                               std::optional<double> below_driven) const {
-  if (!query.along.empty()) return only(rest_of(query.along, lead_in.back()));
+  if (!query.along.empty()) return only(given_path(query, lead_in.back(), robot_.limits.max_speed));
   HomotopyPathQuery paths;
   paths.below_driven = below_driven;
   paths.lead_in = std::move(lead_in);

@@ -131,6 +131,19 @@ TEST_F(FrontEndTest, AlongAPathItBeginsWhereTheRobotIsOnIt) {
   EXPECT_EQ(found.list[0].start_maneuvers.at(0).path, rest);
 }
 
+TEST_F(FrontEndTest, AlongAPathItComesByTheWayThatItHasPromised) {
+  query_.committed = straight_drive(-2.0, {-3.0, 0.0}, 0.0, 3.0, 0.8, 0.8);
+  query_.start_time_s = 0.0;
+  query_.along = {{0.0, 0.0}, {0.0, 3.0}};
+  const GlobalSeeds found = seeds();
+  ASSERT_EQ(found.list.size(), 1u);
+  const std::vector<Vector2>& path = found.list[0].start_maneuvers.at(0).path;
+  double nearest_m = 1e9;
+  for (const Vector2& place : path) nearest_m = std::min(nearest_m, place.norm());
+  EXPECT_LT(nearest_m, 0.05) << "not straight to its end";
+  EXPECT_EQ(path.back(), Vector2(0.0, 3.0));
+}
+
 TEST_F(FrontEndTest, AlongAPathOfWhichNothingIsLeftItGoesToItsEnd) {
   query_.along = {{-4.0, 0.0}, {-3.0, 0.0}};
   const GlobalSeeds found = seeds();
