@@ -57,23 +57,27 @@ double kept_in_turn_m(const RobotModel& robot) {
   return *Requirements(robot)[RequirementName::kPromise].peer_distance_m + kSpare_m;
 }
 
-/// The first violation of a plan by team-mates where they come to rest: it goes by no other way.
-/// One that is too near already may not come nearer; one that is under way may be promised more
-/// before the plan gets there.
+/// The first violation of a plan by team-mates from when they rest: it goes by no other way. One
+/// that is too near already may not come nearer; one that is under way may be promised more before
+/// the plan gets there.
 Violation certify_in_turn(const Motion& motion, const RobotModel& robot, const PlanningScene& scene,
                           double from_s) {
   const double required_m = *Requirements(robot)[RequirementName::kPromise].peer_distance_m;
-  std::vector<MovingThing> things;
+  Violation first;
   for (const auto& peer : scene.peers) {
     const MovingObstacle::Disc disc = peer->at(peer->rest_time());
     const double gap_m = (disc.centre - motion.position(from_s)).norm() - disc.radius_m;
     const auto resting = std::make_shared<PredictedDisc>(peer->name(), from_s, disc.centre,
                                                          Vector2::Zero(), disc.radius_m, 0.0);
+    const double rests_s = std::max(from_s, peer->rest_time());
     const double until_s = stands(*peer, from_s) ? motion.end_time() : from_s + kUnderWay_s;
-    things.push_back({resting, std::min(required_m, gap_m - kRounding_m), until_s});
+    const MovingThing thing{resting, std::min(required_m, gap_m - kRounding_m), until_s};
+    const Violation violation =
+        conflict_of(motion, {thing}, robot.footprint.circumscribed_radius_m(), rests_s,
+                    motion.end_time() - rests_s);
+    if (violation && (!first || violation.time_s < first.time_s)) first = violation;
   }
-  return conflict_of(motion, things, robot.footprint.circumscribed_radius_m(), from_s,
-                     motion.end_time() - from_s);
+  return first;
 }
 
 }  // namespace
