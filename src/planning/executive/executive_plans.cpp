@@ -100,10 +100,13 @@ void GoalExecutive::consider(Planned planned, const Input& input, Output& output
 
 /// Quicker by far; or it leads to the goal itself, or farther, than where it was occupied before.
 bool GoalExecutive::much_better(const PlanResult& result, double now_s) const {
-  if (result.motion.empty() || !is_to_goal()) return false;
-  const Vector2& asked = goals_.asked().position;
-  const double nearer_m = (goals_.current().position - asked).norm() - (result.goal - asked).norm();
-  if (std::abs(nearer_m) > kSameGoal_m) return nearer_m > 0.0;
+  if (result.motion.empty() || errand_.turns_at) return false;
+  if (is_to_goal()) {
+    const Vector2& asked = goals_.asked().position;
+    const double nearer_m =
+        (goals_.current().position - asked).norm() - (result.goal - asked).norm();
+    if (std::abs(nearer_m) > kSameGoal_m) return nearer_m > 0.0;
+  }
   const double remaining_s = errand_.plan.end_time() - now_s;
   return result.motion.end_time() <
          errand_.plan.end_time() - options_.min_improvement * remaining_s;
