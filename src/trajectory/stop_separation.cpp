@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -175,6 +176,12 @@ void check(const Motion& a, const Motion& b, double reaction_s) {
     throw std::invalid_argument("first_stop_meeting: needs a reaction time up to 10 s");
 }
 
+/// From when on a motion moves, of the time from `from_s` on; never where it has ended.
+double moves_from_s(const Motion& motion, double from_s) {
+  return motion.end_time() <= from_s ? std::numeric_limits<double>::infinity()
+                                     : std::max(from_s, motion.start_time());
+}
+
 }  // namespace
 
 std::optional<StopMeeting> first_stop_meeting(const BrakableMotion& a, const BrakableMotion& b,
@@ -182,8 +189,13 @@ std::optional<StopMeeting> first_stop_meeting(const BrakableMotion& a, const Bra
                                               double until_s) {
   check(a.motion, b.motion, reaction_s);
   if (far_apart(a.motion, b.motion, distance_m)) return std::nullopt;
-  const long first = static_cast<long>(std::ceil(from_s / kStep_s));
   const long reaction = static_cast<long>(std::ceil(reaction_s / kStep_s - 1e-6));
+  // Until one of them sets off, nothing changes: a promise may be for tomorrow.
+  const double sets_off_s =
+      std::min(moves_from_s(a.motion, from_s), moves_from_s(b.motion, from_s));
+  const double begins_s =
+      std::isfinite(sets_off_s) ? std::max(from_s, sets_off_s - (reaction + 1) * kStep_s) : from_s;
+  const long first = static_cast<long>(std::ceil(begins_s / kStep_s));
   SteppedMotion one(a, first);
   SteppedMotion other(b, first);
   const double step_m = (one.max_speed() + other.max_speed()) * kStep_s;

@@ -243,5 +243,20 @@ TEST(StopSeparation, RefusesWhatIsNoRule) {
   EXPECT_THROW(first_stop_meeting(a, a, 0.6, 11.0, 0.0), std::invalid_argument);
 }
 
+TEST(StopSeparation, WhatIsPromisedForTomorrowMeetsAsToday) {
+  constexpr double kDay_s = 86400.0;
+  const auto head_on = [](double start_s) {
+    return meeting_of(along(start_s, {0.0, 0.0}, {6.0, 0.0}, 1.0),
+                      along(start_s + 1.0, {8.0, 0.1}, {3.0, 0.1}, 1.0));
+  };
+  const auto today = head_on(5.0);
+  const auto tomorrow = head_on(kDay_s);
+  ASSERT_TRUE(today && tomorrow);
+  EXPECT_NEAR(tomorrow->brakes_s - kDay_s, today->brakes_s - 5.0, 0.11);
+  EXPECT_NEAR(tomorrow->distance_m, today->distance_m, 0.02);
+  EXPECT_FALSE(meeting_of(along(-20.0, {0.0, 0.0}, {6.0, 0.0}, 1.0),
+                          along(kDay_s, {8.0, 5.0}, {3.0, 5.0}, 1.0)));
+}
+
 }  // namespace
 }  // namespace mocha

@@ -9,7 +9,7 @@ namespace mocha {
 namespace {
 
 constexpr double kMaxRadius_m = 10.0;
-constexpr double kMaxDuration_s = 3600.0;
+constexpr double kMaxDuration_s = 300.0;
 constexpr double kLongestStop_s = 120.0;    // also bounds the work that a proof of stops takes
 constexpr double kMaxSpeed = 50.0;          // [m/s]
 constexpr double kMaxAcceleration = 500.0;  // [m/s^2]
@@ -45,7 +45,7 @@ void validate(const CommittedTrajectory& trajectory) {
   validate(*trajectory.braking);
   require(trajectory.motion != nullptr && !trajectory.motion->empty(), "has no motion");
   require(trajectory.motion->end_time() - trajectory.motion->start_time() <= kMaxDuration_s,
-          "takes more than an hour");
+          "takes more than five minutes");
   const MotionBounds bound = bounds(*trajectory.motion);
   require(bound.speed <= kMaxSpeed, "may be faster than 50 m/s");
   require(bound.speed <= kLongestStop_s * trajectory.braking->deceleration(),

@@ -57,8 +57,8 @@ inline bool takes_precedence(const CommittedTrajectory& a, const CommittedTrajec
 
 /// Throws std::invalid_argument, saying what is wrong, for a promise that no robot can have meant:
 /// no name, a sequence of 0, a radius outside (0, 10] m, and unless withdrawn no braking or motion,
-/// a motion longer than an hour, one that may exceed 50 m/s or 500 m/s^2, or from which the robot
-/// may take more than two minutes to stop.
+/// a motion longer than five minutes, one that may exceed 50 m/s or 500 m/s^2, or from which the
+/// robot may take more than two minutes to stop.
 void validate(const CommittedTrajectory& trajectory);
 
 /// The same for braking that no robot can have: a deceleration, or a finite limit of the
