@@ -8,7 +8,8 @@
 
 namespace mocha {
 
-/// What team-mates have said last about passing. It lapses: who stops talking is through, or gone.
+/// The last words of team-mates about passing. Words lapse: a robot that stops talking is through,
+/// or gone.
 class HeardIntents {
  public:
   enum class Heard {

@@ -34,7 +34,7 @@ void keep_nearest(const Vector2& here, std::vector<PassingMember>& members) {
   members.erase(std::remove_if(members.begin(), members.end(), is_out), members.end());
 }
 
-/// Of an order, at least: whoever makes the next counts on over a restart.
+/// The least number of an order that is made now: numbers go on over a restart.
 std::uint32_t number_at(double now_s) { return static_cast<std::uint32_t>(std::fmod(now_s, 1e9)); }
 
 }  // namespace

@@ -45,9 +45,9 @@ class PassingLeader {
                                          const Vector2& here, const Vector2& rest,
                                          const PlanningScene& scene, double now_s);
 
-  /// Adds what is to be said now: again and again to whoever does not keep to the order yet, or has
-  /// more to be told of it; and to its own robot, for people to see. An order that no datagram
-  /// holds is void.
+  /// Adds the instructions that are to be said now: to each robot that does not keep to the order
+  /// yet, or has not been told all of it; and to its own robot, for people to see. An order that no
+  /// datagram holds is void.
   void say(const HeardIntents& heard, double now_s, std::vector<PassingMessage>& messages);
 
  private:

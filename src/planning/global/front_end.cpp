@@ -85,8 +85,8 @@ std::vector<Vector2> rest_of(const std::vector<Vector2>& path, const Vector2& fr
   return rest;
 }
 
-/// The path that the query gives, from `from` on: by the way that is promised, for who is still to
-/// get to where it begins.
+/// The path that the query gives, from `from` on. A robot that has not reached its beginning yet
+/// goes there by the way that it has promised.
 std::vector<Vector2> given_path(const PlanQuery& query, const Vector2& from, double max_speed) {
   const std::vector<Vector2>& path = query.along;
   const Vector2& promised = query.committed.end_pose().position;

@@ -10,8 +10,6 @@
 namespace mocha {
 namespace {
 
-constexpr double kPerMove_m = 1.0;  // what it costs to begin and to end a move, as a distance
-
 struct Node {
   Placing placing;
   int parent;
@@ -31,7 +29,7 @@ class Search {
       const auto [least_m, unused, number] = queue_.top();
       queue_.pop();
       if (best_m_.at(nodes_[number].placing) < nodes_[number].cost_m) continue;
-      if (is_solved(nodes_[number].placing)) return {Outcome::kFound, steps_to(number)};
+      if (problem_.is_solved(nodes_[number].placing)) return {Outcome::kFound, steps_to(number)};
       if (should_stop()) return {Outcome::kStopped, {}};
       for (int robot = 0; robot < problem_.robots(); ++robot) {
         for (const PlaceMove& move : problem_.graph.moves[nodes_[number].placing[robot]]) {
@@ -46,13 +44,6 @@ class Search {
  private:
   using Outcome = PassingSequence::Outcome;
   using Entry = std::tuple<double, int, int>;  // costs at least; newest first; the node
-
-  bool is_solved(const Placing& placing) const {
-    for (int robot = 0; robot < problem_.robots(); ++robot) {
-      if (!problem_.is_at_goal(robot, placing[robot])) return false;
-    }
-    return true;
-  }
 
   static bool is_free(const Placing& placing, int robot, const PlaceMove& move) {
     for (int other = 0; other < static_cast<int>(placing.size()); ++other) {

@@ -13,7 +13,6 @@ namespace mocha {
 namespace {
 
 constexpr double kShareOfAll = 0.1;  // what all drive, against what the farthest drives
-constexpr double kPerMove_m = 1.0;   // what it costs to begin and to end a move, as a distance
 constexpr std::int16_t kStays = -1;
 constexpr std::uint32_t kMostPlaces = 32768;
 
@@ -119,7 +118,7 @@ class Run {
     double all_m = node.all_m;
     for (int i = 0; i < count(); ++i) {
       const double left_m = distances_m_(robots_[i], place_after(node, i));
-      // Who has not chosen yet drives while the others do.
+      // Robots that have not chosen yet drive while the others do.
       farthest_m = std::max(farthest_m, i < node.chosen ? node.farthest_m + left_m : left_m);
       all_m += left_m;
     }

@@ -6,7 +6,7 @@
 
 namespace mocha {
 
-/// Who is where, and who is to get where.
+/// The place of each robot now, and the one that it is to get to.
 struct PassingProblem {
   static constexpr int kAnywhere = -1;
 
@@ -18,7 +18,16 @@ struct PassingProblem {
   bool is_at_goal(int robot, int place) const {
     return goals[robot] == kAnywhere || goals[robot] == place;
   }
+  bool is_solved(const Placing& placing) const {
+    for (int robot = 0; robot < robots(); ++robot) {
+      if (!is_at_goal(robot, placing[robot])) return false;
+    }
+    return true;
+  }
 };
+
+/// What it costs to begin and to end a move, as a distance [m].
+constexpr double kPerMove_m = 1.0;
 
 /// Throws std::invalid_argument where starts and goals are not of as many robots, or not of the
 /// graph.

@@ -35,7 +35,8 @@ class Search {
     visit(problem_.starts, -1);
     for (int left = most_steps; !open_.empty() && left > 0 && !should_stop_(); --left) {
       const int node = open_.back();
-      if (is_at_goals(node)) return {PassingSequence::Outcome::kFound, sequence_to(node)};
+      if (problem_.is_solved(nodes_[node].placing))
+        return {PassingSequence::Outcome::kFound, sequence_to(node)};
       if (nodes_[node].demands.empty()) {
         open_.pop_back();
       } else {
@@ -51,13 +52,6 @@ class Search {
   bool all_reach_their_goals() const {
     for (int robot = 0; robot < problem_.robots(); ++robot) {
       if (!std::isfinite(distances_m_(robot, problem_.starts[robot]))) return false;
-    }
-    return true;
-  }
-
-  bool is_at_goals(int node) const {
-    for (int robot = 0; robot < problem_.robots(); ++robot) {
-      if (!problem_.is_at_goal(robot, nodes_[node].placing[robot])) return false;
     }
     return true;
   }

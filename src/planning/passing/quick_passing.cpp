@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <random>
 #include <utility>
 
@@ -12,7 +11,7 @@
 namespace mocha {
 namespace {
 
-constexpr int kMostAtOnce = 3;  // robots, of more
+constexpr int kMostAtOnce = 3;  // robots
 constexpr int kChoicesAtOnce = 20000;
 constexpr double kQuicker_s = 1e-6;
 

@@ -35,8 +35,8 @@ Motion after_a_wait(const Motion& motion, double wait_s) {
   return {motion.start_time(), std::move(phases)};
 }
 
-/// How long it still turns in place before it drives [s]. Others can do with more of what follows:
-/// whoever waits for it to drive on need not wait for the turn.
+/// How long the robot still turns in place before it drives [s]. A promise reaches farther by that,
+/// as team-mates wait for what it drives.
 double turns_for_s(const Motion& plan, double now_s) {
   const double from_s = std::max(now_s, plan.start_time());
   return plan.switch_time(from_s) - from_s;
