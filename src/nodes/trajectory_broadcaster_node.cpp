@@ -52,8 +52,11 @@ class TrajectoryBroadcasterNode {
       : robot_(robot_identity()),
         model_(own_robot_model(values)),
         epoch_file_(memory_file(values.text("epoch_file"), robot_.name, ".epoch")),
-        commitment_(CommitmentOptions::from(values, model_, robot_.name, next_epoch(epoch_file_))),
-        keeping_(model_, neighbour_parameters("local_replanner").number("lease"), commitment_),
+        reach_(Reach::from(values, neighbour_parameters("local_replanner"), model_)),
+        commitment_(
+            CommitmentOptions::from(values, model_, reach_, robot_.name, next_epoch(epoch_file_))),
+        keeping_(model_, neighbour_parameters("local_replanner").number("lease"),
+                 reach_.radio_range_m, commitment_),
         committed_(node.advertise<mocha_ugv::Trajectory>("committed_trajectory", 10, true)),
         fleet_(node.advertise<mocha_ugv::FleetTrajectories>("fleet/trajectories", 10, true)),
         drawings_(node.advertise<visualization_msgs::MarkerArray>("motion_markers", 2, true)),
@@ -277,6 +280,7 @@ class TrajectoryBroadcasterNode {
   const RobotIdentity robot_;
   const RobotModel model_;
   const std::string epoch_file_;
+  const Reach reach_;
   CommitmentProtocol commitment_;
   CommitmentKeeping keeping_;
   ros::Time now_;

@@ -10,8 +10,11 @@
 namespace mocha {
 
 CommitmentKeeping::CommitmentKeeping(const RobotModel& robot, double first_lease_s,
-                                     SettlingProtocol& protocol)
-    : robot_(robot), first_lease_s_(first_lease_s), protocol_(protocol) {}
+                                     double radio_range_m, SettlingProtocol& protocol)
+    : robot_(robot),
+      first_lease_s_(first_lease_s),
+      radio_range_m_(radio_range_m),
+      protocol_(protocol) {}
 
 CommitmentNews CommitmentKeeping::propose(std::uint32_t sequence, const CommittedTrajectory& wish,
                                           double now_s, const std::string& stop) {
@@ -100,9 +103,18 @@ MotionInForce CommitmentKeeping::commit(const CommitmentEvent& event, double now
   return in_force;
 }
 
+bool CommitmentKeeping::matters(const Peer& peer, double now_s) const {
+  const ReservationChain& own = protocol_.binding();
+  if (peer.binding.empty() || own.empty()) return true;
+  return (peer.binding.position(now_s) - own.position(now_s)).norm() <= radio_range_m_;
+}
+
 std::optional<std::vector<CommittedTrajectory>> CommitmentKeeping::fleet_news(double now_s) {
+  std::vector<const Peer*> peers;
   std::vector<TrajectoryId> known;
   for (const auto& [name, peer] : protocol_.peers().peers()) {
+    if (!matters(peer, now_s)) continue;
+    peers.push_back(&peer);
     for (const Reservation& reservation : peer.binding.reservations())
       known.push_back(reservation.trajectory.id);
   }
@@ -110,8 +122,8 @@ std::optional<std::vector<CommittedTrajectory>> CommitmentKeeping::fleet_news(do
   told_ = std::move(known);
   tell_again_s_ = now_s + kFleetPeriod_s;
   std::vector<CommittedTrajectory> promises;
-  for (const auto& [name, peer] : protocol_.peers().peers()) {
-    for (const Reservation& part : peer.binding.parts(now_s)) promises.push_back(part.trajectory);
+  for (const Peer* peer : peers) {
+    for (const Reservation& part : peer->binding.parts(now_s)) promises.push_back(part.trajectory);
   }
   return promises;
 }

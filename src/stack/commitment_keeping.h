@@ -49,8 +49,10 @@ class CommitmentKeeping {
     int lease_stops = 0;
   };
 
-  /// `first_lease_s`: of each newly binding motion. The protocol must outlive this.
-  CommitmentKeeping(const RobotModel& robot, double first_lease_s, SettlingProtocol& protocol);
+  /// `first_lease_s`: of each newly binding motion. Of peers beyond `radio_range_m`, which mostly
+  /// are not heard, the planners are not told. The protocol must outlive this.
+  CommitmentKeeping(const RobotModel& robot, double first_lease_s, double radio_range_m,
+                    SettlingProtocol& protocol);
 
   /// A motion that the robot wants to drive, kProposed or kEmergency, under the proposer's number,
   /// rounded as the others hear it. `stop`: why emergency motions alone are promised; empty: all
@@ -78,10 +80,12 @@ class CommitmentKeeping {
   void stop_where_the_lease_ended(double now_s, CommitmentNews& news);
   void add(const CommitmentActions& actions, double now_s, CommitmentNews& news);
   Settled settled(const CommitmentEvent& event, double now_s);
+  bool matters(const Peer& peer, double now_s) const;
   MotionInForce commit(const CommitmentEvent& event, double now_s);
 
   const RobotModel robot_;
   const double first_lease_s_;
+  const double radio_range_m_;
   SettlingProtocol& protocol_;
   LeaseWatch lease_;
   std::uint32_t committed_sequence_ = 0;

@@ -24,11 +24,12 @@ LocalReplanningOptions LocalReplanningOptions::from(const ParameterTable& values
 }
 
 LocalReplanning::LocalReplanning(const RobotModel& robot, const ParameterTable& values,
-                                 DataNames names, const LocalPlanner::Watch& watch)
+                                 double promise_reach_m, DataNames names,
+                                 const LocalPlanner::Watch& watch)
     : options_(LocalReplanningOptions::from(values)),
       names_(std::move(names)),
-      replanner_(robot, LocalReplannerOptions::from(values, robot), LocalOptions::from(values),
-                 watch) {}
+      replanner_(robot, LocalReplannerOptions::from(values, robot, promise_reach_m),
+                 LocalOptions::from(values), watch) {}
 
 void LocalReplanning::set_plan(Motion plan, PlanKind kind) {
   if (plan.empty()) step_is_due_ = true;

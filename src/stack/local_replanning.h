@@ -72,8 +72,8 @@ class LocalReplanning {
   };
 
   LocalReplanning(
-      const RobotModel& robot, const ParameterTable& values, DataNames names = {},
-      const LocalPlanner::Watch& watch = [](LocalStage) {});
+      const RobotModel& robot, const ParameterTable& values, double promise_reach_m,
+      DataNames names = {}, const LocalPlanner::Watch& watch = [](LocalStage) {});
 
   /// As LocalReplanner::set_plan(); where there is nothing to drive to, a step is due at once.
   void set_plan(Motion plan, PlanKind kind = PlanKind::kFree);

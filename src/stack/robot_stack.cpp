@@ -48,8 +48,9 @@ RobotStack::RobotStack(std::string name, const RobotModel& robot, const Paramete
       protocol_(protocol),
       planning_(robot, parameters.global_planner, name_, 0, handover_s(parameters.local_replanner),
                 runner_),
-      replanning_(robot, parameters.local_replanner),
-      keeping_(robot, parameters.local_replanner.number("lease"), protocol) {}
+      replanning_(robot, parameters.local_replanner, parameters.reach.promise_m),
+      keeping_(robot, parameters.local_replanner.number("lease"), parameters.reach.radio_range_m,
+               protocol) {}
 
 void RobotStack::take(std::deque<Goal> goals, double now_s) {
   planning_.executive().take(std::move(goals), committed(), now_s);

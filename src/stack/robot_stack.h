@@ -18,10 +18,12 @@ class RobotStack {
  public:
   using Messages = std::vector<FleetMessage>;
 
-  /// Values of config/global_planner.yaml and config/local_replanner.yaml.
+  /// Values of config/global_planner.yaml and config/local_replanner.yaml, and what follows from
+  /// them for the fleet.
   struct Parameters {
     ParameterTable global_planner;
     ParameterTable local_replanner;
+    Reach reach;
   };
 
   /// The protocol must outlive this.

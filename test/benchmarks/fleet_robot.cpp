@@ -42,10 +42,18 @@ ParameterTable local_values(const FleetOptions& options) {
   return values;
 }
 
+ParameterTable broadcaster_values() {
+  return ParameterTable::from_schema("config/trajectory_broadcaster.yaml");
+}
+
+Reach reach_of(const RobotModel& robot, const FleetOptions& options) {
+  return Reach::from(broadcaster_values(), local_values(options), robot);
+}
+
 CommitmentOptions commitment_options(const std::string& name, const RobotModel& robot,
                                      const FleetOptions& options) {
-  const auto values = ParameterTable::from_schema("config/trajectory_broadcaster.yaml");
-  CommitmentOptions commitment = CommitmentOptions::from(values, robot, name, kEpoch);
+  CommitmentOptions commitment =
+      CommitmentOptions::from(broadcaster_values(), robot, reach_of(robot, options), name, kEpoch);
   commitment.delta_dc_s = options.delta_dc_s;
   return commitment;
 }
@@ -101,7 +109,8 @@ FleetRobot::FleetRobot(std::string name, const FleetAgent& agent, const FleetOpt
       options_(options),
       protocol_(protocol_of(commitment_options(name_, robot_, options), options.protocol),
                 options.planning_threads == 1),
-      stack_(name_, robot_, {global_values(options), local_values(options)}, protocol_),
+      stack_(name_, robot_,
+             {global_values(options), local_values(options), reach_of(robot_, options)}, protocol_),
       link_(name_, std::nullopt) {}
 
 PlanningRecord FleetRobot::record() const {

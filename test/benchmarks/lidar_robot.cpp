@@ -67,8 +67,10 @@ LidarRobot::LidarRobot(const World& world, std::uint64_t seed)
       simulator_(with_needed_scans_only(world, schema("perception").number("integration_rate")),
                  kBegin_s, seed),
       perception_(robot_),
-      protocol_(CommitmentOptions::from(schema("trajectory_broadcaster"), robot_, "ugv1", 1)),
-      stack_("ugv1", robot_, {global_values(), local_values()}, protocol_),
+      reach_(Reach::from(schema("trajectory_broadcaster"), local_values(), robot_)),
+      protocol_(
+          CommitmentOptions::from(schema("trajectory_broadcaster"), robot_, reach_, "ugv1", 1)),
+      stack_("ugv1", robot_, {global_values(), local_values(), reach_}, protocol_),
       tracker_(TrackerParameters::from(schema("trajectory_tracker")), robot_),
       places_{truth().setup.start.position} {}
 

@@ -58,6 +58,7 @@ class LidarRobot {
   WorldSimulator simulator_;
   LidarPerception perception_;
   const ParameterTable local_values_ = ParameterTable::from_schema("config/local_replanner.yaml");
+  const Reach reach_;
   CommitmentProtocol protocol_;
   RobotStack stack_;
   TrajectoryTracker tracker_;

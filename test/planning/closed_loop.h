@@ -17,9 +17,12 @@
 
 namespace mocha {
 
+/// How far promises lead where there is no fleet.
+constexpr double kAnywhere_m = 1e6;
+
 inline LocalReplannerOptions default_replanner_options(const RobotModel& robot) {
   return LocalReplannerOptions::from(ParameterTable::from_schema("config/local_replanner.yaml"),
-                                     robot);
+                                     robot, kAnywhere_m);
 }
 
 /// The planners of one robot in simulated time, with a perfect tracker and peers that answer after
@@ -38,8 +41,9 @@ class ClosedLoop {
         goal(goal),
         robot_(robot),
         planner_(robot, default_options()),
-        replanning_(robot, ParameterTable::from_schema("config/local_replanner.yaml"), {}, watch),
-        keeping_(robot, kLease_s, answers_) {
+        replanning_(robot, ParameterTable::from_schema("config/local_replanner.yaml"), kAnywhere_m,
+                    {}, watch),
+        keeping_(robot, kLease_s, kAnywhere_m, answers_) {
     pose_.position = start;
   }
 

@@ -23,8 +23,11 @@ class OneRobot {
  public:
   explicit OneRobot(const RobotModel& robot)
       : robot_(robot),
-        protocol_(CommitmentOptions::from(schema("trajectory_broadcaster"), robot, "ugv1", 1)),
-        stack_("ugv1", robot, {schema("global_planner"), schema("local_replanner")}, protocol_) {
+        reach_(Reach::from(schema("trajectory_broadcaster"), schema("local_replanner"), robot)),
+        protocol_(
+            CommitmentOptions::from(schema("trajectory_broadcaster"), robot, reach_, "ugv1", 1)),
+        stack_("ugv1", robot, {schema("global_planner"), schema("local_replanner"), reach_},
+               protocol_) {
     run(3.0);  // listens first
   }
 
@@ -81,6 +84,7 @@ class OneRobot {
 
   const RobotModel robot_;
   const LocalScene scene_ = scene_of(free_grid({-8.0, -4.0}, {20.0, 4.0}));
+  const Reach reach_;
   CommitmentProtocol protocol_;
   RobotStack stack_;
   int ticks_ = 0;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kNow_s = 1.7e9;
 constexpr double kLease_s = 0.5;
+constexpr double kRadioRange_m = 30.0;
 
 CommittedTrajectory wish(const Motion& motion, TrajectoryState state = TrajectoryState::kProposed,
                          const std::string& agent = "ugv1") {
@@ -37,7 +38,7 @@ class CommitmentKeepingTest : public ::testing::Test {
 
   const Motion drive_ = straight_drive(kNow_s + 0.3, {0.0, 0.0}, 0.0, 4.0, 0.9, 0.5);
   LateAnswers protocol_;
-  CommitmentKeeping keeping_{rover(), kLease_s, protocol_};
+  CommitmentKeeping keeping_{rover(), kLease_s, kRadioRange_m, protocol_};
 };
 
 TEST_F(CommitmentKeepingTest, WhatIsBindingHasTheProposersNumberAndAFirstLease) {

@@ -40,6 +40,7 @@ class LocalReplanningTest : public ::testing::Test {
   LocalReplanning replanning_{
       rover(),
       ParameterTable::from_schema("config/local_replanner.yaml"),
+      1e6,
       {"/ugv1/map", "/ugv1/fleet/trajectories", "/ugv1/predicted_obstacles"}};
 };
 

@@ -10,13 +10,15 @@
 namespace mocha {
 namespace {
 
+constexpr Reach kAnyReach{1e6, 2.0, 1e6};
+
 /// A rover with a perfect tracker, and peers of which the test makes what they promise.
 class RobotStackTest : public ::testing::Test {
  protected:
   explicit RobotStackTest(const RobotModel& robot = rover())
       : stack_("ugv1", robot,
                {ParameterTable::from_schema("config/global_planner.yaml"),
-                ParameterTable::from_schema("config/local_replanner.yaml")},
+                ParameterTable::from_schema("config/local_replanner.yaml"), kAnyReach},
                protocol_) {}
 
   RobotState state() const {

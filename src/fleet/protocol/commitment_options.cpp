@@ -16,7 +16,8 @@ void require(bool condition, const char* name, double value, const char* range) 
 }  // namespace
 
 CommitmentOptions CommitmentOptions::from(const ParameterTable& values, const RobotModel& robot,
-                                          const std::string& agent, std::uint32_t epoch) {
+                                          const Reach& reach, const std::string& agent,
+                                          std::uint32_t epoch) {
   const MarginBudget margins = MarginBudget::of(robot);
   CommitmentOptions options;
   options.agent = agent;
@@ -30,6 +31,7 @@ CommitmentOptions CommitmentOptions::from(const ParameterTable& values, const Ro
   options.heartbeat_period_s = 1.0 / values.number("heartbeat_rate");
   options.resend_period_s = 1.0 / values.number("resend_rate");
   options.clocks = {2.0 * margins.clock_s, values.number("max_clock_error")};
+  options.reach = reach;
   return options;
 }
 
@@ -42,6 +44,8 @@ void CommitmentOptions::validate() const {
   require(resend_period_s > 0.0, "resend period", resend_period_s, "above 0 s");
   require(clocks.tolerance_s >= 0.0, "clock tolerance", clocks.tolerance_s, "0 s or more");
   require(clocks.max_error_s >= 0.0, "max_clock_error", clocks.max_error_s, "0 s or more");
+  require(reach.promise_m > 0.0, "promise reach", reach.promise_m, "above 0 m");
+  require(reach.fleet_speed > 0.0, "fleet_speed", reach.fleet_speed, "above 0 m/s");
 }
 
 }  // namespace mocha

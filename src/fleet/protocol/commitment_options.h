@@ -5,6 +5,7 @@
 #include <string>
 
 #include "config/parameter_table.h"
+#include "fleet/protocol/reach.h"
 #include "world/robot_model.h"
 
 namespace mocha {
@@ -29,10 +30,11 @@ struct CommitmentOptions {
   double heartbeat_period_s;
   double resend_period_s;
   ClockOptions clocks;
+  Reach reach;
 
   /// As config/trajectory_broadcaster.yaml and the robot's model have it, for the robot `agent`.
   static CommitmentOptions from(const ParameterTable& values, const RobotModel& robot,
-                                const std::string& agent, std::uint32_t epoch);
+                                const Reach& reach, const std::string& agent, std::uint32_t epoch);
 
   /// Throws std::invalid_argument naming the first value that is out of range.
   void validate() const;

@@ -1,11 +1,16 @@
 #include "fleet/protocol/commitment_protocol.h"
 
+#include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace mocha {
 namespace {
 
 constexpr double kContinuity_m = 0.05;
+
+/// A peer that does not know quite so well where this robot is may wait for its word already.
+constexpr double kSpare_s = 0.5;
 
 CommitmentEvent event_of(CommitmentEvent::Kind kind, const CommittedTrajectory& trajectory,
                          const Proposal& proposal) {
@@ -32,6 +37,7 @@ CommitmentProtocol::State CommitmentProtocol::state() const {
 
 CommitmentActions CommitmentProtocol::propose(const Proposal& proposal, double now) {
   CommittedTrajectory trajectory = trajectory_of(proposal, TrajectoryState::kProposed);
+  require_in_reach(*proposal.motion, now);
   CommitmentActions actions;
   listen(now);
   if (pending_) drop_pending(CommitmentEvent::Kind::kWithdrawn, Refusal::kReplaced, {}, actions);
@@ -215,6 +221,7 @@ void CommitmentProtocol::answer(const std::string& name, const Peer& peer, doubl
   const CommittedTrajectory* pending = pending_ ? &pending_->trajectory : nullptr;
   if (meetings(now).objects_to(peer, *proposal, pending)) return;
   peers_.endorse(name, *proposal);
+  if (!neighbourhood(now).is_near(peer, kSpare_s)) return;
   answers_.push_back({name, proposal->id, proposal->state});
 }
 
@@ -223,9 +230,14 @@ void CommitmentProtocol::keep_in_touch(double now, CommitmentActions& actions) {
   const bool answers = !answers_.empty() && now >= next_answer_s_;
   if (!periodic && !answers) return;
   if (!answers_.empty()) next_answer_s_ = now + kAnswerPeriod_s;
-  actions.heartbeat = periodic ? Heartbeat{options_.agent, options_.epoch, now,
-                                           peers_.acknowledgements(now), peers_.echoes(now)}
-                               : Heartbeat{options_.agent, options_.epoch, now, answers_, {}};
+  actions.heartbeat = periodic ? periodic_heartbeat(now) : heartbeat(now);
+  for (const Acknowledgement& answer : answers_) {
+    std::vector<Acknowledgement>& lines = actions.heartbeat->acknowledgements;
+    const bool said = std::any_of(lines.begin(), lines.end(), [&](const Acknowledgement& line) {
+      return line.agent == answer.agent && !(line.id < answer.id);
+    });
+    if (!said) lines.push_back(answer);
+  }
   answers_.clear();
   if (!binding_.empty()) {
     const CommittedTrajectory& newest = binding_.newest();
@@ -234,6 +246,27 @@ void CommitmentProtocol::keep_in_touch(double now, CommitmentActions& actions) {
   if (sequence_ > 0 && !is_binding(last_sent_.state))
     actions.heartbeat->acknowledgements.push_back(last_sent_);
   if (periodic) send_again(now, actions);
+}
+
+Heartbeat CommitmentProtocol::heartbeat(double now) const {
+  return {options_.agent, options_.epoch, now, {}, {}, options_.reach.promise_m};
+}
+
+Heartbeat CommitmentProtocol::periodic_heartbeat(double now) {
+  std::vector<LineRota::Entry> acknowledged;
+  std::vector<LineRota::Entry> echoed;
+  const Neighbourhood here = neighbourhood(now);
+  for (const auto& [name, peer] : peers_.peers()) {
+    const double urgency = here.urgency(peer);
+    if (peers_.acknowledgement(name, now)) acknowledged.push_back({name, urgency});
+    if (peers_.echo(name, now)) echoed.push_back({name, urgency});
+  }
+  Heartbeat heartbeat = this->heartbeat(now);
+  for (const std::string& name : acknowledged_.take(std::move(acknowledged), now))
+    heartbeat.acknowledgements.push_back(*peers_.acknowledgement(name, now));
+  for (const std::string& name : echoed_.take(std::move(echoed), now))
+    heartbeat.echoes.push_back(*peers_.echo(name, now));
+  return heartbeat;
 }
 
 void CommitmentProtocol::send_again(double now, CommitmentActions& actions) {
@@ -261,6 +294,16 @@ void CommitmentProtocol::report_breach(const std::string& name, double now,
   }
 }
 
+void CommitmentProtocol::require_in_reach(const Motion& motion, double now) const {
+  Eigen::AlignedBox2d box = motion.box();
+  if (!binding_.empty()) box.extend(binding_.box(now));
+  const double leads_m = box.diagonal().norm();
+  if (leads_m <= options_.reach.promise_m) return;
+  throw std::invalid_argument("leads " + std::to_string(leads_m) + " m far, allowed is " +
+                              std::to_string(options_.reach.promise_m) +
+                              " m: beyond, robots could be met that are not heard");
+}
+
 Refusal CommitmentProtocol::refusal_by_itself(const Motion& motion, double now) const {
   if (listening_) return Refusal::kListening;
   if (motion.start_time() < now + options_.delta_dc_s) return Refusal::kTooLate;
@@ -271,16 +314,19 @@ Refusal CommitmentProtocol::refusal_by_itself(const Motion& motion, double now) 
 }
 
 std::string CommitmentProtocol::unaware_peer(TrajectoryId id, double now) const {
+  const Neighbourhood here = neighbourhood(now);
   for (const auto& [name, peer] : peers_.peers()) {
     const bool aware = peer.of_us && !(peer.of_us->id < id);
-    if (!aware && peers_.in_reach(peer, now)) return name;
+    if (!aware && peers_.in_reach(peer, now) && here.is_near(peer)) return name;
   }
   return {};
 }
 
 std::string CommitmentProtocol::unclocked_peer(double now) const {
+  const Neighbourhood here = neighbourhood(now);
   for (const auto& [name, peer] : peers_.peers()) {
-    if (peers_.in_reach(peer, now) && !peers_.clock_known(peer, now)) return name;
+    if (!peers_.clock_known(peer, now) && peers_.in_reach(peer, now) && here.is_near(peer))
+      return name;
   }
   return {};
 }

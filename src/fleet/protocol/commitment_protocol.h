@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "fleet/protocol/commitment_options.h"
+#include "fleet/protocol/line_rota.h"
 #include "fleet/protocol/meetings.h"
+#include "fleet/protocol/neighbourhood.h"
 #include "fleet/protocol/settling_protocol.h"
 
 namespace mocha {
@@ -72,6 +74,11 @@ class CommitmentProtocol : public SettlingProtocol {
   /// any useful delta_dc, so that no proposal settles later than it would anyway.
   static constexpr double kAnswerPeriod_s = 0.025;
 
+  /// Of so many peers a periodic heartbeat says what is endorsed, and what was heard last: near
+  /// ones have their turn oftener (LineRota), so what a robot sends does not grow with the fleet.
+  static constexpr std::size_t kMostAcknowledged = 12;
+  static constexpr std::size_t kMostEchoed = 6;
+
   /// Throws std::invalid_argument for options out of range.
   explicit CommitmentProtocol(CommitmentOptions options);
 
@@ -116,12 +123,18 @@ class CommitmentProtocol : public SettlingProtocol {
   void answer(double now);
   void answer(const std::string& name, const Peer& peer, double now);
   void keep_in_touch(double now, CommitmentActions& actions);
+  Heartbeat heartbeat(double now) const;
+  Heartbeat periodic_heartbeat(double now);
   void send_again(double now, CommitmentActions& actions);
   void report_breach(const std::string& name, double now, CommitmentActions& actions) const;
 
   Meetings meetings(double now) const { return {options_, binding_, now}; }
+  Neighbourhood neighbourhood(double now) const { return {options_, binding_, now}; }
+  /// Throws std::invalid_argument where it leads farther than the robot may promise.
+  void require_in_reach(const Motion& motion, double now) const;
   Refusal refusal_by_itself(const Motion& motion, double now) const;
-  /// The name of a peer in reach that has not acknowledged the promise; empty if there is none.
+  /// The name of a near peer in reach that has not acknowledged the promise; empty if there is
+  /// none.
   std::string unaware_peer(TrajectoryId id, double now) const;
   std::string unclocked_peer(double now) const;
 
@@ -135,6 +148,8 @@ class CommitmentProtocol : public SettlingProtocol {
   bool listening_ = true;
   std::vector<Acknowledgement> answers_;  // endorsed, not said yet
   double next_answer_s_ = 0.0;
+  LineRota acknowledged_{kMostAcknowledged};
+  LineRota echoed_{kMostEchoed};
   double next_heartbeat_s_ = 0.0;
   double next_resend_s_ = 0.0;
   int impostors_ = 0;

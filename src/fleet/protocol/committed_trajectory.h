@@ -93,6 +93,7 @@ struct Heartbeat {
   double stamp_s = 0.0;  ///< of the sender's clock
   std::vector<Acknowledgement> acknowledgements;
   std::vector<Echo> echoes;
+  double promise_reach_m = 0.0;  ///< from where it is, the sender promises no farther
 };
 
 }  // namespace mocha

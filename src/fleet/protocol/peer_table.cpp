@@ -84,14 +84,17 @@ PeerTable::Verdict PeerTable::receive(const CommittedTrajectory& trajectory, dou
   const bool former = is_former(*peer, trajectory.id.epoch, now);
   if (former && !(is_binding(trajectory.state) && peer->bound_by_former_epoch()))
     return count(Verdict::kOld);
-  return count(take(*peer, reclocked(trajectory, -peer->clock_ahead_s, peer->clock_error_s)));
+  return count(take(*peer, reclocked(trajectory, -peer->clock_ahead_s, peer->clock_error_s), now));
 }
 
-PeerTable::Verdict PeerTable::take(Peer& peer, const CommittedTrajectory& trajectory) {
+PeerTable::Verdict PeerTable::take(Peer& peer, const CommittedTrajectory& trajectory, double now) {
   const TrajectoryId former = peer.newest;
   if (is_binding(trajectory.state)) {
-    if (peer.binding.holds(trajectory.id)) return Verdict::kDuplicate;
-    return bind(peer, trajectory) ? Verdict::kNews : Verdict::kOld;
+    const bool known = peer.binding.holds(trajectory.id);
+    const bool bound = !known && bind(peer, trajectory);
+    if ((known || bound) && peer.binding.newest().id == trajectory.id) peer.placed_s = now;
+    if (known) return Verdict::kDuplicate;
+    return bound ? Verdict::kNews : Verdict::kOld;
   }
   peer.newest = std::max(peer.newest, trajectory.id);
   if (trajectory.state == TrajectoryState::kWithdrawn) {
@@ -120,10 +123,11 @@ PeerTable::Verdict PeerTable::receive(const Heartbeat& heartbeat, double now) {
   Peer* peer = find(heartbeat.agent);
   if (peer == nullptr) return count(Verdict::kCrowded);
   if (is_former(*peer, heartbeat.epoch, now)) {
-    const bool tells = peer->bound_by_former_epoch() && resolve(*peer, heartbeat);
+    const bool tells = peer->bound_by_former_epoch() && resolve(*peer, heartbeat, now);
     return count(tells ? Verdict::kNews : Verdict::kOld);
   }
   peer->last_heartbeat_s = std::max(peer->last_heartbeat_s, now);
+  peer->promise_reach_m = heartbeat.promise_reach_m;
   const bool reclocked = read_clock(*peer, heartbeat, now);
   for (const Acknowledgement& line : heartbeat.acknowledgements) {
     if (line.agent != own_name_) continue;
@@ -131,7 +135,7 @@ PeerTable::Verdict PeerTable::receive(const Heartbeat& heartbeat, double now) {
     if (line.id.epoch != own_epoch_) continue;
     if (!peer->of_us || !(line.id < peer->of_us->id)) peer->of_us = line;
   }
-  const bool resolved = resolve(*peer, heartbeat);
+  const bool resolved = resolve(*peer, heartbeat, now);
   return reclocked || resolved ? Verdict::kNews : Verdict::kAlive;
 }
 
@@ -169,7 +173,7 @@ bool PeerTable::read_clock(Peer& peer, const Heartbeat& heartbeat, double now) {
   return true;
 }
 
-bool PeerTable::resolve(Peer& peer, const Heartbeat& heartbeat) {
+bool PeerTable::resolve(Peer& peer, const Heartbeat& heartbeat, double now) {
   TrajectoryId bound{heartbeat.epoch, 0};
   TrajectoryState bound_state = TrajectoryState::kCommitted;
   TrajectoryId latest = bound;
@@ -193,6 +197,7 @@ bool PeerTable::resolve(Peer& peer, const Heartbeat& heartbeat) {
     trajectory.state = bound_state;
     bind(peer, trajectory);
   }
+  if (!peer.binding.empty() && peer.binding.newest().id == bound) peer.placed_s = now;
   // What was replaced before the heartbeat was sent, and is not in force, never will be.
   drop_if(peer.open, [&](const CommittedTrajectory& open) {
     const bool past =
@@ -234,26 +239,20 @@ void PeerTable::forget_unendorsed(Peer& peer) {
   peer.newest = std::min(peer.newest, peer.endorsed);
 }
 
-std::vector<Acknowledgement> PeerTable::acknowledgements(double now) const {
-  std::vector<Acknowledgement> acknowledgements;
-  for (const auto& [name, peer] : peers_) {
-    const bool any = peer.endorsed.sequence > 0 && peer.endorsed.epoch == peer.epoch;
-    if (any && in_reach(peer, now)) {
-      acknowledgements.push_back({name, peer.endorsed, peer.endorsed_state});
-    } else if (now - peer.last_old_s <= reach_timeout_s_) {
-      acknowledgements.push_back({name, {peer.epoch, 0}, TrajectoryState::kProposed});
-    }
-  }
-  return acknowledgements;
+std::optional<Acknowledgement> PeerTable::acknowledgement(const std::string& name,
+                                                          double now) const {
+  const Peer& peer = peers_.at(name);
+  const bool any = peer.endorsed.sequence > 0 && peer.endorsed.epoch == peer.epoch;
+  if (any && in_reach(peer, now)) return Acknowledgement{name, peer.endorsed, peer.endorsed_state};
+  if (now - peer.last_old_s <= reach_timeout_s_)
+    return Acknowledgement{name, {peer.epoch, 0}, TrajectoryState::kProposed};
+  return std::nullopt;
 }
 
-std::vector<Echo> PeerTable::echoes(double now) const {
-  std::vector<Echo> echoes;
-  for (const auto& [name, peer] : peers_) {
-    if (in_reach(peer, now) && std::isfinite(peer.stamp_s))
-      echoes.push_back({name, peer.stamp_s, now - peer.stamp_heard_s});
-  }
-  return echoes;
+std::optional<Echo> PeerTable::echo(const std::string& name, double now) const {
+  const Peer& peer = peers_.at(name);
+  if (!in_reach(peer, now) || !std::isfinite(peer.stamp_s)) return std::nullopt;
+  return Echo{name, peer.stamp_s, now - peer.stamp_heard_s};
 }
 
 }  // namespace mocha

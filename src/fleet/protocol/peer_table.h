@@ -27,6 +27,9 @@ struct Peer {
   std::optional<Acknowledgement> of_us;                            ///< what the peer has seen of us
   double last_heard_s = -std::numeric_limits<double>::infinity();  ///< any message
   double last_heartbeat_s = -std::numeric_limits<double>::infinity();  ///< a heartbeat
+  double promise_reach_m = 0.0;  ///< as its newest heartbeat says
+  /// When it was heard last that its newest promise is the one that is known.
+  double placed_s = -std::numeric_limits<double>::infinity();
   double last_old_s = -std::numeric_limits<double>::infinity();  ///< anything of a former epoch
 
   /// Its newest heartbeat: the stamp, by its clock, and when it came, by ours.
@@ -63,7 +66,7 @@ struct Peer {
 class PeerTable {
  public:
   /// So many peers are known at most: a network full of invented names takes no more memory.
-  static constexpr std::size_t kMostPeers = 250;
+  static constexpr std::size_t kMostPeers = 2000;
 
   enum class Verdict {
     kNews,       ///< changes what the peer is taken to do
@@ -93,10 +96,10 @@ class PeerTable {
   /// Its clock has been measured, and that well enough.
   bool clock_known(const Peer& peer, double now) const;
 
-  /// The lines of our heartbeat about the peers in reach. One that calls itself by a former epoch
-  /// is told the epoch that we know of it.
-  std::vector<Acknowledgement> acknowledgements(double now) const;
-  std::vector<Echo> echoes(double now) const;
+  /// The line of our heartbeat about a peer; nothing where there is nothing to say. One that calls
+  /// itself by a former epoch is told the epoch that we know of it.
+  std::optional<Acknowledgement> acknowledgement(const std::string& name, double now) const;
+  std::optional<Echo> echo(const std::string& name, double now) const;
 
   /// The highest epoch of ourselves that any peer knows of; above our own, no peer listens to us.
   /// Never one that leaves us fewer than kMostStarts more.
@@ -115,11 +118,11 @@ class PeerTable {
  private:
   friend class ProtocolFingerprint;  // of test/fleet/model
 
-  Verdict take(Peer& peer, const CommittedTrajectory& trajectory);
+  Verdict take(Peer& peer, const CommittedTrajectory& trajectory, double now);
   /// False where later promises have replaced it.
   bool bind(Peer& peer, const CommittedTrajectory& trajectory);
   /// Whether the heartbeat tells the fate of open proposals.
-  bool resolve(Peer& peer, const Heartbeat& heartbeat);
+  bool resolve(Peer& peer, const Heartbeat& heartbeat, double now);
   /// The peer of this name; none if there are too many.
   Peer* find(const std::string& name);
   /// Whether what the peer said in this epoch was said before it was started anew.

@@ -109,6 +109,13 @@ std::shared_ptr<const Motion> ReservationChain::composed(double now) const {
   return parts(now).back().trajectory.motion;
 }
 
+Eigen::AlignedBox2d ReservationChain::box(double now) const {
+  Eigen::AlignedBox2d box;
+  for (const Reservation& part : parts(now))
+    box.extend(rest_of(*part.trajectory.motion, now).box());
+  return box;
+}
+
 Vector2 ReservationChain::position(double t) const {
   const auto in_force =
       std::find_if(reservations_.begin(), reservations_.end() - 1,

@@ -63,6 +63,8 @@ class ReservationChain {
   /// or brakes off its motion) a new claim begins. Its motion takes over at `from_s` and not
   /// before: until then the one before it is in force, and is given whole, to its own rest.
   std::vector<Reservation> parts(double now) const;
+  /// Holds every place of these from `now` on [m].
+  Eigen::AlignedBox2d box(double now) const;
   /// The motion of the last of these: what is in force, or will be once the robot leaves what it
   /// drives now.
   std::shared_ptr<const Motion> composed(double now) const;

@@ -23,7 +23,7 @@ class DatagramLink {
   using Bytes = std::vector<std::uint8_t>;
 
   /// Senders whose numbers are remembered: no more than PeerTable knows.
-  static constexpr std::size_t kMostSenders = 250;
+  static constexpr std::size_t kMostSenders = 2000;
 
   /// Datagrams that came, and what became of them.
   struct Counts {

@@ -21,6 +21,7 @@ constexpr std::size_t kLcmHeader = 8 + 16;  // magic number, sequence, and the c
 constexpr std::size_t kSealAt = 8 + 1 + 1;
 constexpr std::size_t kSizeAt = kSealAt + FleetKey::kSealBytes;
 constexpr std::size_t kFrame = kSizeAt + 2;
+constexpr double kReaches = 100.0;  // in a metre
 constexpr std::size_t kMostBody = kMostDatagramBytes - kLcmHeader - kFrame;
 
 enum class Kind : std::uint8_t {
@@ -92,6 +93,9 @@ void put_line(ByteWriter& out, const Echo& echo) {
 void put_heartbeat(ByteWriter& out, const Heartbeat& heartbeat, std::uint32_t number) {
   put_head(out, Kind::kHeartbeat, heartbeat.agent, heartbeat.epoch, number);
   put_number<std::int64_t>(out, heartbeat.stamp_s, kTimes, "the stamp");
+  // Rounded up: a robot must not be taken to promise less far than it does.
+  const double reach_cm = std::ceil(heartbeat.promise_reach_m * kReaches - 1e-6);
+  put_number<std::uint16_t>(out, reach_cm, 1.0, "promise_reach");
   out.put(count_of(heartbeat.acknowledgements.size(), "lines"));
   for (const Acknowledgement& acknowledgement : heartbeat.acknowledgements)
     put_line(out, acknowledgement);
@@ -104,6 +108,7 @@ Heartbeat get_heartbeat(ByteReader& in, std::string agent, std::uint32_t epoch) 
   heartbeat.agent = std::move(agent);
   heartbeat.epoch = epoch;
   heartbeat.stamp_s = get_time(in);
+  heartbeat.promise_reach_m = get_number<std::uint16_t>(in, kReaches);
   const std::size_t lines = in.get<std::uint8_t>();
   for (std::size_t i = 0; i < lines; ++i) {
     Acknowledgement acknowledgement;
@@ -231,7 +236,8 @@ std::vector<Heartbeat> in_datagrams(const Heartbeat& heartbeat) {
   const auto about_sender = [&](const Acknowledgement& line) {
     return line.agent == heartbeat.agent;
   };
-  Heartbeat head{heartbeat.agent, heartbeat.epoch, heartbeat.stamp_s, {}, {}};
+  Heartbeat head{heartbeat.agent,          heartbeat.epoch, heartbeat.stamp_s, {}, {},
+                 heartbeat.promise_reach_m};
   std::copy_if(heartbeat.acknowledgements.begin(), heartbeat.acknowledgements.end(),
                std::back_inserter(head.acknowledgements), about_sender);
   ByteWriter written;

@@ -17,11 +17,12 @@ namespace mocha {
 // Promises, heartbeats, what is said about passing and emergency stops as bytes on the network: LCM
 // messages (lcm/datagram_t.lcm) of one datagram each. Numbers are quantised: times to 1 us, places
 // to 0.01 mm, headings, speeds and accelerations to 1e-5 rad, m/s and m/s^2, turns in place to 1e-7
-// rad, radii to 1 mm (up), braking to 1 mm/s^2. So that all robots hold the same motion, the one
-// that promises drives quantised(), too; RobotModel::braking() needs no rounding.
+// rad, radii to 1 mm (up), reaches to 1 cm (up), braking to 1 mm/s^2. So that all robots hold the
+// same motion, the one that promises drives quantised(), too; RobotModel::braking() needs no
+// rounding.
 
 /// Of everything below; others are refused.
-constexpr int kWireVersion = 4;
+constexpr int kWireVersion = 5;
 
 /// What a datagram holds at most, LCM's own header with a channel of up to 15 characters included:
 /// larger ones would be cut into fragments, each of which may get lost.

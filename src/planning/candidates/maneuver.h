@@ -18,9 +18,10 @@ struct ManeuverStart {
   Course course;            ///< of what moves, that the maneuver is to keep clear of
   const Motion& committed;  ///< not empty
   double now_s;
-  double emergency_s;  ///< as an emergency, which binds at once
-  double settled_s;    ///< after settling with the peers
-  Vector2 target;      ///< on the plan, which the robot is to get to
+  double emergency_s;      ///< as an emergency, which binds at once
+  double settled_s;        ///< after settling with the peers
+  Vector2 target;          ///< on the plan, which the robot is to get to
+  double promise_reach_m;  ///< from where it is, it promises no farther
 };
 
 /// What a maneuver is until it brakes.

@@ -76,8 +76,16 @@ class Cutter {
     const auto heard = as_heard(part);
     if (!heard) return std::nullopt;
     const auto driven = splice(start_.committed, start_.now_s, heard->start_time(), *heard);
-    if (!driven || violation_of(driven.motion, heard->start_time())) return std::nullopt;
+    if (!driven || !in_reach(driven.motion)) return std::nullopt;
+    if (violation_of(driven.motion, heard->start_time())) return std::nullopt;
     return CertifiedPart{*heard, follows_until_s, cut_by};
+  }
+
+  /// Farther, robots could be met that are not heard. What is committed may be driven to its end.
+  bool in_reach(const Motion& driven) const {
+    Eigen::AlignedBox2d box = rest_of(start_.committed, start_.now_s).box();
+    box.extend(driven.box());
+    return maneuver_.at_once || box.diagonal().norm() <= start_.promise_reach_m;
   }
 
   static std::optional<Motion> as_heard(const Motion& motion) {

@@ -14,10 +14,10 @@ struct CertifiedPart {
 };
 
 /// The longest part of a maneuver that is certified, from `start.now_s` on and together with what
-/// is committed until the maneuver joins, and that fits into one datagram. It brakes within the
-/// maneuver's window; or later, up to the end of the predictions, where only to stop is in the way
-/// of something. Nothing where not even the earliest braking is certified, or where the maneuver
-/// does not meet the committed motion.
+/// is committed until the maneuver joins, and that fits into one datagram and leads no farther than
+/// the robot may promise. It brakes within the maneuver's window; or later, up to the end of the
+/// predictions, where only to stop is in the way of something. Nothing where not even the earliest
+/// braking is certified, or where the maneuver does not meet the committed motion.
 ///
 /// With RequirementName::kNone nothing is certified: the last resort of a robot.
 ///

@@ -91,7 +91,8 @@ ManeuverStart LocalReplanner::start_at(double now_s, const LocalScene& scene) co
           now_s,
           committed_.switch_time(now_s + options_.emergency_s),
           committed_.switch_time(now_s + options_.settle_s),
-          target_at(now_s)};
+          target_at(now_s),
+          options_.promise_reach_m};
 }
 
 /// Where the plan leads within some seconds.

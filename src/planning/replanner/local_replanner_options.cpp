@@ -11,7 +11,7 @@ constexpr double kLater = 1.5;          // than the tracker, in errors
 }  // namespace
 
 LocalReplannerOptions LocalReplannerOptions::from(const ParameterTable& values,
-                                                  const RobotModel& robot) {
+                                                  const RobotModel& robot, double promise_reach_m) {
   LocalReplannerOptions options;
   options.settle_s = values.number("settle_time");
   options.emergency_s = values.number("emergency_time");
@@ -24,6 +24,7 @@ LocalReplannerOptions LocalReplannerOptions::from(const ParameterTable& values,
   options.max_standing_error_m = options.max_error.at(robot.limits.max_speed);
   options.max_error_rad = values.number("max_heading_error");
   options.mu_pre_s = values.number("trigger_horizon");
+  options.promise_reach_m = promise_reach_m;
   return options;
 }
 

@@ -15,10 +15,12 @@ struct LocalReplannerOptions {
   double answer_timeout_s;  ///< a proposal without answer is given up after this time
   SpeedMargin max_error;    ///< actual against promised position, under way
   double max_standing_error_m;
-  double max_error_rad;  ///< the same for the heading
-  double mu_pre_s;       ///< paper (37): so far ahead the plan is held against what moves
+  double max_error_rad;    ///< the same for the heading
+  double mu_pre_s;         ///< paper (37): so far ahead the plan is held against what moves
+  double promise_reach_m;  ///< from where it is, the robot promises no farther
 
-  static LocalReplannerOptions from(const ParameterTable& values, const RobotModel& robot);
+  static LocalReplannerOptions from(const ParameterTable& values, const RobotModel& robot,
+                                    double promise_reach_m);
 };
 
 }  // namespace mocha

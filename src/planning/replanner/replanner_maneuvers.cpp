@@ -83,8 +83,8 @@ Maneuvers LocalReplanner::stops(const Step& step) const {
 }
 
 std::optional<Maneuver> LocalReplanner::following(Step& step) {
-  const auto& [robot, requirements, scene, course, committed, now_s, emergency_s, settled_s,
-               target] = step.start;
+  const auto& [robot, requirements, scene, course, committed, now_s, emergency_s, settled_s, target,
+               promise_reach_m] = step.start;
   const bool same_plan = committed_source_.plan == plan_id_;
   if (!same_plan) plan_ = postponed(committed, plan_, now_s, settled_s);
   if (plan_.empty() || plan_.end_time() <= now_s + options_.settle_s) return std::nullopt;

@@ -98,6 +98,7 @@ mocha_ugv::Heartbeat to_message(const Heartbeat& heartbeat, const std::string& f
   message.header.frame_id = frame;
   message.agent = heartbeat.agent;
   message.epoch = heartbeat.epoch;
+  message.promise_reach = heartbeat.promise_reach_m;
   for (const Acknowledgement& line : heartbeat.acknowledgements) {
     mocha_ugv::PeerAcknowledgement acknowledgement;
     acknowledgement.agent = line.agent;
@@ -138,7 +139,10 @@ CommittedTrajectory trajectory_from_message(const mocha_ugv::Trajectory& message
 
 Heartbeat heartbeat_from_message(const mocha_ugv::Heartbeat& message) {
   if (message.agent.empty()) throw std::invalid_argument("has no name of a robot");
-  Heartbeat heartbeat{message.agent, message.epoch, message.header.stamp.toSec(), {}, {}};
+  if (!(message.promise_reach >= 0.0 && std::isfinite(message.promise_reach)))
+    throw std::invalid_argument("promise_reach is no distance");
+  Heartbeat heartbeat{message.agent,        message.epoch, message.header.stamp.toSec(), {}, {},
+                      message.promise_reach};
   for (const auto& acknowledgement : message.acknowledgements) {
     heartbeat.acknowledgements.push_back({acknowledgement.agent,
                                           {acknowledgement.epoch, acknowledgement.sequence},

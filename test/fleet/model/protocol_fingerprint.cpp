@@ -80,7 +80,8 @@ void ProtocolFingerprint::add(const test::DrivenPromises& driven) {
 
 void ProtocolFingerprint::add(const CommitmentProtocol& protocol) {
   const auto& [options, peers, binding, pending, last_sent, sequence, listen_until_s, listening,
-               answers, next_answer_s, next_heartbeat_s, next_resend_s, impostors] = protocol;
+               answers, next_answer_s, acknowledged, echoed, next_heartbeat_s, next_resend_s,
+               impostors] = protocol;
   hash_.add(options.epoch);  // the others are the scenario's
   add(peers);
   add(binding);
@@ -95,7 +96,8 @@ void ProtocolFingerprint::add(const CommitmentProtocol& protocol) {
   add_next(next_answer_s);
   add_next(next_heartbeat_s);
   add_next(next_resend_s);
-  (void)impostors;  // only counts
+  (void)impostors;                   // only counts
+  (void)acknowledged, (void)echoed;  // there is room for all peers of a model in each heartbeat
 }
 
 void ProtocolFingerprint::add(const CommitmentProtocol::Pending& pending) {
@@ -119,8 +121,8 @@ void ProtocolFingerprint::add(const PeerTable& table) {
 
 void ProtocolFingerprint::add(const Peer& peer, double reach_timeout_s) {
   const auto& [epoch, binding, open, newest, endorsed, endorsed_state, of_us, last_heard_s,
-               last_heartbeat_s, last_old_s, stamp_s, stamp_heard_s, clock, clock_ahead_s,
-               clock_error_s] = peer;
+               last_heartbeat_s, promise_reach_m, placed_s, last_old_s, stamp_s, stamp_heard_s,
+               clock, clock_ahead_s, clock_error_s] = peer;
   hash_.add(epoch);
   add(binding);
   add_each(open);
@@ -131,6 +133,8 @@ void ProtocolFingerprint::add(const Peer& peer, double reach_timeout_s) {
   if (of_us) add(*of_us);
   add_last(last_heard_s, reach_timeout_s);
   add_last(last_heartbeat_s, reach_timeout_s);
+  hash_.add(promise_reach_m);
+  add_last(placed_s, reach_timeout_s);
   add_last(last_old_s, reach_timeout_s);
   hash_.add(std::isfinite(stamp_s));  // models make stamps and echoes as they arrive
   (void)stamp_heard_s;
@@ -170,10 +174,11 @@ void ProtocolFingerprint::add(const CommittedTrajectory& trajectory) {
 }
 
 void ProtocolFingerprint::add(const Heartbeat& heartbeat) {
-  const auto& [agent, epoch, stamp_s, acknowledgements, echoes] = heartbeat;
+  const auto& [agent, epoch, stamp_s, acknowledgements, echoes, reach_m] = heartbeat;
   hash_.add(agent);
   hash_.add(epoch);
   hash_.add(stamp_s);
+  hash_.add(reach_m);
   add_each(acknowledgements);
   for (const Echo& each : echoes) {
     const auto& [of, of_stamp_s, held_s] = each;

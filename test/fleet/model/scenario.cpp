@@ -13,6 +13,7 @@ CommitmentOptions options_of(const Scenario& scenario, int i, std::uint32_t epoc
   options.heartbeat_period_s = 2.0 * kStep_s;
   options.resend_period_s = 4.0 * kStep_s;
   options.clocks = {kStep_s, 0.25};
+  options.reach = scenario.reach;
   return options;
 }
 

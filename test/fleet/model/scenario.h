@@ -58,6 +58,7 @@ struct Scenario {
   Harm harm;
   int steps = 0;  ///< the model ends after these
   Restart restart = Restart::kAsDriven;
+  Reach reach{1000.0, 4.0, 1000.0};  ///< so that all are near
   /// Plants a fault: changes a message on its way between two robots; false: it is lost.
   std::function<bool(int from, int to, Message&)> tamper;
 

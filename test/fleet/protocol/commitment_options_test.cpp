@@ -16,7 +16,7 @@ TEST(CommitmentOptions, TakeClearancesFromTheRobotAndTimesFromTheTable) {
   changes["heartbeat_rate"] = 20.0;
   changes["priority"] = 3;
   values.assign(changes, "test");
-  const auto options = CommitmentOptions::from(values, robot, "ugv7", 4);
+  const auto options = CommitmentOptions::from(values, robot, {30.0, 2.0, 6.0}, "ugv7", 4);
   EXPECT_EQ(options.agent, "ugv7");
   EXPECT_EQ(options.epoch, 4u);
   EXPECT_EQ(options.priority, 3);
@@ -28,7 +28,7 @@ TEST(CommitmentOptions, TakeClearancesFromTheRobotAndTimesFromTheTable) {
   EXPECT_EQ(options.clocks.tolerance_s, 2.0 * robot.margins.clock_s);
   EXPECT_EQ(options.stop_reaction_s, robot.peer_reaction_s);
   robot.stops_checked = false;
-  EXPECT_FALSE(CommitmentOptions::from(values, robot, "ugv7", 4).stop_reaction_s);
+  EXPECT_FALSE(CommitmentOptions::from(values, robot, {30.0, 2.0, 6.0}, "ugv7", 4).stop_reaction_s);
 }
 
 TEST(CommitmentOptions, NameWhatIsOutOfRange) {

@@ -427,6 +427,9 @@ TEST(CommitmentProtocol, IgnoresItsOwnNameAndRefusesNonsense) {
   EXPECT_EQ(robot.state(), State::kProposing);  // without any effect
 
   CommitmentOptions options = test::options("m");
+  options.reach.promise_m = 0.0;
+  EXPECT_THROW(CommitmentProtocol{options}, std::invalid_argument);
+  options = test::options("m");
   options.delta_dc_s = -0.1;
   EXPECT_THROW(CommitmentProtocol{options}, std::invalid_argument);
   options = test::options("m");

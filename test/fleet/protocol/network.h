@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <random>
 #include <string>
 #include <utility>
@@ -23,8 +24,12 @@ class Network {
   };
   static constexpr double kRadius_m = 0.3;
 
-  Network(int seed, const Link& link)
-      : network_(seed, link), sends_heartbeats_(link.heartbeats), random_(seed) {}
+  /// Robots hear each other over `range_m`.
+  Network(int seed, const Link& link, double range_m = std::numeric_limits<double>::infinity())
+      : network_(seed, link),
+        range_m_(range_m),
+        sends_heartbeats_(link.heartbeats),
+        random_(seed) {}
 
   void add(const CommitmentOptions& options, const Braking& braking = kRoverBraking) {
     robots_.emplace_back(options);
@@ -82,16 +87,27 @@ class Network {
 
   void apply(int i, const CommitmentActions& actions) {
     heartbeats_ += actions.heartbeat.has_value();
-    for (const CommittedTrajectory& trajectory : actions.trajectories)
-      network_.broadcast(i, size(), trajectory, now_);
-    if (actions.heartbeat && sends_heartbeats_)
-      network_.broadcast(i, size(), *actions.heartbeat, now_);
+    for (const CommittedTrajectory& trajectory : actions.trajectories) send(i, trajectory);
+    if (actions.heartbeat && sends_heartbeats_) send(i, *actions.heartbeat);
     for (const CommitmentEvent& event : actions.events) {
       events_.emplace_back(i, event);
       const bool settled = event.kind == CommitmentEvent::Kind::kSettled;
       if (settled && event.trajectory.state == TrajectoryState::kCommitted)
         check(i, event.trajectory);
     }
+  }
+
+  void send(int from, const Message& message) {
+    for (int to = 0; to < size(); ++to) {
+      if (to != from && hear_each_other(from, to)) network_.send(from, to, message, now_);
+    }
+  }
+
+  bool hear_each_other(int i, int j) const {
+    const ReservationChain& a = robots_[i].binding();
+    const ReservationChain& b = robots_[j].binding();
+    if (a.empty() || b.empty()) return true;
+    return (a.position(now_) - b.position(now_)).norm() <= range_m_;
   }
 
   void check(int i, const CommittedTrajectory& trajectory) {
@@ -105,6 +121,7 @@ class Network {
   }
 
   LossyNetwork<Message> network_;
+  double range_m_;
   bool sends_heartbeats_;
   std::mt19937 random_;
   double now_ = 100.0;
@@ -116,12 +133,14 @@ class Network {
   int heartbeats_ = 0;
 };
 
-/// What ships, with a round clearance and without looking at stops: tests of these ask for them.
+/// What ships, with a round clearance, without looking at stops, and without a bound of the reach:
+/// tests of these ask for them.
 inline CommitmentOptions options(const std::string& agent, std::uint32_t epoch = 1) {
   CommitmentOptions options = shipped_options(agent, epoch);
   options.peer_clearance_m = 0.2;
   options.stop_reaction_s.reset();
   options.stop_clearance_m = 0.0;
+  options.reach = {1e4, 2.0, 1e3};
   return options;
 }
 

@@ -114,9 +114,9 @@ TEST_F(PeerTableTest, ReachIsByHeartbeat) {
   table_.receive(heartbeat(1), 5.0);
   EXPECT_TRUE(table_.in_reach(peer(), 6.0));
   EXPECT_FALSE(table_.in_reach(peer(), 6.01));
-  ASSERT_EQ(table_.acknowledgements(6.0).size(), 1u);
-  EXPECT_EQ(table_.acknowledgements(6.0)[0].id, (TrajectoryId{1, 1}));
-  EXPECT_TRUE(table_.acknowledgements(6.01).empty());
+  ASSERT_TRUE(table_.acknowledgement("a", 6.0));
+  EXPECT_EQ(table_.acknowledgement("a", 6.0)->id, (TrajectoryId{1, 1}));
+  EXPECT_FALSE(table_.acknowledgement("a", 6.01));
   table_.prune(1000.0);
   EXPECT_NEAR(peer().binding.position(1000.0).x(), 4.0, 1e-6);  // an obstacle at its last place
 }
@@ -142,10 +142,10 @@ TEST_F(PeerTableTest, AHigherEpochMakesFormerMessagesOld) {
   EXPECT_EQ(table_.receive(trajectory({1, 10}, TrajectoryState::kProposed), 0.6), Verdict::kOld);
   EXPECT_EQ(table_.receive(heartbeat(1), 0.6), Verdict::kOld);
   // It is told what it is known as.
-  ASSERT_EQ(table_.acknowledgements(0.6).size(), 1u);
-  EXPECT_EQ(table_.acknowledgements(0.6)[0].agent, "a");
-  EXPECT_EQ(table_.acknowledgements(0.6)[0].id, (TrajectoryId{2, 0}));
-  EXPECT_TRUE(table_.acknowledgements(1.7).empty());
+  ASSERT_TRUE(table_.acknowledgement("a", 0.6));
+  EXPECT_EQ(table_.acknowledgement("a", 0.6)->agent, "a");
+  EXPECT_EQ(table_.acknowledgement("a", 0.6)->id, (TrajectoryId{2, 0}));
+  EXPECT_FALSE(table_.acknowledgement("a", 1.7));
   EXPECT_EQ(table_.receive(trajectory({2, 1}, TrajectoryState::kProposed, 11.0), 0.7),
             Verdict::kNews);
   EXPECT_NE(peer().unanswered(), nullptr);
@@ -170,7 +170,7 @@ TEST_F(PeerTableTest, WhatAFormerEpochBoundCountsUntilTheNewOneBindsSomething) {
             Verdict::kNews);
   EXPECT_EQ(peer().binding.newest().id, (TrajectoryId{1, 10}));
   EXPECT_EQ(peer().epoch, 2u);
-  EXPECT_TRUE(table_.acknowledgements(0.6)[0].id == (TrajectoryId{2, 0}));
+  EXPECT_TRUE(table_.acknowledgement("a", 0.6)->id == (TrajectoryId{2, 0}));
   table_.receive(trajectory({2, 1}, TrajectoryState::kEmergency, 12.0), 0.7);
   EXPECT_EQ(peer().binding.newest().id, (TrajectoryId{2, 1}));
   table_.receive(heartbeat(2), 12.0);
@@ -281,17 +281,18 @@ TEST(PeerTable, EchoesTheNewestHeartbeatOfEachPeer) {
   table.receive(Heartbeat{"b", 1, 30.0, {}, {}}, 8.1);
   table.receive(Heartbeat{"a", 1, 20.1, {}, {}}, 8.1);
   table.receive(Heartbeat{"a", 1, 19.9, {}, {}}, 8.2);  // overtaken
-  const auto echoes = table.echoes(8.3);
-  ASSERT_EQ(echoes.size(), 2u);
-  EXPECT_EQ(echoes[0].agent, "a");
-  EXPECT_EQ(echoes[0].stamp_s, 20.1);
-  EXPECT_NEAR(echoes[0].held_s, 0.2, 1e-9);
-  EXPECT_TRUE(table.echoes(9.5).empty());
+  const auto echo = table.echo("a", 8.3);
+  ASSERT_TRUE(echo);
+  EXPECT_EQ(echo->agent, "a");
+  EXPECT_EQ(echo->stamp_s, 20.1);
+  EXPECT_NEAR(echo->held_s, 0.2, 1e-9);
+  EXPECT_TRUE(table.echo("b", 8.3));
+  EXPECT_FALSE(table.echo("a", 9.5));
 }
 
 TEST(PeerTable, InventedNamesTakeNoMoreMemoryThanAFleet) {
   PeerTable table("me", 3, 1.0, kClocks);
-  for (int i = 0; i < 1000; ++i)
+  for (std::size_t i = 0; i < PeerTable::kMostPeers + 750; ++i)
     table.receive(Heartbeat{"invented" + std::to_string(i), 1, 20.0, {}, {}}, 8.0);
   EXPECT_EQ(table.peers().size(), PeerTable::kMostPeers);
   EXPECT_EQ(table.crowded_out(), 750);

@@ -70,7 +70,7 @@ Motion any(int number, std::mt19937& random, double start_s) {
 }
 
 Heartbeat heartbeat() {
-  Heartbeat heartbeat{"ugv1", 3, kNow_s + 0.123456, {}, {{"ugv2", kNow_s - 70.25, 0.015}}};
+  Heartbeat heartbeat{"ugv1", 3, kNow_s + 0.123456, {}, {{"ugv2", kNow_s - 70.25, 0.015}}, 6.504};
   heartbeat.acknowledgements = {{"ugv1", {3, 9}, TrajectoryState::kCommitted},
                                 {"ugv2", {1, 5}, TrajectoryState::kWithdrawn}};
   return heartbeat;
@@ -227,6 +227,7 @@ TEST(WireFormat, GivesBackHeartbeatsAndWithdrawals) {
   EXPECT_EQ(heard.echoes[0].agent, "ugv2");
   EXPECT_NEAR(heard.echoes[0].stamp_s, kNow_s - 70.25, 1e-6);
   EXPECT_NEAR(heard.echoes[0].held_s, 0.015, 1e-6);
+  EXPECT_DOUBLE_EQ(heard.promise_reach_m, 6.51);  // rounded up
   CommittedTrajectory void_one{"ugv1", {3, 9}, TrajectoryState::kWithdrawn, 0, 0.3, {}, nullptr};
   EXPECT_EQ(std::get<CommittedTrajectory>(decoded(encoded(void_one))).motion, nullptr);
 }
@@ -425,7 +426,8 @@ TEST(WireFormat, DISABLED_WriteVectors) {
   file << "# A promise a line: its datagram in hexadecimal, then x and y [m] of its motion 0.35 s "
           "after its start and every 0.7 s on.\n"
           "# Written by test_fleet --gtest_also_run_disabled_tests --gtest_filter=*WriteVectors; "
-          "format version 4.\n";
+          "format version "
+       << kWireVersion << ".\n";
   for (int i = 0; i < 6; ++i) {
     const CommittedTrajectory trajectory =
         quantised(trajectory_of(any(i, random, kNow_s + 0.1234567 * i)));

@@ -11,7 +11,7 @@ namespace {
 TEST(LocalReplannerOptions, APromiseIsGivenUpOnlyAfterTheTrackerHasBraked) {
   const ParameterTable values = ParameterTable::from_schema("config/local_replanner.yaml");
   for (const RobotModel& robot : {rover(), jackal()}) {
-    const auto options = LocalReplannerOptions::from(values, robot);
+    const auto options = LocalReplannerOptions::from(values, robot, 12.5);
     const SpeedMargin tracking = MarginBudget::of(robot).tracking();
     for (const double speed : {0.0, 0.3, robot.limits.max_speed}) {
       EXPECT_GT(options.max_error.at(speed), tracking.at(speed)) << robot.name;
@@ -27,7 +27,7 @@ TEST(LocalReplannerOptions, EachValueGoesToItsPlace) {
                            "extend_every: 0.7, max_heading_error: 0.9, "
                            "trigger_horizon: 2.5}"),
                 "the test");
-  const LocalReplannerOptions options = LocalReplannerOptions::from(values, rover());
+  const LocalReplannerOptions options = LocalReplannerOptions::from(values, rover(), 12.5);
   EXPECT_EQ(options.settle_s, 0.31);
   EXPECT_EQ(options.emergency_s, 0.12);
   EXPECT_EQ(options.horizon_s, 5.5);
