@@ -5,13 +5,25 @@
 #include <utility>
 
 namespace mocha {
+namespace {
+
+std::vector<BlockedDisc> those_on(const Eigen::AlignedBox2d& bounds,
+                                  std::vector<BlockedDisc> discs) {
+  const auto is_off = [&](const BlockedDisc& disc) {
+    return bounds.exteriorDistance(disc.centre) >= disc.radius_m;
+  };
+  discs.erase(std::remove_if(discs.begin(), discs.end(), is_off), discs.end());
+  return discs;
+}
+
+}  // namespace
 
 TravelCost::TravelCost(const StaticMap& static_map, const Vector2& start,
                        std::vector<BlockedDisc> blocked, const TravelOptions& options)
     : static_map_(static_map),
       start_(start),
       start_clearance_m_(static_map.field().sample(start).distance_m),
-      blocked_(std::move(blocked)),
+      blocked_(those_on(static_map.bounds(), std::move(blocked))),
       options_(options) {}
 
 bool TravelCost::may_escape(const Vector2& p, double distance_m) const {

@@ -20,7 +20,7 @@ class TravelCost {
  public:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-  /// `static_map` must live longer.
+  /// `static_map` must live longer. Discs off the map are passed over: no path comes there.
   TravelCost(const StaticMap& static_map, const Vector2& start, std::vector<BlockedDisc> blocked,
              const TravelOptions& options);
 

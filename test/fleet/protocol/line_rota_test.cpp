@@ -28,13 +28,15 @@ TEST(LineRota, EquallyUrgentOnesTakeTurns) {
   for (const auto& [peer, count] : turns) EXPECT_EQ(count, 20) << peer;
 }
 
-TEST(LineRota, OneTwiceAsUrgentHasItsTurnTwiceAsOften) {
-  LineRota rota(1);
+TEST(LineRota, OnesTwiceAsUrgentHaveTheirTurnsTwiceAsOften) {
+  std::vector<LineRota::Entry> all = entries(20, 1.0);
+  for (int i = 10; i < 20; ++i) all[i].urgency = 0.5;
+  LineRota rota(2);
   std::map<std::string, int> turns;
-  for (int k = 0; k < 300; ++k) {
-    for (const std::string& peer : rota.take({{"near", 1.0}, {"far", 0.5}}, 1.0 * k)) ++turns[peer];
+  for (int k = 0; k < 1000; ++k) {
+    for (const std::string& peer : rota.take(all, 0.1 * k)) ++turns[peer];
   }
-  EXPECT_NEAR(turns["near"], 200, 3);
+  for (int i = 0; i < 20; ++i) EXPECT_NEAR(turns[all[i].peer], i < 10 ? 133 : 67, 8) << i;
 }
 
 TEST(LineRota, SpeaksFirstOfThoseOfWhomNothingWasSaidTheMostUrgentFirst) {

@@ -142,5 +142,14 @@ TEST(TravelCost, KeepsOffBlockedDiscsButLetsOneLeaveThem) {
   EXPECT_EQ(within.of_line({5.0, 5.5}, {5.0, 1.0}), kInfinity);
 }
 
+TEST(TravelCost, PassesOverDiscsOffTheMap) {
+  const auto static_map = circles({});
+  const BlockedDisc off{{-1.0, 5.0}, 0.9};
+  const BlockedDisc overlapping{{-1.0, 5.0}, 1.1};
+  const TravelCost cost(*static_map, {1.0, 5.0}, {off, overlapping}, shipped_travel_options());
+  ASSERT_EQ(cost.blocked().size(), 1U);
+  EXPECT_EQ(cost.blocked().front().radius_m, 1.1);
+}
+
 }  // namespace
 }  // namespace mocha
