@@ -21,6 +21,8 @@ class ManeuverTest : public ::testing::Test {
       : robot_(load_robot_model("config", model)) {}
 
   /// As it stands at `now_s`; `committed` and `scene` must live on.
+  static constexpr double kAnywhere_m = 1e6;
+
   ManeuverStart start_of(const Motion& committed, const LocalScene& scene, double now_s,
                          Course course = Course::kConfident) const {
     constexpr double kEmergency_s = 0.1;
@@ -33,7 +35,8 @@ class ManeuverTest : public ::testing::Test {
             now_s,
             committed.switch_time(now_s + kEmergency_s),
             committed.switch_time(now_s + kSettle_s),
-            committed.end_pose().position};
+            committed.end_pose().position,
+            kAnywhere_m};
   }
 
   Violation violation_of(const Motion& motion, const LocalScene& scene, RequirementName required,

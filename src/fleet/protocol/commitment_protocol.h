@@ -16,9 +16,9 @@ namespace mocha {
 /// The propose / settle protocol of one robot, as a state machine: time is an argument, messages go
 /// in and come out.
 ///
-/// Rules. A proposal is sent to all. It becomes binding after delta_dc, as soon as every peer in
-/// reach (a heartbeat heard within reach_timeout) has endorsed it in a heartbeat, if it meets
-/// nothing: two motions meet where their centres come closer than the two radii plus peer_clearance
+/// Rules. A proposal is sent to all. It becomes binding after delta_dc, as soon as every near peer
+/// (Neighbourhood) in reach (a heartbeat heard within reach_timeout) has endorsed it in a heartbeat,
+/// if it meets nothing: two motions meet where their centres come closer than the two radii plus peer_clearance
 /// at any time from now on, or (with stops) where one robot, braking along its path at some moment,
 /// and the other, braking along its own after the reaction time, would come closer than the radii
 /// plus stop_clearance. It must be settled before it starts, and must begin where the binding
@@ -46,6 +46,13 @@ namespace mocha {
 /// outcome; of two that do not, the later one starts after the earlier motion is binding, and hears
 /// so before it ends.
 ///
+/// Why peers that are not near need not be asked: at any moment, all that two robots have promised
+/// or proposed lies within their promise reaches of where they are (Reach). Where both settle
+/// without having asked, they are not near as the later one settles, and so the motions do not meet.
+/// Where the one has asked the other, that one had not settled its own motion, or would have
+/// objected; nor proposed it, or would have withdrawn it or objected; and afterwards it knew what
+/// it had endorsed.
+///
 /// What a robot may assume: while two robots keep their binding promises, their centres stay radii
 /// plus clearance apart, less the tracking errors of both. So a robot that keeps its promise is not
 /// hit by another that does. With stops, it is not hit either by a robot that brakes along its
@@ -55,11 +62,12 @@ namespace mocha {
 /// reach whose clock is not known), a robot that after a restart makes binding, before it hears or
 /// says anything, what it is driving (its peers keep the former epoch's promise until then, but
 /// where they have not heard of that, only this robot can object), unique names, true radii and
-/// braking, and robots that are in reach of each other while they settle, or messages faster than
-/// delta_dc. An emergency motion breaks a promise. It is sent to all at once, and a robot whose own
-/// promise meets it is told (kBreached) and has to brake in turn; until it stands, those two have
-/// only their planners' margins. Robots that already are closer than demanded (after braking, or
-/// set down so) may move as long as they come no closer.
+/// braking, and robots that hear each other within a reach timeout where they are closer than the
+/// radio range, and while they settle, or messages faster than delta_dc. An emergency motion breaks
+/// a promise. It is sent to all at once, and a robot whose own promise meets it is told (kBreached)
+/// and has to brake in turn; until it stands, those two have only their planners' margins. Robots
+/// that already are closer than demanded (after braking, or set down so) may move as long as they
+/// come no closer.
 class CommitmentProtocol : public SettlingProtocol {
  public:
   enum class State {

@@ -104,6 +104,16 @@ TEST(ProtocolModel, FindsRobotsThatMisreadTheirClocks) {
   expect_found(scenario, "settles what comes to");
 }
 
+/// Each takes the other to promise less far than it does, and so for far.
+TEST(ProtocolModel, FindsRobotsThatTakeEachOtherForFar) {
+  Scenario scenario = test::one_comes_near(two_delays());
+  scenario.tamper = [](int, int, Message& message) {
+    if (auto* heartbeat = std::get_if<Heartbeat>(&message)) heartbeat->promise_reach_m = 0.0;
+    return true;
+  };
+  expect_found(scenario, "settles what comes to");
+}
+
 /// Of every message of a motion, the receiver reads another priority.
 Scenario with_priority_read(int priority) {
   Scenario scenario = test::two_cross({});

@@ -96,6 +96,19 @@ Scenario clocks_differ(const Harm& harm, double ahead_s) {
   return differ;
 }
 
+Scenario one_comes_near(const Harm& harm) {
+  constexpr int kThere = 20;
+  constexpr int kOnward = 26;
+  constexpr double kSpeed = 2.0;
+  const ModelledRobot comes = {
+      {-4.4, 0.0},
+      {{0, 1, 4, {{-2.4, 0.0}}, kSpeed}, {kThere, kThere + 2, kOnward, {{-0.4, 0.0}}, kSpeed}}};
+  const ModelledRobot goes_there = {{2.0, 0.0}, {{16, 22, kOnward, {{0.2, 0.0}}, kSpeed}}};
+  Scenario near = scenario("one comes near", {comes, goes_there}, kOnward, harm);
+  near.reach = {100.0, 2.0 * kSpeed, 2.1};
+  return near;
+}
+
 std::vector<Scenario> short_scenarios() {
   return {two_cross(harm(1, 2, 1)),
           three_cross(harm(1, 1, 0)),
@@ -106,7 +119,8 @@ std::vector<Scenario> short_scenarios() {
           both_restart(with_restarts(harm(0, 0, 0), 2)),
           one_brakes(with_brakes(harm(1, 1, 1), 1)),
           clocks_differ(harm(1, 1, 0), kStep_s),
-          clocks_differ(harm(1, 1, 0), -3.0)};
+          clocks_differ(harm(1, 1, 0), -3.0),
+          one_comes_near(harm(1, 0, 0))};
 }
 
 std::vector<Scenario> long_scenarios() {
@@ -119,7 +133,8 @@ std::vector<Scenario> long_scenarios() {
           both_restart(with_cuts(with_restarts(harm(1, 0, 0), 2), 1)),
           one_brakes(with_brakes(harm(2, 2, 1), 1)),
           clocks_differ(harm(2, 2, 1), kStep_s),
-          clocks_differ(harm(2, 2, 1), -3.0)};
+          clocks_differ(harm(2, 2, 1), -3.0),
+          one_comes_near(with_cuts(harm(1, 1, 0), 1))};
 }
 
 }  // namespace mocha::test

@@ -6,7 +6,8 @@
 
 namespace mocha::test {
 
-// Motions of different robots meet, all in the same place.
+// Motions of different robots meet, all in the same place. All robots are near, but where one comes
+// near.
 
 /// Two robots that want to cross, at the same time or one after the other.
 Scenario two_cross(const Harm& harm);
@@ -33,6 +34,10 @@ Scenario one_brakes(const Harm& harm);
 
 /// Two robots that want to cross, and whose clocks differ so.
 Scenario clocks_differ(const Harm& harm, double ahead_s);
+
+/// The first robot comes from where its promises cannot meet those of the second, which it need not
+/// ask then, and drives on until they do; the second one wants to go there.
+Scenario one_comes_near(const Harm& harm);
 
 /// All of these: as much of each as takes some seconds, or minutes.
 std::vector<Scenario> short_scenarios();

@@ -42,7 +42,11 @@ class CertifiedPartTest : public ManeuverTest {
     }
   }
 
-  /// Where it comes to rest.
+  /// What is committed: to brake along the way, soon.
+  Motion test_stop(double now_s) const {
+    return try_brake(ahead_, kStart_s, now_s + 0.2, robot_.braking()).motion;
+  }
+
   const double margin_m_ = MarginBudget::of(robot_).static_margin().still_m;
   const OccupancyGrid open_ = free_grid({-2.0, -3.0}, {12.0, 3.0});
   const Motion ahead_ = straight_drive(kStart_s, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5);
@@ -56,6 +60,23 @@ TEST_F(CertifiedPartTest, PromisesAllOfAShortMotion) {
   EXPECT_FALSE(promise->cut_by);
   EXPECT_LT((end(*promise) - Vector2(8.0, 0.0)).norm(), 1e-5);
   expect_promise(*promise, scene, kStart_s);
+}
+
+TEST_F(CertifiedPartTest, LeadsNoFartherFromTheRobotThanItMayPromise) {
+  const LocalScene scene = scene_of(open_);
+  for (const double now_s : {kStart_s, kStart_s + 2.0, kStart_s + 5.0}) {
+    ManeuverStart start = start_of(test_stop(now_s), scene, now_s);
+    start.promise_reach_m = 5.0;
+    const Maneuver follows{now_s + 0.1,      ahead_, now_s + 0.1,    now_s + 60.0, now_s,
+                           robot_.braking(), false,  Follows::kPlan, "follows"};
+    const auto promise = certified_part(start, follows, RequirementName::kPromise);
+    ASSERT_TRUE(promise) << now_s;
+    const Vector2 here = ahead_.position(now_s);
+    const double leads_m = (end(*promise) - here).norm();
+    EXPECT_LE(leads_m, 5.0);
+    EXPECT_GT(leads_m, std::min(4.8, 8.0 - here.x() - 0.01)) << now_s;
+    expect_promise(*promise, scene, promise->motion.start_time());
+  }
 }
 
 TEST_F(CertifiedPartTest, PromisesNoMoreThanADatagramHolds) {
