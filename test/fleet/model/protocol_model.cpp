@@ -1,6 +1,7 @@
 #include "fleet/model/protocol_model.h"
 
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "fleet/model/safety_property.h"
@@ -130,10 +131,16 @@ void ProtocolModel::propose(int i) {
   std::vector<Vector2> places = {robot.driven.chain().position(start_s)};
   places.insert(places.end(), scripted.through.begin(), scripted.through.end());
   const Proposal wish = proposal(i, drive(start_s, places, scripted.speed));
+  CommitmentActions actions;
+  try {
+    actions = robot.protocol.propose(wish, now(i));
+  } catch (const std::invalid_argument&) {
+    return;  // from where it has got to, that leads too far
+  }
   if (robot.pending) undisturbed_ = false;
   robot.pending = PendingProposal{wish.tag, now(i), start_s};
   robot.fate = Fate::kPending;
-  take(i, robot.protocol.propose(wish, now(i)));
+  take(i, actions);
 }
 
 /// It stands at once: no robot can, but that is the worst for the others.
