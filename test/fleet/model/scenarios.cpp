@@ -120,7 +120,7 @@ std::vector<Scenario> short_scenarios() {
           one_brakes(with_brakes(harm(1, 1, 1), 1)),
           clocks_differ(harm(1, 1, 0), kStep_s),
           clocks_differ(harm(1, 1, 0), -3.0),
-          one_comes_near(with_cuts(harm(1, 1, 0), 1))};
+          one_comes_near(with_cuts(harm(1, 0, 0), 1))};
 }
 
 std::vector<Scenario> long_scenarios() {
