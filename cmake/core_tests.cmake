@@ -25,7 +25,7 @@ target_sources(test_simulation PRIVATE test/benchmarks/sighted_drive.cpp test/be
   test/benchmarks/space_time_lattice.cpp test/benchmarks/static_clearance.cpp)
 
 # The fleet of scripts/bench table3, fleet_delay and fleet_scale.
-target_sources(test_stack PRIVATE test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp
+target_sources(test_stack PRIVATE test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_options.cpp test/benchmarks/fleet_scene.cpp
   test/benchmarks/one_phase.cpp test/benchmarks/benchmark_world.cpp)
 
 # The robots and the judge of scripts/bench leaving, which drive on what a simulated lidar sees.
