@@ -27,8 +27,8 @@ Answer answer_of(const Settled& settled) {
 }  // namespace
 
 RobotNodes::Planner::Planner(const RobotNodes& robot)
-    : planning(robot.robot_, robot.global_values_, robot.name_, 0,
-               handover_s(robot.local_values_), runner) {}
+    : planning(robot.robot_, robot.global_values_, robot.name_, 0, handover_s(robot.local_values_),
+               runner) {}
 
 RobotNodes::Replanner::Replanner(const RobotNodes& robot)
     : replanning(robot.robot_, robot.local_values_) {}
@@ -128,8 +128,7 @@ RobotNodes::Datagrams RobotNodes::pursue(double now_s, const RobotSenses& senses
     return PlanningScene{senses.map->static_map, peers, [&] { return senses.map->unseen; }};
   };
   if (report_) planner_->planning.hear_replanner(*report_, now_s);
-  const auto output =
-      planner_->planning.step(now_s, senses.measured, planner_->committed, scene);
+  const auto output = planner_->planning.step(now_s, senses.measured, planner_->committed, scene);
   ending_ = output.ending;
   if (output.report) words_ = output.report->message;
   Datagrams sent;
@@ -294,8 +293,11 @@ void RobotNodes::publish_fleet(double now_s) {
   for (const CommittedTrajectory& each : *news) {
     fleet->obstacles.push_back(std::make_shared<PeerObstacle>(
         each.agent, each.motion, each.footprint_radius_m, each.braking.value()));
-    fleet->motions.push_back({each.agent, {each.id.epoch, each.id.sequence}, each.motion,
-                              each.footprint_radius_m, each.braking.value()});
+    fleet->motions.push_back({each.agent,
+                              {each.id.epoch, each.id.sequence},
+                              each.motion,
+                              each.footprint_radius_m,
+                              each.braking.value()});
   }
   peer_tracks_.update(now_s, fleet->motions);
   fleet_ = std::move(fleet);

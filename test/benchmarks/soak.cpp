@@ -73,8 +73,8 @@ void print_minutes(const SoakRun& run) {
 void print(const SoakRun& run, double wall_s) {
   std::printf("{\"time_s\": %.1f, \"wall_s\": %.1f, \"arrivals\": %d, \"gave_up\": %d", run.time_s,
               wall_s, run.arrivals, run.gave_up);
-  std::printf(", \"longest_wait_s\": %.2f, \"longest_without_arrival_s\": %.2f",
-              run.longest_wait_s, run.longest_without_arrival_s);
+  std::printf(", \"longest_wait_s\": %.2f, \"longest_without_arrival_s\": %.2f", run.longest_wait_s,
+              run.longest_without_arrival_s);
   std::printf(", \"min_separation_m\": %.4f", run.min_separation_m);
   std::printf(",\n \"node_restarts\": %d, \"robot_restarts\": %d, \"blackouts\": %d",
               run.node_restarts, run.robot_restarts, run.blackouts);
@@ -89,9 +89,7 @@ void print(const SoakRun& run, double wall_s) {
 void run(const char* path, double hours, std::uint64_t seed) {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
-  const auto wall_s = [&] {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-  };
+  const auto wall_s = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   const SoakScene scene = scene_of(path, hours, seed);
   const SoakRun run =
       run_soak(scene, [&](const SoakRun& so_far) { print_progress(so_far, wall_s()); });

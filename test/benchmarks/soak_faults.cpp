@@ -50,8 +50,7 @@ SoakFault::Kind kind_of(Draw& draw, double every_s) {
 }  // namespace
 
 SoakFaults SoakFaults::drawn(double duration_s, int robots, std::uint64_t seed) {
-  const double every_s =
-      1.0 / (1.0 / kNodeEvery_s + 1.0 / kRobotEvery_s + 1.0 / kBlackoutEvery_s);
+  const double every_s = 1.0 / (1.0 / kNodeEvery_s + 1.0 / kRobotEvery_s + 1.0 / kBlackoutEvery_s);
   SoakFaults drawn;
   Draw draw(seed);
   std::vector<double> free_s(robots, 0.0);
@@ -63,9 +62,11 @@ SoakFaults SoakFaults::drawn(double duration_s, int robots, std::uint64_t seed) 
     free_s[fault.robot] = fault.end_s + kRecovery_s;
     drawn.faults.push_back(fault);
   }
-  for (double now_s = 0.0; now_s < duration_s; now_s += draw.between(0.0, 2.0 * kLinkEvery_s)) {
-    const double most_s = draw.between(0.02, kMaxDelay_s);
-    drawn.links.push_back({now_s, {draw.between(0.0, most_s), most_s, draw.between(0.05, 0.2)}});
+  Draw link(~seed);
+  for (double now_s = 0.0; now_s < duration_s; now_s += link.between(0.0, 2.0 * kLinkEvery_s)) {
+    const double most_s = link.between(0.02, kMaxDelay_s);
+    const double least_s = link.between(0.0, most_s);
+    drawn.links.push_back({now_s, {least_s, most_s, link.between(0.05, 0.2)}});
   }
   return drawn;
 }

@@ -32,7 +32,8 @@ struct SoakFaults {
   std::vector<SoakFault> faults;  ///< by begin; one robot's do not overlap
   std::vector<LinkChange> links;  ///< by begin
 
-  /// Until `duration_s`; the same for the same seed, on every machine.
+  /// Until `duration_s`, which changes nothing before then; the same for the same seed, on every
+  /// machine.
   static SoakFaults drawn(double duration_s, int robots, std::uint64_t seed);
 };
 

@@ -252,8 +252,8 @@ class Soak {
     }
     if (!std::exchange(client.is_stuck, true)) {
       client.stuck = run_.stuck.size();
-      run_.stuck.push_back({i, run_.time_s - wait_s, wait_s, place, patrols_.next(i),
-                            nodes_[i].words()});
+      run_.stuck.push_back(
+          {i, run_.time_s - wait_s, wait_s, place, patrols_.next(i), nodes_[i].words()});
     }
     run_.stuck[client.stuck].lasts_s = wait_s;
   }

@@ -49,8 +49,7 @@ RobotSenses StraySight::senses(int observer, double now_s, const RobotNodes& nod
       continue;
     }
     const double yaw_rad = other.pose.yaw_rad;
-    const Vector2 velocity =
-        other.twist.speed * Vector2(std::cos(yaw_rad), std::sin(yaw_rad));
+    const Vector2 velocity = other.twist.speed * Vector2(std::cos(yaw_rad), std::sin(yaw_rad));
     senses.predictions.things.push_back(
         {static_cast<std::uint32_t>(i), place, velocity, radius_m_, kDeviation});
   }
@@ -61,8 +60,7 @@ RobotSenses StraySight::senses(int observer, double now_s, const RobotNodes& nod
 bool StraySight::sees(const Vector2& from, const Vector2& to) const {
   const double far_m = (to - from).norm();
   for (double along_m = 0.0; along_m < far_m;) {
-    const double free_m =
-        map_->obstacles->distance_bound(from + along_m / far_m * (to - from));
+    const double free_m = map_->obstacles->distance_bound(from + along_m / far_m * (to - from));
     if (free_m <= 0.0) return false;
     along_m += std::max(free_m, kStep_m);
   }
@@ -75,8 +73,7 @@ std::shared_ptr<const FleetMap> StraySight::map_with(const std::vector<Vector2>&
     if (drawn.standing == standing) return drawn.map;
   }
   OccupancyGrid grid = walls_;
-  for (const Vector2& place : standing)
-    fill_disc(grid, place, radius_m_, OccupancyGrid::kOccupied);
+  for (const Vector2& place : standing) fill_disc(grid, place, radius_m_, OccupancyGrid::kOccupied);
   if (drawn_.size() == kMapsKept) drawn_.erase(drawn_.begin());
   drawn_.push_back({standing, std::make_shared<const FleetMap>(grid)});
   return drawn_.back().map;
