@@ -84,13 +84,14 @@ void RobotNodes::end(RobotNode node) {
   }
 }
 
-void RobotNodes::start(RobotNode node) {
+void RobotNodes::start(RobotNode node, double now_s) {
   end(node);
   switch (node) {
     case RobotNode::kGlobalPlanner:
       planner_ = std::make_unique<Planner>(*this);
       planner_->fleet = fleet_;
       if (committed_) planner_->committed = committed_->motion;
+      if (report_) planner_->planning.hear_replanner(*report_, now_s);
       break;
     case RobotNode::kLocalReplanner:
       replanner_ = std::make_unique<Replanner>(*this);
@@ -127,7 +128,6 @@ RobotNodes::Datagrams RobotNodes::pursue(double now_s, const RobotSenses& senses
   const auto scene = [&](const std::vector<Vector2>&) {
     return PlanningScene{senses.map->static_map, peers, [&] { return senses.map->unseen; }};
   };
-  if (report_) planner_->planning.hear_replanner(*report_, now_s);
   const auto output = planner_->planning.step(now_s, senses.measured, planner_->committed, scene);
   ending_ = output.ending;
   if (output.report) words_ = output.report->message;

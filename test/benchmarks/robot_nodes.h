@@ -51,7 +51,7 @@ class RobotNodes {
   /// None of them runs yet.
   RobotNodes(std::string name, const FleetOptions& options);
 
-  void start(RobotNode node);
+  void start(RobotNode node, double now_s);
   void end(RobotNode node);
   bool runs(RobotNode node) const;
 

@@ -59,7 +59,7 @@ class Soak {
     std::mt19937 random(scene.seed);
     for (const WorldRobot& robot : scene.world.robots) {
       nodes_.emplace_back(robot.name, scene.options);
-      for (const RobotNode node : kRobotNodes) nodes_.back().start(node);
+      for (const RobotNode node : kRobotNodes) nodes_.back().start(node, now_s());
       // Robots do not all look at the same moment.
       late_ms_.push_back(static_cast<int>(random() % (kReplanning_ms / kStep_ms)) * kStep_ms);
     }
@@ -172,10 +172,10 @@ class Soak {
     RobotNodes& robot = nodes_[fault.robot];
     switch (fault.kind) {
       case SoakFault::Kind::kNode:
-        return robot.start(fault.node);
+        return robot.start(fault.node, now_s());
       case SoakFault::Kind::kRobot:
         robot.end(RobotNode::kTracker);
-        for (const RobotNode node : kRobotNodes) robot.start(node);
+        for (const RobotNode node : kRobotNodes) robot.start(node, now_s());
         return;
       case SoakFault::Kind::kBlackout:
         return network_.cut_off(fault.robot, false);

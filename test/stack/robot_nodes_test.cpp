@@ -33,8 +33,8 @@ class RobotNodesTest : public ::testing::Test {
  protected:
   RobotNodesTest() {
     for (const RobotNode node : kRobotNodes) {
-      driver_.start(node);
-      watcher_.start(node);
+      driver_.start(node, now_s());
+      watcher_.start(node, now_s());
     }
     sight_.look(now_s(), {state(driving_), state(watching_)});
   }
@@ -96,7 +96,7 @@ TEST_F(RobotNodesTest, WithoutGlobalPlannerTheRobotDrivesItsPlanToTheEnd) {
   driver_.end(RobotNode::kGlobalPlanner);
   go_on_for(8.0);
   EXPECT_LT((place() - Vector2(8.0, 0.0)).norm(), 0.1);
-  driver_.start(RobotNode::kGlobalPlanner);
+  driver_.start(RobotNode::kGlobalPlanner, now_s());
   EXPECT_TRUE(driver_.is_idle());  // its goals ended with it
 }
 
@@ -107,7 +107,7 @@ TEST_F(RobotNodesTest, WithoutLocalReplannerItBrakesWhichIsToldAndGoesOnAfterARe
   EXPECT_LT(speed(), 0.01);
   EXPECT_EQ(driver_.counts().lease_stops, 1);
   EXPECT_TRUE(watcher_.expects_at(place(), now_s()));
-  driver_.start(RobotNode::kLocalReplanner);
+  driver_.start(RobotNode::kLocalReplanner, now_s());
   go_on_for(10.0);
   EXPECT_TRUE(reached_);
 }
@@ -116,7 +116,7 @@ TEST_F(RobotNodesTest, ANewBroadcasterPromisesFirstOfAllWhatIsDriven) {
   set_off();
   driver_.end(RobotNode::kBroadcaster);
   go_on_for(0.6);
-  driver_.start(RobotNode::kBroadcaster);
+  driver_.start(RobotNode::kBroadcaster, now_s());
   go_on_for(0.1);
   EXPECT_GT(speed(), 0.5);  // it never braked
   EXPECT_TRUE(watcher_.expects_at(place(), now_s()));
@@ -130,7 +130,7 @@ TEST_F(RobotNodesTest, WithoutTrackerItStopsAndIsDrivenOnFromThereByANewOne) {
   go_on_for(1.5);
   EXPECT_LT(speed(), 0.01);
   EXPECT_TRUE(watcher_.expects_at(place(), now_s()));
-  driver_.start(RobotNode::kTracker);
+  driver_.start(RobotNode::kTracker, now_s());
   go_on_for(10.0);
   EXPECT_TRUE(reached_);
 }
@@ -148,7 +148,7 @@ TEST_F(RobotNodesTest, WhoStopsInSilenceIsSeenWhereItStands) {
   EXPECT_LE(sight_.senses(1, now_s(), watcher_).map->obstacles->distance_bound(place()), 0.0);
   EXPECT_GT(sight_.senses(0, now_s(), driver_).map->obstacles->distance_bound(place()), 1.0);
 
-  for (const RobotNode node : kRobotNodes) driver_.start(node);
+  for (const RobotNode node : kRobotNodes) driver_.start(node, now_s());
   go_on_for(0.5);
   EXPECT_TRUE(watcher_.expects_at(place(), now_s()));
   EXPECT_GT(sight_.senses(1, now_s(), watcher_).map->obstacles->distance_bound(place()), 1.0);
