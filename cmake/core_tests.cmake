@@ -30,7 +30,7 @@ target_sources(test_stack PRIVATE test/benchmarks/fleet_run.cpp test/benchmarks/
 
 # The robots of scripts/bench soak, whose nodes end and start anew.
 target_sources(test_stack PRIVATE test/benchmarks/soak_run.cpp test/benchmarks/soak_faults.cpp test/benchmarks/robot_nodes.cpp
-  test/benchmarks/stray_sight.cpp test/benchmarks/patrols.cpp)
+  test/benchmarks/broadcaster_node.cpp test/benchmarks/stray_sight.cpp test/benchmarks/patrols.cpp)
 
 # The robots and the judge of scripts/bench leaving, which drive on what a simulated lidar sees.
 target_sources(test_stack PRIVATE test/benchmarks/leaving_scene.cpp test/benchmarks/leaving_oracle.cpp test/benchmarks/leaving_run.cpp

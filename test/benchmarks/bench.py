@@ -11,7 +11,8 @@ BENCHES = {"barn": bench_barn, "crossing": bench_crossing, "crowds": bench_crowd
            "dynabarn": bench_dynabarn, "evaluation": bench_evaluation, "faults": bench_faults, "fleet_delay": bench_fleet_delay,
            "fleet_scale": bench_fleet_scale, "footprint": bench_footprint, "leaving": bench_leaving,
            "localization": bench_localization, "maps": bench_maps, "prediction": bench_prediction, "protocol": bench_protocol,
-           "replan": bench_replan, "soak": bench_soak, "table1": bench_table1, "table2": bench_table2, "table3": bench_table3, "tracking": bench_tracking}
+           "replan": bench_replan, "soak": bench_soak, "table1": bench_table1, "table2": bench_table2, "table3": bench_table3,
+           "tracking": bench_tracking}
 
 
 def main(arguments):

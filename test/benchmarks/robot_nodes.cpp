@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
-#include <variant>
 
 namespace mocha {
 namespace {
-
-constexpr double kTrackerWait_s = 1.0;  // as the node has it
-constexpr double kStandstill_s = 0.1;
 
 ParameterTable schema(const char* node) {
   return ParameterTable::from_schema(std::string("config/") + node + ".yaml");
@@ -32,11 +28,6 @@ RobotNodes::Planner::Planner(const RobotNodes& robot)
 
 RobotNodes::Replanner::Replanner(const RobotNodes& robot)
     : replanning(robot.robot_, robot.local_values_) {}
-
-RobotNodes::Broadcaster::Broadcaster(const RobotNodes& robot)
-    : protocol(commitment_options(robot.name_, robot.robot_, robot.epoch_, robot.options_)),
-      keeping(robot.robot_, robot.local_values_.number("lease"), protocol),
-      link(robot.name_, std::nullopt) {}
 
 RobotNodes::RobotNodes(std::string name, const FleetOptions& options)
     : name_(std::move(name)),
@@ -101,8 +92,9 @@ void RobotNodes::start(RobotNode node, double now_s) {
       break;
     case RobotNode::kBroadcaster:
       ++epoch_;
-      broadcaster_ = std::make_unique<Broadcaster>(*this);
-      broadcaster_->driven = driven_;
+      broadcaster_ = std::make_unique<BroadcasterNode>(name_, robot_, epoch_,
+                                                       local_values_.number("lease"), options_);
+      if (driven_) broadcaster_->hear_driven(*driven_);
       break;
     case RobotNode::kTracker:
       tracker_ = std::make_unique<TrajectoryTracker>(
@@ -134,15 +126,7 @@ RobotNodes::Datagrams RobotNodes::pursue(double now_s, const RobotSenses& senses
   Datagrams sent;
   for (const PassingMessage& message : output.messages) {
     if (!broadcaster_) break;
-    std::visit(
-        [&](auto each) {
-          if constexpr (std::is_same_v<decltype(each), PassingIntent>)
-            each.epoch = epoch_;
-          else
-            each.id.epoch = epoch_;
-          send(each, sent);
-        },
-        message);
+    for (Bytes& datagram : broadcaster_->relay(message)) sent.push_back(std::move(datagram));
   }
   if (output.plan) {
     plan_ = Plan{*output.plan, output.kind};
@@ -188,7 +172,7 @@ void RobotNodes::report(const LocalReplanning::Output& output, double now_s) {
 }
 
 void RobotNodes::renew(const Lease& lease) {
-  if (broadcaster_) broadcaster_->keeping.renew(lease);
+  if (broadcaster_) broadcaster_->renew(lease);
   if (tracker_) tracker_->renew(lease.id, lease.end_s);
 }
 
@@ -198,99 +182,45 @@ void RobotNodes::answer(const Answer& answer) {
 
 // --- trajectory_broadcaster ---
 
-CommittedTrajectory RobotNodes::wish_of(std::uint32_t sequence, const Motion& motion,
-                                        bool emergency) const {
-  CommittedTrajectory wish;
-  wish.agent = name_;
-  wish.id.sequence = sequence;
-  wish.state = emergency ? TrajectoryState::kEmergency : TrajectoryState::kProposed;
-  wish.footprint_radius_m = robot_.footprint.circumscribed_radius_m();
-  wish.braking = robot_.braking();
-  wish.motion = std::make_shared<const Motion>(motion);
-  return wish;
-}
-
 void RobotNodes::propose(const ProposedMotion& proposal, double now_s, Datagrams& sent) {
   if (!broadcaster_) return;
   try {
-    if (!broadcaster_->awake && !proposal.emergency)
-      throw std::invalid_argument("just started, does not know yet what is driven");
-    const CommitmentNews news = broadcaster_->keeping.propose(
-        proposal.sequence, wish_of(proposal.sequence, proposal.motion, proposal.emergency), now_s);
-    broadcaster_->awake = true;
-    apply(news, sent);
+    sent = apply(broadcaster_->propose(proposal, now_s), now_s);
   } catch (const std::invalid_argument& error) {
     answer({Answer::Kind::kRefused, proposal.sequence, error.what()});
   }
 }
 
 RobotNodes::Datagrams RobotNodes::settle(double now_s) {
-  Datagrams sent;
-  if (!broadcaster_) return sent;
-  if (!broadcaster_->awake) wake_up(now_s, sent);
-  if (!broadcaster_->awake) return sent;
-  apply(broadcaster_->keeping.tick(now_s), sent);
-  publish_fleet(now_s);
-  return sent;
-}
-
-/// As soon as it is known what is driven, or there is no tracker that could tell.
-void RobotNodes::wake_up(double now_s, Datagrams& sent) {
-  Broadcaster& node = *broadcaster_;
-  if (!node.wake_up_s) node.wake_up_s = now_s + kTrackerWait_s;
-  if (!node.driven && now_s < *node.wake_up_s) return;
-  if (node.driven && !node.driven->motion.empty()) {
-    const OwnMotion& driven = *node.driven;
-    try {
-      apply(node.keeping.resume(wish_of(driven.id.sequence, driven.motion, true), now_s), sent);
-    } catch (const std::invalid_argument&) {  // promises nothing until the replanner does
-    }
-  }
-  node.awake = true;
+  return broadcaster_ ? apply(broadcaster_->settle(now_s), now_s) : Datagrams();
 }
 
 RobotNodes::Datagrams RobotNodes::hear(const Bytes& datagram, double now_s) {
-  Datagrams sent;
-  if (!broadcaster_) return sent;
-  const auto message = broadcaster_->link.unpack(datagram.data(), datagram.size());
-  if (!message) return sent;
-  if (const auto* intent = std::get_if<PassingIntent>(&*message)) {
-    if (planner_) planner_->planning.executive().hear(*intent, now_s);
-  } else if (const auto* instruction = std::get_if<PassingInstruction>(&*message)) {
-    if (planner_) planner_->planning.executive().hear(*instruction, now_s);
-  } else if (!broadcaster_->awake) {
-    return sent;
-  } else if (const auto* trajectory = std::get_if<CommittedTrajectory>(&*message)) {
-    apply(broadcaster_->keeping.receive(*trajectory, now_s), sent);
-  } else if (const auto* heartbeat = std::get_if<Heartbeat>(&*message)) {
-    apply(broadcaster_->keeping.receive(*heartbeat, now_s), sent);
-  }
-  return sent;
+  return broadcaster_ ? apply(broadcaster_->hear(datagram, now_s), now_s) : Datagrams();
 }
 
-void RobotNodes::apply(const CommitmentNews& news, Datagrams& sent) {
-  for (const FleetMessage& message : news.messages) send(message, sent);
-  for (const Settled& settled : news.settled) {
-    if (settled.in_force) commit(*settled.in_force);
+RobotNodes::Datagrams RobotNodes::apply(BroadcasterNode::Output output, double now_s) {
+  if (output.passing && planner_) planner_->planning.executive().hear(*output.passing, now_s);
+  for (const auto& [settled, gives_lease] : output.results) {
+    if (settled.in_force) commit(*settled.in_force, gives_lease);
     answer(answer_of(settled));
   }
+  if (output.fleet) publish_fleet(*output.fleet, now_s);
+  return std::move(output.sent);
 }
 
-void RobotNodes::commit(const MotionInForce& in_force) {
+void RobotNodes::commit(const MotionInForce& in_force, bool gives_lease) {
   committed_ = OwnMotion{in_force.lease.id, *in_force.trajectory.motion};
   if (planner_) planner_->committed = committed_->motion;
   if (replanner_) replanner_->replanning.set_committed(committed_->id, committed_->motion);
   if (tracker_) tracker_->offer(committed_->id, committed_->motion, 0.0);
-  // Whether what a former epoch promised is to be driven on is for the replanner to say.
-  if (broadcaster_->awake) renew(in_force.lease);
+  if (gives_lease) renew(in_force.lease);
 }
 
-void RobotNodes::publish_fleet(double now_s) {
-  const auto news = broadcaster_->keeping.fleet_news(now_s);
-  if (!news) return;
+void RobotNodes::publish_fleet(const std::vector<CommittedTrajectory>& promises, double now_s) {
   auto fleet = std::make_shared<Fleet>();
   fleet->stamp_s = now_s;
-  for (const CommittedTrajectory& each : *news) {
+  for (const CommittedTrajectory& each : promises) {
     fleet->obstacles.push_back(std::make_shared<PeerObstacle>(
         each.agent, each.motion, each.footprint_radius_m, each.braking.value()));
     fleet->motions.push_back({each.agent,
@@ -305,14 +235,10 @@ void RobotNodes::publish_fleet(double now_s) {
   if (replanner_) replanner_->fleet = fleet_;
 }
 
-void RobotNodes::send(const FleetMessage& message, Datagrams& sent) {
-  for (Bytes& datagram : broadcaster_->link.pack(message)) sent.push_back(std::move(datagram));
-}
-
 RobotNodes::Counts RobotNodes::counts() const {
   Counts counts = former_;
   if (!broadcaster_) return counts;
-  const CommitmentKeeping::Counts& now = broadcaster_->keeping.counts();
+  const CommitmentKeeping::Counts& now = broadcaster_->counts();
   counts.breaches += now.breaches;
   counts.lease_stops += now.lease_stops;
   for (const auto& [why, count] : now.refusals) counts.refusals += count;
@@ -331,7 +257,7 @@ std::optional<UnicycleState> RobotNodes::drive(double now_s, const RobotState& m
 void RobotNodes::tell_driven() {
   driven_motions_ = tracker_->motions();
   driven_ = OwnMotion{tracker_->id(), tracker_->motion()};
-  if (broadcaster_) broadcaster_->driven = driven_;
+  if (broadcaster_) broadcaster_->hear_driven(*driven_);
 }
 
 // --- what others ask ---

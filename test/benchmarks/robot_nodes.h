@@ -7,13 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/broadcaster_node.h"
 #include "benchmarks/fleet_options.h"
 #include "benchmarks/fleet_robot.h"
 #include "control/trajectory_tracker.h"
-#include "fleet/protocol/commitment_protocol.h"
-#include "fleet/wire/datagram_link.h"
 #include "perception/tracking/peer_tracks.h"
-#include "stack/commitment_keeping.h"
 #include "stack/goal_planning.h"
 #include "stack/local_replanning.h"
 #include "world/prediction.h"
@@ -39,7 +37,7 @@ struct RobotSenses {
 class RobotNodes {
  public:
   using Bytes = DatagramLink::Bytes;
-  using Datagrams = std::vector<Bytes>;
+  using Datagrams = BroadcasterNode::Datagrams;
 
   /// What became of its promises, over all restarts.
   struct Counts {
@@ -83,10 +81,6 @@ class RobotNodes {
   const std::string& name() const { return name_; }
 
  private:
-  struct OwnMotion {
-    MotionId id;
-    Motion motion;
-  };
   struct Plan {
     Motion motion;
     PlanKind kind;
@@ -109,27 +103,14 @@ class RobotNodes {
     LocalReplanning replanning;
     std::shared_ptr<const Fleet> fleet;
   };
-  struct Broadcaster {
-    Broadcaster(const RobotNodes& robot);
-    CommitmentProtocol protocol;
-    CommitmentKeeping keeping;
-    DatagramLink link;
-    bool awake = false;
-    std::optional<double> wake_up_s;
-    std::optional<OwnMotion> driven;  // heard of
-  };
-
-  CommittedTrajectory wish_of(std::uint32_t sequence, const Motion& motion, bool emergency) const;
-  void wake_up(double now_s, Datagrams& sent);
+  Datagrams apply(BroadcasterNode::Output output, double now_s);
   void propose(const ProposedMotion& proposal, double now_s, Datagrams& sent);
   void answer(const Answer& answer);
   void renew(const Lease& lease);
-  void apply(const CommitmentNews& news, Datagrams& sent);
-  void commit(const MotionInForce& in_force);
-  void publish_fleet(double now_s);
+  void commit(const MotionInForce& in_force, bool gives_lease);
+  void publish_fleet(const std::vector<CommittedTrajectory>& promises, double now_s);
   void report(const LocalReplanning::Output& output, double now_s);
   void tell_driven();
-  void send(const FleetMessage& message, Datagrams& sent);
 
   const std::string name_;
   const RobotModel robot_;
@@ -140,7 +121,7 @@ class RobotNodes {
 
   std::unique_ptr<Planner> planner_;
   std::unique_ptr<Replanner> replanner_;
-  std::unique_ptr<Broadcaster> broadcaster_;
+  std::unique_ptr<BroadcasterNode> broadcaster_;
   std::unique_ptr<TrajectoryTracker> tracker_;
 
   // Latched topics, while their node runs.

@@ -129,11 +129,10 @@ class Soak {
   // --- faults ---
 
   void begin_faults() {
-    for (; next_link_ != scene_.faults.links.end() && next_link_->begin_s <= run_.time_s;
-         ++next_link_)
+    const auto& [faults, links] = scene_.faults;
+    for (; next_link_ < links.end() && next_link_->begin_s <= run_.time_s; ++next_link_)
       network_.set_link(next_link_->link);
-    for (; next_fault_ != scene_.faults.faults.end() && next_fault_->begin_s <= run_.time_s;
-         ++next_fault_) {
+    for (; next_fault_ < faults.end() && next_fault_->begin_s <= run_.time_s; ++next_fault_) {
       begin(*next_fault_);
       under_way_.push_back(*next_fault_);
     }
@@ -246,11 +245,9 @@ class Soak {
     if (!client.has_goal) client.watch.restart(run_.time_s, place);
     const double wait_s = client.watch.update(run_.time_s, place);
     run_.longest_wait_s = std::max(run_.longest_wait_s, wait_s);
-    if (wait_s <= SoakRun::kStuck_s) {
-      client.is_stuck = false;
-      return;
-    }
-    if (!std::exchange(client.is_stuck, true)) {
+    const bool was_stuck = std::exchange(client.is_stuck, wait_s > SoakRun::kStuck_s);
+    if (!client.is_stuck) return;
+    if (!was_stuck) {
       client.stuck = run_.stuck.size();
       run_.stuck.push_back(
           {i, run_.time_s - wait_s, wait_s, place, patrols_.next(i), nodes_[i].words()});

@@ -11,7 +11,8 @@ constexpr double kMapped_s = 1.0;  // of standing
 constexpr double kStep_m = 0.05;
 constexpr double kRounding_m = 0.01;  // so that one map does while a robot stands
 constexpr std::size_t kMapsKept = 4;
-constexpr PredictedDeviation kDeviation{0.02, 0.1};
+// What perception's filter comes to by its measurement_noise and acceleration_psd.
+constexpr PredictedDeviation kDeviation{0.03, 0.22};
 
 }  // namespace
 
