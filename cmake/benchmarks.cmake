@@ -40,9 +40,14 @@ mocha_benchmark(movers test/benchmarks/sighted_drive.cpp test/benchmarks/mover_s
 target_link_libraries(benchmark_movers mocha_simulation)
 
 foreach(name table3 fleet_delay fleet_scale deadlock)
-  mocha_benchmark(${name} test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp
+  mocha_benchmark(${name} test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_options.cpp test/benchmarks/fleet_scene.cpp
     test/benchmarks/one_phase.cpp)
 endforeach()
+
+mocha_benchmark(soak test/benchmarks/soak_run.cpp test/benchmarks/soak_faults.cpp test/benchmarks/robot_nodes.cpp
+  test/benchmarks/broadcaster_node.cpp test/benchmarks/stray_sight.cpp test/benchmarks/patrols.cpp test/benchmarks/fleet_robot.cpp
+  test/benchmarks/fleet_options.cpp test/benchmarks/fleet_scene.cpp test/benchmarks/one_phase.cpp)
+target_link_libraries(benchmark_soak mocha_perception mocha_simulation)
 
 mocha_benchmark(leaving test/benchmarks/leaving_scene.cpp test/benchmarks/leaving_oracle.cpp test/benchmarks/leaving_run.cpp
   test/benchmarks/lidar_robot.cpp test/benchmarks/lidar_perception.cpp)

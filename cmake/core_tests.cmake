@@ -25,8 +25,12 @@ target_sources(test_simulation PRIVATE test/benchmarks/sighted_drive.cpp test/be
   test/benchmarks/space_time_lattice.cpp test/benchmarks/static_clearance.cpp)
 
 # The fleet of scripts/bench table3, fleet_delay and fleet_scale.
-target_sources(test_stack PRIVATE test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_scene.cpp
-  test/benchmarks/one_phase.cpp test/benchmarks/benchmark_world.cpp)
+target_sources(test_stack PRIVATE test/benchmarks/fleet_run.cpp test/benchmarks/fleet_robot.cpp test/benchmarks/fleet_options.cpp
+  test/benchmarks/fleet_scene.cpp test/benchmarks/one_phase.cpp test/benchmarks/benchmark_world.cpp)
+
+# The robots of scripts/bench soak, whose nodes end and start anew.
+target_sources(test_stack PRIVATE test/benchmarks/soak_run.cpp test/benchmarks/soak_faults.cpp test/benchmarks/robot_nodes.cpp
+  test/benchmarks/broadcaster_node.cpp test/benchmarks/stray_sight.cpp test/benchmarks/patrols.cpp)
 
 # The robots and the judge of scripts/bench leaving, which drive on what a simulated lidar sees.
 target_sources(test_stack PRIVATE test/benchmarks/leaving_scene.cpp test/benchmarks/leaving_oracle.cpp test/benchmarks/leaving_run.cpp

@@ -23,41 +23,6 @@ double clock_s(bool one_thread) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-ParameterTable global_values(const FleetOptions& options) {
-  ParameterTable values = ParameterTable::from_schema("config/global_planner.yaml");
-  YAML::Node changes;
-  // Planning, the wait for the next step of the local replanner, and settling, as in config/.
-  changes["planning_time"] = options.settle_s + 0.2;
-  changes["planning_threads"] = options.planning_threads;
-  values.assign(changes, "fleet options");
-  return values;
-}
-
-ParameterTable local_values(const FleetOptions& options) {
-  ParameterTable values = ParameterTable::from_schema("config/local_replanner.yaml");
-  YAML::Node changes;
-  changes["settle_time"] = options.settle_s;
-  changes["planning_threads"] = options.planning_threads;
-  values.assign(changes, "fleet options");
-  return values;
-}
-
-ParameterTable broadcaster_values() {
-  return ParameterTable::from_schema("config/trajectory_broadcaster.yaml");
-}
-
-Reach reach_of(const RobotModel& robot, const FleetOptions& options) {
-  return Reach::from(broadcaster_values(), local_values(options), robot);
-}
-
-CommitmentOptions commitment_options(const std::string& name, const RobotModel& robot,
-                                     const FleetOptions& options) {
-  CommitmentOptions commitment =
-      CommitmentOptions::from(broadcaster_values(), robot, reach_of(robot, options), name, kEpoch);
-  commitment.delta_dc_s = options.delta_dc_s;
-  return commitment;
-}
-
 std::unique_ptr<SettlingProtocol> protocol_of(const CommitmentOptions& commitment,
                                               Protocol protocol) {
   if (protocol == Protocol::kOnePhase) return std::make_unique<OnePhase>(commitment);
@@ -107,7 +72,7 @@ FleetRobot::FleetRobot(std::string name, const FleetAgent& agent, const FleetOpt
       robot_(load_robot_model("config", "rover")),
       agent_(agent),
       options_(options),
-      protocol_(protocol_of(commitment_options(name_, robot_, options), options.protocol),
+      protocol_(protocol_of(commitment_options(name_, robot_, kEpoch, options), options.protocol),
                 options.planning_threads == 1),
       stack_(name_, robot_,
              {global_values(options), local_values(options), reach_of(robot_, options)}, protocol_),

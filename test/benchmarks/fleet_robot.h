@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/fleet_options.h"
 #include "fleet/wire/datagram_link.h"
 #include "stack/robot_stack.h"
 #include "world/distances/distance_field.h"
@@ -26,17 +27,6 @@ struct FleetAgent {
   Pose start;
   Vector2 goal;
   std::shared_ptr<const FleetMap> map;
-};
-
-enum class Protocol { kOnePhase, kTwoPhase };
-
-/// How a fleet runs; whatever is not named here is as config/ says.
-struct FleetOptions {
-  Protocol protocol = Protocol::kTwoPhase;
-  double delta_dc_s = 0.06;
-  double settle_s = 0.3;          ///< settle_time of the local replanner
-  double tracking_error_m = 0.0;  ///< of the true place off the promised one, in turning directions
-  int planning_threads = 0;       ///< 0: one on each core
 };
 
 /// What planning of one robot came to. Times are of the wall clock, or where one thread does all,

@@ -142,13 +142,17 @@ FleetWorld crossing_robots(int seed) {
   return world;
 }
 
-FleetScene fleet_of(const World& world, int seed) {
+OccupancyGrid map_of(const World& world) {
   OccupancyGrid grid = free_map(world.bounds.min(), world.bounds.max());
   for (const Circle& circle : world.circles)
     fill_disc(grid, circle.centre, circle.radius_m, OccupancyGrid::kOccupied);
   for (const Polygon& polygon : world.polygons)
     fill_polygon(grid, polygon, OccupancyGrid::kOccupied);
-  const auto map = std::make_shared<const FleetMap>(grid);
+  return grid;
+}
+
+FleetScene fleet_of(const World& world, int seed) {
+  const auto map = std::make_shared<const FleetMap>(map_of(world));
   FleetScene scene;
   for (const WorldRobot& robot : world.robots) {
     if (robot.goal) scene.agents.push_back({robot.start, robot.goal->position, map});

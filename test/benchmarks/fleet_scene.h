@@ -2,6 +2,7 @@
 
 #include "benchmarks/fleet_run.h"
 #include "world/obstacle.h"
+#include "world/occupancy_grid.h"
 #include "world/world_file.h"
 
 namespace mocha {
@@ -19,6 +20,9 @@ FleetWorld five_agents(int seed);
 /// Two to four robots on the rim of an open place of 6 m, each on its way to the other side, at
 /// most two pillars between them.
 FleetWorld crossing_robots(int seed);
+
+/// What stands in a world, in cells of 5 cm.
+OccupancyGrid map_of(const World& world);
 
 /// The robots of a world that have a goal, all of which know its walls; how they look, when, and
 /// what the network does follows the seed. Every robot is a rover.

@@ -91,6 +91,16 @@ std::optional<PassingStretch> FollowedOrder::grant(const PromisedBy& promised_by
   return stretch_until(until);
 }
 
+std::vector<std::string> FollowedOrder::waits_for(const PromisedBy& promised_by) const {
+  std::vector<std::string> names;
+  if (made_ == turns_.size() || !turns_[made_]) return names;
+  for (const PassingProgress& progress : turns_[made_]->after) {
+    const std::string& name = robots_[progress.robot];
+    if (promised_by(name) < progress.moves) names.push_back(name);
+  }
+  return names;
+}
+
 std::optional<double> FollowedOrder::next_heading_rad() const {
   if (made_ == turns_.size() || !turns_[made_]) return std::nullopt;
   const auto& path = turns_[made_]->path;

@@ -15,6 +15,7 @@ constexpr double kHold_s = 1.2;
 constexpr double kHoldAgain_s = 5.0;
 constexpr double kCallAgain_s = 2.0;   // at least, after an order that it was stuck in
 constexpr double kStuck_s = 6.0;       // it may go on, and does not
+constexpr double kLetDown_s = 10.0;    // who it waits for keeps to something else
 constexpr double kForgotten_s = 40.0;  // it waits, and nobody of the order gets on
 constexpr double kNoNews_s = 45.0;     // whoever still waits has given it up by then
 constexpr double kAtPlace_m = 0.15;
@@ -37,8 +38,10 @@ void PassingPolicy::set_options(const PlannerOptions& options) {
   travel_ = homotopy_path_options(robot_, options).travel;
 }
 
+/// An instruction that comes late, or again, does not bring the order back.
 void PassingPolicy::begin_goal() {
   leave_order();
+  void_ = newest_;
   offered_.reset();
   leader_.retire();
   finished_ = PassingOrderId();
@@ -80,7 +83,7 @@ void PassingPolicy::follow(const PassingInstruction& instruction) {
   }
   const bool is_late =
       instruction.id.leader == newest_.leader && instruction.id.number < newest_.number;
-  if (instruction.first != 0 || is_late) return;
+  if (instruction.first != 0 || is_late || instruction.id == void_) return;
   newest_ = instruction.id;
   offered_ = instruction;
 }
@@ -163,8 +166,22 @@ void PassingPolicy::progress(const PassingSituation& situation) {
   leave_order();
 }
 
+/// Who it waits for says that it keeps to another order, or to none.
+bool PassingPolicy::is_let_down(double now_s) const {
+  const auto names =
+      followed_->waits_for([this](const std::string& name) { return promised_by(name); });
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    const PassingIntent* said = heard_.of(name, now_s);
+    return said != nullptr && said->follows != followed_->id();
+  });
+}
+
 bool PassingPolicy::is_stuck(const PassingSituation& situation) const {
-  return follows() && situation.now_s > progressed_s_ + (stretch_ ? kStuck_s : kForgotten_s);
+  if (!follows()) return false;
+  const double without_progress_s = situation.now_s - progressed_s_;
+  if (stretch_) return without_progress_s > kStuck_s;
+  return without_progress_s > kForgotten_s ||
+         (without_progress_s > kLetDown_s && is_let_down(situation.now_s));
 }
 
 void PassingPolicy::watch(const PassingSituation& situation, const SceneSource& scene) {

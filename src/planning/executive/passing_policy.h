@@ -68,6 +68,7 @@ class PassingPolicy {
   void progress(const PassingSituation& situation);
   void hold(double now_s);
   void watch(const PassingSituation& situation, const SceneSource& scene);
+  bool is_let_down(double now_s) const;
   bool is_stuck(const PassingSituation& situation) const;
   bool leads(double now_s) const;
   void lead(const PassingSituation& situation, const SceneSource& scene);
@@ -93,6 +94,7 @@ class PassingPolicy {
   PassingOrderId finished_;  // all its moves are made; others may wait for that
   std::uint32_t finished_moves_ = 0;
   PassingOrderId newest_;                      // heard of
+  PassingOrderId void_;                        // was made for another goal
   std::optional<PassingInstruction> offered_;  // not taken up yet
   std::optional<PassingStretch> stretch_;
   double news_s_ = 0.0;        // of anybody

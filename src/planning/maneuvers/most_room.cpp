@@ -22,12 +22,19 @@ constexpr double kForeseen_s = 15.0;
 // as that.
 constexpr double kGraze_m = 0.15;
 
+/// A team-mate that hears in time of what meets its promise: it goes on as promised, or brakes.
+struct TeamMate {
+  MovingThing goes_on;
+  MovingThing brakes;
+};
+
 /// How much room the motions in hand keep.
 class Room {
  public:
   explicit Room(const ManeuverStart& start)
       : start_(start),
         things_(exposed_to(start, start.now_s)),
+        team_mates_(taken_from(things_, start)),
         brake_m_(of(with_brake(start.committed, start.now_s, start.emergency_s,
                                start.robot.hard_braking()))),
         on_m_(of(start.committed)),
@@ -36,19 +43,58 @@ class Room {
 
   double of(const Motion& motion) const { return of(motion, -1e9); }
   double of(const Motion& motion, double of_no_use_m) const {
-    return least_room_m(motion, things_, start_.now_s, start_.now_s + kForeseen_s, of_no_use_m);
+    const auto to = [&](const std::vector<MovingThing>& things) {
+      return least_room_m(motion, things, start_.now_s, start_.now_s + kForeseen_s, of_no_use_m);
+    };
+    double least_m = to(things_);
+    for (const TeamMate& each : team_mates_) {
+      const double goes_on_m = to({each.goes_on});
+      if (goes_on_m < least_m) least_m = std::min(least_m, std::max(goes_on_m, to({each.brakes})));
+    }
+    return least_m;
   }
   /// Where the bodies would meet whatever the robot does, they had better meet slowly.
   double to_beat_m() const { return std::max({brake_m_, on_m_, contact_m_}) + kWorthwhile_m; }
   bool going_on_is_better() const { return on_m_ > std::max(brake_m_ + kWorthwhile_m, contact_m_); }
 
  private:
+  /// Takes them out of `things`.
+  static std::vector<TeamMate> taken_from(std::vector<MovingThing>& things,
+                                          const ManeuverStart& start);
+
   const ManeuverStart& start_;
-  const std::vector<MovingThing> things_;
+  std::vector<MovingThing> things_;  // that promise nothing, or will not brake any more
+  const std::vector<TeamMate> team_mates_;
   const double brake_m_;
   const double on_m_;
   const double contact_m_;
 };
+
+std::vector<TeamMate> Room::taken_from(std::vector<MovingThing>& things,
+                                       const ManeuverStart& start) {
+  std::vector<TeamMate> team_mates;
+  std::vector<MovingThing> others;
+  const double hears_s = start.now_s + start.robot.peer_reaction_s;
+  for (const MovingThing& thing : things) {
+    const auto promised = thing.obstacle->promised();
+    if (!promised || thing.obstacle->rest_time() <= hears_s) {
+      others.push_back(thing);
+      continue;
+    }
+    const MotionOrFault stop = try_brake(promised->motion, start.now_s, hears_s, promised->braking);
+    if (!stop) {
+      others.push_back(thing);
+      continue;
+    }
+    MovingThing brakes = thing;
+    brakes.obstacle = std::make_shared<PeerObstacle>(
+        thing.obstacle->name(), std::make_shared<const Motion>(stop.motion),
+        thing.obstacle->at(start.now_s).radius_m, promised->braking);
+    team_mates.push_back({thing, std::move(brakes)});
+  }
+  things = std::move(others);
+  return team_mates;
+}
 
 struct Escape {
   double room_m;  ///< enough is enough

@@ -304,6 +304,20 @@ TEST_F(PassingPolicyTest, AnotherGoalOrNoneVoidsTheOrder) {
   EXPECT_FALSE(robot.policy->follows());
 }
 
+/// What the leader said before it knew of the other goal may come late, or again.
+TEST_F(PassingPolicyTest, AnOrderForAnotherGoalIsNotTakenUpAgain) {
+  Robot& robot = add("ugv2", {0.0, 0.0});
+  robot.policy->hear(order({{0.0, 0.0}, {1.0, 0.0}}, 1), now_s_);
+  run(kStep_s);
+  robot.policy->begin_goal();
+  robot.policy->hear(order({{0.0, 0.0}, {1.0, 0.0}}, 1), now_s_);
+  run(kStep_s);
+  EXPECT_FALSE(robot.policy->follows());
+  robot.policy->hear(order({{0.0, 0.0}, {0.0, 1.4}}, 0, 2), now_s_);
+  run(kStep_s);
+  EXPECT_TRUE(robot.policy->follows());
+}
+
 TEST_F(PassingPolicyTest, WhoStaysOutForgetsWhatItWasTold) {
   Robot& robot = add("ugv2", {0.0, 0.0});
   robot.takes_part = false;
@@ -359,6 +373,21 @@ TEST_F(PassingPolicyTest, AnOrderInWhichNobodyGetsOnIsLeftAtLast) {
   run(39.0);
   EXPECT_TRUE(robot.policy->follows());
   run(2.0);
+  EXPECT_FALSE(robot.policy->follows());
+}
+
+TEST_F(PassingPolicyTest, AnOrderIsLeftSoonWhereTheOneThatIsWaitedForHasLeftIt) {
+  Robot& robot = add("ugv2", {0.0, 0.0});
+  robot.policy->hear(order({{0.0, 0.0}, {1.0, 0.0}}, 1), now_s_);
+  for (int i = 0; i < 9; ++i) {
+    robot.policy->hear(intent_of("ugv1", false), now_s_);
+    run(1.0);
+  }
+  EXPECT_TRUE(robot.policy->follows()) << "it may take the order up yet";
+  for (int i = 0; i < 2; ++i) {
+    robot.policy->hear(intent_of("ugv1", false), now_s_);
+    run(1.0);
+  }
   EXPECT_FALSE(robot.policy->follows());
 }
 

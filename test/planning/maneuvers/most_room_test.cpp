@@ -6,6 +6,7 @@
 #include "planning/maneuvers/brake.h"
 #include "planning/maneuvers/sidestep.h"
 #include "trajectory/splice.h"
+#include "trajectory/stopping.h"
 
 namespace mocha {
 namespace {
@@ -64,6 +65,16 @@ class MostRoomTest : public ManeuverTest {
   }
   static bool swerves(const Choice& choice) {
     return choice.words().find("swerves") == 0 || choice.words().find("finds a way out") == 0;
+  }
+
+  /// On for 0.9 m, and then backward out of everybody's way.
+  Motion drive_there_and_back() const {
+    std::vector<Phase> phases = ahead_.phases_between(ahead_.start_time(), kNow_s);
+    for (Phase& phase : brake_along(ahead_, kNow_s, Braking(0.45))) phases.push_back(phase);
+    const Motion there(ahead_.start_time(), phases);
+    const Motion back = straight_drive(0.0, there.end_pose().position, M_PI, 3.0, 0.9, 0.5);
+    phases.push_back(DrivePhase{-1, std::get<DrivePhase>(back.phases().front()).path});
+    return Motion(ahead_.start_time(), phases);
   }
 
   const OccupancyGrid open_ = free_grid({-8.0, -8.0}, {12.0, 8.0});
@@ -170,6 +181,19 @@ TEST_F(MostRoomTest, TheLastResortBrakesUnlessGoingOnKeepsMoreRoom) {
   EXPECT_TRUE(last_resort(start_of(ahead_, across, kNow_s, Course::kLikely)).empty());
   const Motion stands = standing(kNow_s - 1.0, here(), 0.0);
   EXPECT_TRUE(last_resort(start_of(stands, in_front, kNow_s, Course::kLikely)).empty());
+}
+
+/// A team-mate that is to pass much later, where braking would leave the robot, is told of that and
+/// brakes; what stands before the robot is not.
+TEST_F(MostRoomTest, ForWhatATeamMateIsToDoNobodyDrivesIntoWhatPromisesNothing) {
+  LocalScene scene = with({1.6, 0.0}, {0.0, 0.0});
+  const Motion there_and_back = drive_there_and_back();
+  scene.peers = {
+      peer(straight_drive(kNow_s + 2.0, here() + Vector2(0.6, 5.0), -M_PI_2, 8.0, 0.9, 0.5))};
+  const ManeuverStart start = start_of(there_and_back, scene, kNow_s, Course::kLikely);
+  const auto brakes = first_certified(start, last_resort(start), RequirementName::kNone);
+  ASSERT_TRUE(brakes);
+  EXPECT_EQ(brakes->words(), "brakes all the same");
 }
 
 }  // namespace
