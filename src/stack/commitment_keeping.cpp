@@ -5,9 +5,19 @@
 #include <stdexcept>
 #include <utility>
 
+#include "trajectory/separation.h"
 #include "trajectory/splice.h"
 
 namespace mocha {
+namespace {
+
+/// Allows for a motion that may be early or late by so much, as long as it lasts.
+void widen(CommittedTrajectory& promise, double mistimed_s, double now_s) {
+  if (promise.motion->end_time() + mistimed_s <= now_s) return;
+  promise.footprint_radius_m += mistimed_s * bounds(*promise.motion).speed;
+}
+
+}  // namespace
 
 CommitmentKeeping::CommitmentKeeping(const RobotModel& robot, double first_lease_s,
                                      SettlingProtocol& protocol)
@@ -101,17 +111,20 @@ MotionInForce CommitmentKeeping::commit(const CommitmentEvent& event, double now
 }
 
 std::optional<std::vector<CommittedTrajectory>> CommitmentKeeping::fleet_news(double now_s) {
-  std::vector<TrajectoryId> known;
+  std::vector<std::pair<TrajectoryId, double>> known;
   for (const auto& [name, peer] : protocol_.peers().peers()) {
     for (const Reservation& reservation : peer.binding.reservations())
-      known.push_back(reservation.trajectory.id);
+      known.emplace_back(reservation.trajectory.id, reservation.trajectory.motion->start_time());
   }
   if (known == told_ && now_s < tell_again_s_) return std::nullopt;
   told_ = std::move(known);
   tell_again_s_ = now_s + kFleetPeriod_s;
   std::vector<CommittedTrajectory> promises;
   for (const auto& [name, peer] : protocol_.peers().peers()) {
-    for (const Reservation& part : peer.binding.parts(now_s)) promises.push_back(part.trajectory);
+    for (const Reservation& part : peer.binding.parts(now_s)) {
+      promises.push_back(part.trajectory);
+      widen(promises.back(), protocol_.peers().mistimed_s(peer, now_s), now_s);
+    }
   }
   return promises;
 }

@@ -65,9 +65,8 @@ void validate(const CommittedTrajectory& trajectory);
 /// acceleration, outside [0.02, 50] m/s^2.
 void validate(const Braking& braking);
 
-/// The promise by a clock that shows `later_s` more and is less sure of it by `less_sure_s`: the
-/// radius grows by what the robot drives in that time.
-CommittedTrajectory reclocked(CommittedTrajectory trajectory, double later_s, double less_sure_s);
+/// The promise by a clock that shows `later_s` more.
+CommittedTrajectory reclocked(CommittedTrajectory trajectory, double later_s);
 
 /// One line of a heartbeat: the newest promise of `agent` that the sender has seen and does not
 /// object to.

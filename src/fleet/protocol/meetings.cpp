@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fleet/protocol/mistiming.h"
 #include "fleet/protocol/stop_conflict.h"
 #include "trajectory/separation.h"
 
@@ -66,7 +67,11 @@ std::optional<Conflict> Meetings::between(const Reservation& mine, const Peer& p
   if (far_apart(*mine.trajectory.motion, *theirs.trajectory.motion, demanded)) return std::nullopt;
   const double required =
       std::min(demanded, closest_m(*mine.trajectory.motion, peer, *theirs.trajectory.motion));
-  return first_conflict(mine, theirs, required, now_);
+  const Mistiming off =
+      mistiming(*mine.trajectory.motion, *theirs.trajectory.motion, mistimed_s(peer), now_);
+  auto conflict = first_conflict(off.around(mine), off.around(theirs), required, now_);
+  if (conflict || off.loss_m == 0.0) return conflict;
+  return first_conflict(off.within(mine), off.within(theirs), required + off.loss_m, now_);
 }
 
 std::optional<Conflict> Meetings::by_stopping(const CommittedTrajectory* my_proposal,
@@ -77,8 +82,12 @@ std::optional<Conflict> Meetings::by_stopping(const CommittedTrajectory* my_prop
       peer.binding.empty() ? their_proposal : &peer.binding.newest();
   if (!options_.stop_reaction_s || mine == nullptr || theirs == nullptr) return std::nullopt;
   const StopDemand demand{*options_.stop_reaction_s, options_.stop_clearance_m,
-                          closest_m(*mine->motion, peer, *theirs->motion)};
+                          closest_m(*mine->motion, peer, *theirs->motion), mistimed_s(peer)};
   return first_stop_conflict({binding_, my_proposal}, {peer.binding, their_proposal}, demand, now_);
+}
+
+double Meetings::mistimed_s(const Peer& peer) const {
+  return peer.clock.error_beyond_s(options_.clocks.tolerance_s, now_);
 }
 
 double Meetings::closest_m(const Motion& mine, const Peer& peer, const Motion& theirs) const {
