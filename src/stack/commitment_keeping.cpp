@@ -5,19 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "trajectory/separation.h"
 #include "trajectory/splice.h"
 
 namespace mocha {
-namespace {
-
-/// Allows for a motion that may be early or late by so much, as long as it lasts.
-void widen(CommittedTrajectory& promise, double mistimed_s, double now_s) {
-  if (promise.motion->end_time() + mistimed_s <= now_s) return;
-  promise.footprint_radius_m += mistimed_s * bounds(*promise.motion).speed;
-}
-
-}  // namespace
 
 CommitmentKeeping::CommitmentKeeping(const RobotModel& robot, double first_lease_s,
                                      SettlingProtocol& protocol)
@@ -123,7 +113,9 @@ std::optional<std::vector<CommittedTrajectory>> CommitmentKeeping::fleet_news(do
   for (const auto& [name, peer] : protocol_.peers().peers()) {
     for (const Reservation& part : peer.binding.parts(now_s)) {
       promises.push_back(part.trajectory);
-      widen(promises.back(), protocol_.peers().mistimed_s(peer, now_s), now_s);
+      const double end_s = part.trajectory.motion->end_time();
+      const double mistimed_s = protocol_.peers().mistimed_s(peer, std::max(now_s, end_s));
+      if (end_s + mistimed_s > now_s) promises.back().mistimed_s = mistimed_s;  // it moves
     }
   }
   return promises;

@@ -47,6 +47,8 @@ struct CommittedTrajectory {
   double footprint_radius_m = 0.0;       ///< circumscribed, about the position of the motion
   std::optional<Braking> braking;        ///< along the motion, in good time; none where withdrawn
   std::shared_ptr<const Motion> motion;  ///< none where withdrawn
+  /// Of a peer, as the planners hear of it: it may be early or late by so much.
+  double mistimed_s = 0.0;
 };
 
 /// Whether a wins where two proposals meet: the higher priority, then the smaller name. A total

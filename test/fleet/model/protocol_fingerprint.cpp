@@ -155,7 +155,8 @@ void ProtocolFingerprint::add(const ReservationChain& chain) {
 }
 
 void ProtocolFingerprint::add(const CommittedTrajectory& trajectory) {
-  const auto& [agent, id, state, priority, radius_m, braking, motion] = trajectory;
+  const auto& [agent, id, state, priority, radius_m, braking, motion, mistimed_s] = trajectory;
+  (void)mistimed_s;  // only planners hear of it
   hash_.add(agent);
   add(id);
   hash_.add(state);
