@@ -257,8 +257,10 @@ class TrajectoryBroadcasterNode {
     mocha_ugv::FleetTrajectories fleet;
     fleet.header.stamp = now_;
     fleet.header.frame_id = robot_.map_frame;
-    for (const CommittedTrajectory& promise : *news)
+    for (const CommittedTrajectory& promise : *news) {
       fleet.trajectories.push_back(to_message(promise, robot_.map_frame, now_));
+      fleet.mistimed.push_back(promise.mistimed_s);
+    }
     fleet_.publish(fleet);
   }
 

@@ -111,19 +111,24 @@ bool CommitmentKeeping::matters(const Peer& peer, double now_s) const {
 
 std::optional<std::vector<CommittedTrajectory>> CommitmentKeeping::fleet_news(double now_s) {
   std::vector<const Peer*> peers;
-  std::vector<TrajectoryId> known;
+  std::vector<std::pair<TrajectoryId, double>> known;
   for (const auto& [name, peer] : protocol_.peers().peers()) {
     if (!matters(peer, now_s)) continue;
     peers.push_back(&peer);
     for (const Reservation& reservation : peer.binding.reservations())
-      known.push_back(reservation.trajectory.id);
+      known.emplace_back(reservation.trajectory.id, reservation.trajectory.motion->start_time());
   }
   if (known == told_ && now_s < tell_again_s_) return std::nullopt;
   told_ = std::move(known);
   tell_again_s_ = now_s + kFleetPeriod_s;
   std::vector<CommittedTrajectory> promises;
   for (const Peer* peer : peers) {
-    for (const Reservation& part : peer->binding.parts(now_s)) promises.push_back(part.trajectory);
+    for (const Reservation& part : peer->binding.parts(now_s)) {
+      promises.push_back(part.trajectory);
+      const double end_s = part.trajectory.motion->end_time();
+      const double mistimed_s = protocol_.peers().mistimed_s(*peer, std::max(now_s, end_s));
+      if (end_s + mistimed_s > now_s) promises.back().mistimed_s = mistimed_s;  // it moves
+    }
   }
   return promises;
 }

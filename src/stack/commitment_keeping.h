@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "control/lease.h"
@@ -89,9 +90,9 @@ class CommitmentKeeping {
   SettlingProtocol& protocol_;
   LeaseWatch lease_;
   std::uint32_t committed_sequence_ = 0;
-  std::uint32_t stop_sequence_ = 0;    // of the newest stop without a lease
-  std::uint32_t newest_sequence_ = 0;  // proposed, or given to a stop
-  std::vector<TrajectoryId> told_;     // of the peers' promises
+  std::uint32_t stop_sequence_ = 0;                    // of the newest stop without a lease
+  std::uint32_t newest_sequence_ = 0;                  // proposed, or given to a stop
+  std::vector<std::pair<TrajectoryId, double>> told_;  // the peers' promises, and their starts
   double tell_again_s_ = 0.0;
   Counts counts_;
 };

@@ -139,8 +139,9 @@ void RobotStack::refresh_peers(double now_s) {
   if (!news) return;
   peers_.clear();
   for (const CommittedTrajectory& promise : *news) {
-    peers_.push_back(std::make_shared<PeerObstacle>(
-        promise.agent, promise.motion, promise.footprint_radius_m, promise.braking.value()));
+    peers_.push_back(std::make_shared<PeerObstacle>(promise.agent, promise.motion,
+                                                    promise.footprint_radius_m,
+                                                    promise.braking.value(), promise.mistimed_s));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "trajectory/mistiming.h"
 #include "trajectory/separation.h"
 
 namespace mocha {
@@ -198,9 +199,11 @@ std::optional<StopMeeting> first_stop_meeting(const BrakableMotion& a, const Bra
   const long first = static_cast<long>(std::ceil(begins_s / kStep_s));
   SteppedMotion one(a, first);
   SteppedMotion other(b, first);
+  Mistiming off = mistiming(a.motion, b.motion, a.mistimed_s + b.mistimed_s);
+  off.from_s -= reaction_s;  // the one brakes, and the other sets off before it reacts
   const double step_m = (one.max_speed() + other.max_speed()) * kStep_s;
   // From one moment of braking to the next a stop moves by no more than three steps.
-  const double far_m = std::max(0.0, distance_m) + 3.0 * step_m;
+  const double far_m = std::max(0.0, distance_m + off.loss_m) + 3.0 * step_m;
   Stops one_first(one, other, reaction, far_m);
   Stops other_first(other, one, reaction, far_m);
   const double reach_m = step_m * reaction + one.longest_stop_m() + other.longest_stop_m();
@@ -209,7 +212,8 @@ std::optional<StopMeeting> first_stop_meeting(const BrakableMotion& a, const Bra
                         ? static_cast<long>(std::floor(until_s / kStep_s))
                         : both_rest;
   for (long i = first; i <= last; ++i) {
-    const double spare_m = (one.place(i) - other.place(i)).norm() - distance_m - reach_m;
+    const double spare_m =
+        (one.place(i) - other.place(i)).norm() - distance_m - off.loss_m - reach_m;
     if (spare_m > step_m) {
       i += static_cast<long>(std::min(spare_m / std::max(step_m, 1e-9), 1e6)) - 1;
       continue;
@@ -217,10 +221,10 @@ std::optional<StopMeeting> first_stop_meeting(const BrakableMotion& a, const Bra
     const Closest ahead = one_first.closest(i);
     const Closest behind = other_first.closest(i);
     const Closest& closest = ahead.distance_m < behind.distance_m ? ahead : behind;
-    if (closest.distance_m >= distance_m) continue;
+    const double brakes_s = static_cast<double>(i) * kStep_s;
+    if (closest.distance_m >= distance_m + off.loss_at(brakes_s)) continue;
     const double time_s = static_cast<double>(closest.step) * kStep_s;
-    return StopMeeting{static_cast<double>(i) * kStep_s, time_s, closest.distance_m,
-                       one.place(closest.step)};
+    return StopMeeting{brakes_s, time_s, closest.distance_m, one.place(closest.step)};
   }
   return std::nullopt;
 }

@@ -12,6 +12,7 @@ namespace mocha {
 struct BrakableMotion {
   const Motion& motion;
   Braking braking;
+  double mistimed_s = 0.0;  ///< it may be early or late by so much
 };
 
 /// A stop by which two robots come too close.
@@ -24,7 +25,8 @@ struct StopMeeting {
 
 /// The first moment in [from_s, until_s] at which either robot cannot brake along its path without
 /// that they come closer than `distance_m`, centre to centre, though the other robot brakes along
-/// its own path `reaction_s` later. The verdict on (b, a) is that on (a, b).
+/// its own path `reaction_s` later; motions that may be early or late are kept apart by so much
+/// more (Mistiming). The verdict on (b, a) is that on (a, b).
 ///
 /// Moments and places are 0.1 s apart and joined by straight lines; what is accepted holds to
 /// within 2 cm for accelerations up to 2 m/s^2. Robots brake as brake_along() does. Throws

@@ -49,7 +49,7 @@ Eigen::AlignedBox2d MovingObstacle::box() const {
 }
 
 PeerObstacle::PeerObstacle(std::string name, std::shared_ptr<const Motion> motion, double radius_m,
-                           const Braking& braking)
+                           const Braking& braking, double mistimed_s)
     : name_(std::move(name)),
       motion_(std::move(motion)),
       radius_m_(radius_m),
@@ -58,11 +58,14 @@ PeerObstacle::PeerObstacle(std::string name, std::shared_ptr<const Motion> motio
   require(motion_ != nullptr && !motion_->empty(), name_, "has no motion");
   require(std::isfinite(radius_m_) && radius_m_ >= 0.0, name_,
           "the radius is not finite and >= 0 m");
+  require(std::isfinite(mistimed_s) && mistimed_s >= 0.0, name_,
+          "the time that it may be early or late is not finite and >= 0 s");
   for (const Phase& phase : motion_->phases()) {
     const auto* drive = std::get_if<DrivePhase>(&phase);
     if (drive != nullptr) max_speed_ = std::max(max_speed_, speed_bound(drive->path));
     max_accelerations_.push_back(drive != nullptr ? acceleration_bound(drive->path) : 0.0);
   }
+  radius_m_ += mistimed_s * max_speed_;
 }
 
 MovingObstacle::Disc PeerObstacle::at(double t) const {

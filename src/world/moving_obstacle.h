@@ -46,12 +46,14 @@ struct MovingThing {
   double until_s;  ///< absolute time after which it is not counted any more (infinity: for ever)
 };
 
-/// A team-mate on its promised motion.
+/// A team-mate on its promised motion. Where that may be early or late by `mistimed_s`, its disc is
+/// larger by what it may drive in that time.
 class PeerObstacle : public MovingObstacle {
  public:
-  /// Throws std::invalid_argument without a motion or for a radius that is negative or not finite.
+  /// Throws std::invalid_argument without a motion, or for a radius or `mistimed_s` that is
+  /// negative or not finite.
   PeerObstacle(std::string name, std::shared_ptr<const Motion> motion, double radius_m,
-               const Braking& braking);
+               const Braking& braking, double mistimed_s = 0.0);
   Disc at(double t) const override;
   double max_closing_speed(double t) const override;
   double chord_error_m(double from_s, double until_s) const override;

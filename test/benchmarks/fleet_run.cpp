@@ -54,6 +54,11 @@ class Fleet {
  private:
   int size() const { return static_cast<int>(robots_.size()); }
   double now_s() const { return kBegin_s + 1e-3 * ms_; }
+  /// By the clock of robot i.
+  double now_s(int i) const {
+    if (i >= static_cast<int>(scene_.clocks.size())) return now_s();
+    return now_s() + scene_.clocks[i].ahead_s + 1e-3 * ms_ * scene_.clocks[i].drift;
+  }
 
   bool all_there() const {
     return std::all_of(robots_.begin(), robots_.end(),
@@ -62,7 +67,7 @@ class Fleet {
 
   void deliver() {
     for (const auto& delivery : network_.receive(now_s())) {
-      send(delivery.to, robots_[delivery.to].hear(*delivery.message, now_s()));
+      send(delivery.to, robots_[delivery.to].hear(*delivery.message, now_s(delivery.to)));
     }
   }
 
@@ -70,9 +75,9 @@ class Fleet {
     FleetRobot& robot = robots_[i];
     const int ms = ms_ + late_ms_[i];
     const bool was_there = robot.reached();
-    if (ms % kTick_ms == 0) send(i, robot.tick(now_s()));
-    if (ms % kExecutive_ms == 0) send(i, robot.pursue(now_s()));
-    if (ms % kProposal_ms == 0 || robot.breached()) send(i, robot.propose(now_s()));
+    if (ms % kTick_ms == 0) send(i, robot.tick(now_s(i)));
+    if (ms % kExecutive_ms == 0) send(i, robot.pursue(now_s(i)));
+    if (ms % kProposal_ms == 0 || robot.breached()) send(i, robot.propose(now_s(i)));
     if (!was_there) run_.agents[i].time_s = run_.time_s;
   }
 
@@ -84,14 +89,16 @@ class Fleet {
       const auto shared = std::make_shared<const FleetRobot::Bytes>(std::move(datagram));
       for (int to = 0; to < size(); ++to) {
         const bool hears = (places_[to] - places_[from]).norm() <= scene_.reach_m;
-        if (to != from && hears) network_.send(from, to, shared, now_s());
+        const double later_s =
+            (from < to ? 1.0 : -1.0) * scene_.asymmetry * scene_.link.min_delay_s;
+        if (to != from && hears) network_.send(from, to, shared, now_s() + later_s);
       }
     }
   }
 
   void watch() {
     std::vector<RobotState> states;
-    for (FleetRobot& robot : robots_) states.push_back(robot.state(now_s()));
+    for (int i = 0; i < size(); ++i) states.push_back(robots_[i].state(now_s(i)));
     for (int i = 0; i < size(); ++i) {
       places_[i] = states[i].pose.position;
       if (ms_ % kSample_ms == 0) run_.agents[i].places.push_back(states[i].pose.position);

@@ -10,11 +10,21 @@
 
 namespace mocha {
 
+/// The clock of a robot: what it shows more than the true one.
+struct FleetClock {
+  double ahead_s = 0.0;
+  double drift = 0.0;  ///< [s/s]
+};
+
 /// A fleet in one process: robots with all their planners, no ROS, simulated time.
 struct FleetScene {
   std::vector<FleetAgent> agents;
   FleetOptions options;
   NetworkLink link;
+  /// So much of the least delay is moved from one direction to the other, of each two robots: at 1
+  /// messages take twice as long there, and nothing back.
+  double asymmetry = 0.0;
+  std::vector<FleetClock> clocks;  ///< of the robots; those that have none show the true time
   /// A robot farther away hears nothing.
   double reach_m = std::numeric_limits<double>::infinity();
   std::uint64_t seed = 1;  ///< of the network, and of when robots look

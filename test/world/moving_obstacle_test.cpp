@@ -25,6 +25,18 @@ TEST(PeerObstacle, FollowsItsMotion) {
   }
 }
 
+TEST(PeerObstacle, HoldsAPeerThatIsEarlyOrLate) {
+  constexpr double kMistimed_s = 0.3;
+  const auto motion = std::make_shared<const Motion>(10.0, std::vector<Phase>{random_drive(1, 6)});
+  const PeerObstacle peer("ugv2", motion, 0.3, test::kRoverBraking, kMistimed_s);
+  for (double t = 9.0; t < motion->end_time() + 1.0; t += 0.01) {
+    const auto disc = peer.at(t);
+    for (const double early_s : {-kMistimed_s, -0.1, 0.1, kMistimed_s}) {
+      EXPECT_LE((motion->position(t + early_s) - disc.centre).norm() + 0.3, disc.radius_m);
+    }
+  }
+}
+
 TEST(PeerObstacle, ClosingSpeedIsABoundAndNotALooseOne) {
   for (int seed = 0; seed < 20; ++seed) {
     const auto motion =
@@ -55,6 +67,7 @@ TEST(MovingObstacle, RefusesWhatIsNone) {
                std::invalid_argument);
   EXPECT_THROW(PeerObstacle("a", motion, -0.1, test::kRoverBraking), std::invalid_argument);
   EXPECT_THROW(PeerObstacle("a", motion, nan, test::kRoverBraking), std::invalid_argument);
+  EXPECT_THROW(PeerObstacle("a", motion, 0.3, test::kRoverBraking, nan), std::invalid_argument);
   EXPECT_THROW(PredictedDisc("a", nan, {0, 0}, {0, 0}, 0.1, 0.0), std::invalid_argument);
   EXPECT_THROW(PredictedDisc("a", 0.0, {nan, 0}, {0, 0}, 0.1, 0.0), std::invalid_argument);
   EXPECT_THROW(PredictedDisc("a", 0.0, {0, 0}, {infinity, 0}, 0.1, 0.0), std::invalid_argument);

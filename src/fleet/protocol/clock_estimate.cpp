@@ -1,7 +1,6 @@
 #include "fleet/protocol/clock_estimate.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace mocha {
 namespace {
@@ -10,42 +9,53 @@ constexpr double kNewest = 0.1;  // what the newest delay counts in their mean
 
 }  // namespace
 
-ClockReading ClockEstimate::widened(const Sample& sample, double now) {
-  ClockReading reading = sample.reading;
-  reading.uncertainty_s += kDrift * std::max(0.0, now - sample.time_s);
-  return reading;
+double RecentBound::sunk(const Sample& sample, double now) {
+  return sample.at_least - ClockEstimate::kDrift * std::max(0.0, now - sample.time_s);
 }
 
-bool ClockEstimate::better(const Sample& a, const std::optional<Sample>& b, double now) {
-  return !b || widened(a, now).uncertainty_s <= widened(*b, now).uncertainty_s;
+bool RecentBound::better(const Sample& a, const std::optional<Sample>& b, double now) {
+  return !b || sunk(a, now) >= sunk(*b, now);
 }
 
-void ClockEstimate::add(double sent_s, double held_s, double stamp_s, double now) {
-  const double round_trip_s = now - sent_s - held_s;
-  if (!(held_s >= 0.0 && round_trip_s >= -kResolution_s && round_trip_s <= kMemory_s)) return;
-  const double delay_s = std::max(0.0, 0.5 * round_trip_s);
-  const Sample sample{{stamp_s - (now - delay_s), delay_s + kResolution_s, delay_s}, now};
-  delay_s_ = best_ ? delay_s_ + kNewest * (delay_s - delay_s_) : delay_s;
-  if (best_) {
-    const ClockReading known = widened(*best_, now);
-    const double apart_s = std::abs(known.offset_s - sample.reading.offset_s);
-    if (apart_s > known.uncertainty_s + sample.reading.uncertainty_s)
-      best_ = recent_ = std::nullopt;
-  }
-  if (!recent_ || now > from_s_ + kMemory_s) {
+void RecentBound::add(double at_least, double now) {
+  if (!recent_ || now > from_s_ + ClockEstimate::kMemory_s) {
     best_ = recent_;
     recent_ = std::nullopt;
     from_s_ = now;
   }
+  const Sample sample{at_least, now};
   if (better(sample, recent_, now)) recent_ = sample;
   if (better(*recent_, best_, now)) best_ = recent_;
 }
 
-std::optional<ClockReading> ClockEstimate::reading(double now) const {
+std::optional<double> RecentBound::at(double now) const {
   if (!best_) return std::nullopt;
-  ClockReading reading = widened(*best_, now);
-  reading.delay_s = delay_s_;
-  return reading;
+  return sunk(*best_, now);
+}
+
+void ClockEstimate::add(double sent_s, double held_s, double stamp_s, double now) {
+  const double round_trip_s = now - sent_s - held_s;
+  if (!(held_s >= 0.0 && round_trip_s >= -kResolution_s && round_trip_s <= kLongest_s)) return;
+  const double delay_s = std::max(0.0, 0.5 * round_trip_s);
+  delay_s_ = reading(now) ? delay_s_ + kNewest * (delay_s - delay_s_) : delay_s;
+  const double at_least_s = stamp_s - now;
+  const double at_most_s = stamp_s - held_s - sent_s;
+  if (const auto known = reading(now)) {
+    const double least_s = known->offset_s - known->uncertainty_s;
+    const double most_s = known->offset_s + known->uncertainty_s;
+    if (at_least_s - kResolution_s > most_s || at_most_s + kResolution_s < least_s)
+      ahead_ = behind_ = RecentBound();
+  }
+  ahead_.add(at_least_s, now);
+  behind_.add(-at_most_s, now);
+}
+
+std::optional<ClockReading> ClockEstimate::reading(double now) const {
+  const auto at_least_s = ahead_.at(now);
+  const auto less_at_most_s = behind_.at(now);
+  if (!at_least_s || !less_at_most_s) return std::nullopt;
+  return ClockReading{0.5 * (*at_least_s - *less_at_most_s),
+                      -0.5 * (*at_least_s + *less_at_most_s) + kResolution_s, delay_s_};
 }
 
 }  // namespace mocha

@@ -53,10 +53,9 @@ void validate(const CommittedTrajectory& trajectory) {
   require(bound.acceleration <= kMaxAcceleration, "may accelerate by more than 500 m/s^2");
 }
 
-CommittedTrajectory reclocked(CommittedTrajectory trajectory, double later_s, double less_sure_s) {
+CommittedTrajectory reclocked(CommittedTrajectory trajectory, double later_s) {
   if (trajectory.motion == nullptr) return trajectory;
   const Motion& motion = *trajectory.motion;
-  trajectory.footprint_radius_m += less_sure_s * bounds(motion).speed;
   trajectory.motion =
       std::make_shared<const Motion>(motion.start_time() + later_s, motion.phases());
   return trajectory;

@@ -47,6 +47,8 @@ struct CommittedTrajectory {
   double footprint_radius_m = 0.0;       ///< circumscribed, about the position of the motion
   std::optional<Braking> braking;        ///< along the motion, in good time; none where withdrawn
   std::shared_ptr<const Motion> motion;  ///< none where withdrawn
+  /// Of a peer, as the planners hear of it: it may be early or late by so much.
+  double mistimed_s = 0.0;
 };
 
 /// Whether a wins where two proposals meet: the higher priority, then the smaller name. A total
@@ -65,9 +67,8 @@ void validate(const CommittedTrajectory& trajectory);
 /// acceleration, outside [0.02, 50] m/s^2.
 void validate(const Braking& braking);
 
-/// The promise by a clock that shows `later_s` more and is less sure of it by `less_sure_s`: the
-/// radius grows by what the robot drives in that time.
-CommittedTrajectory reclocked(CommittedTrajectory trajectory, double later_s, double less_sure_s);
+/// The promise by a clock that shows `later_s` more.
+CommittedTrajectory reclocked(CommittedTrajectory trajectory, double later_s);
 
 /// One line of a heartbeat: the newest promise of `agent` that the sender has seen and does not
 /// object to.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fleet/protocol/stop_conflict.h"
+#include "trajectory/mistiming.h"
 #include "trajectory/separation.h"
 
 namespace mocha {
@@ -11,6 +12,13 @@ namespace {
 /// Robots that are too close already may come no closer than now, up to this
 /// for rounding.
 constexpr double kRounding_m = 1e-3;
+
+/// Wherever it may begin and end, if its times, or those of what it is compared with, are wrong.
+Reservation mistimed(Reservation reservation, double error_s) {
+  reservation.from_s -= error_s;
+  reservation.until_s += error_s;
+  return reservation;
+}
 
 }  // namespace
 
@@ -66,7 +74,15 @@ std::optional<Conflict> Meetings::between(const Reservation& mine, const Peer& p
   if (far_apart(*mine.trajectory.motion, *theirs.trajectory.motion, demanded)) return std::nullopt;
   const double required =
       std::min(demanded, closest_m(*mine.trajectory.motion, peer, *theirs.trajectory.motion));
-  return first_conflict(mine, theirs, required, now_);
+  const double error_s = mistimed_s(peer, *theirs.trajectory.motion);
+  auto conflict =
+      first_conflict(mistimed(mine, error_s), mistimed(theirs, error_s), required, now_);
+  const Mistiming off = mistiming(*mine.trajectory.motion, *theirs.trajectory.motion, error_s);
+  if (conflict || off.loss_m == 0.0) return conflict;
+  Reservation both_move = mistimed(theirs, error_s);
+  both_move.from_s = std::max(both_move.from_s, off.from_s);
+  both_move.until_s = std::min(both_move.until_s, off.until_s);
+  return first_conflict(mistimed(mine, error_s), both_move, required + off.loss_m, now_);
 }
 
 std::optional<Conflict> Meetings::by_stopping(const CommittedTrajectory* my_proposal,
@@ -77,8 +93,15 @@ std::optional<Conflict> Meetings::by_stopping(const CommittedTrajectory* my_prop
       peer.binding.empty() ? their_proposal : &peer.binding.newest();
   if (!options_.stop_reaction_s || mine == nullptr || theirs == nullptr) return std::nullopt;
   const StopDemand demand{*options_.stop_reaction_s, options_.stop_clearance_m,
-                          closest_m(*mine->motion, peer, *theirs->motion)};
+                          closest_m(*mine->motion, peer, *theirs->motion),
+                          mistimed_s(peer, *theirs->motion)};
   return first_stop_conflict({binding_, my_proposal}, {peer.binding, their_proposal}, demand, now_);
+}
+
+/// By its end, clocks will have drifted.
+double Meetings::mistimed_s(const Peer& peer, const Motion& theirs) const {
+  return std::max(0.0, peer.clock.error_beyond_s(options_.clocks.tolerance_s,
+                                                 std::max(now_, theirs.end_time())));
 }
 
 double Meetings::closest_m(const Motion& mine, const Peer& peer, const Motion& theirs) const {

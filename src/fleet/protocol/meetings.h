@@ -42,6 +42,8 @@ class Meetings {
   /// The same for where one of them brakes: of what is binding, and the proposals where there are.
   std::optional<Conflict> by_stopping(const CommittedTrajectory* my_proposal, const Peer& peer,
                                       const CommittedTrajectory* their_proposal) const;
+  /// By how much the peer's motion may be early or late beyond what margins allow for.
+  double mistimed_s(const Peer& peer, const Motion& theirs) const;
   /// Robots that are too close already may come as close as this, and no closer.
   double closest_m(const Motion& mine, const Peer& peer, const Motion& theirs) const;
 

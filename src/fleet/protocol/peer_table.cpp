@@ -9,7 +9,6 @@ namespace mocha {
 namespace {
 
 constexpr double kNever_s = std::numeric_limits<double>::infinity();
-constexpr double kSameClock_s = 1e-3;  // smaller corrections are not worth telling anew
 
 template <typename Drop>
 void drop_if(std::vector<CommittedTrajectory>& trajectories, Drop drop) {
@@ -84,7 +83,7 @@ PeerTable::Verdict PeerTable::receive(const CommittedTrajectory& trajectory, dou
   const bool former = is_former(*peer, trajectory.id.epoch, now);
   if (former && !(is_binding(trajectory.state) && peer->bound_by_former_epoch()))
     return count(Verdict::kOld);
-  return count(take(*peer, reclocked(trajectory, -peer->clock_ahead_s, peer->clock_error_s), now));
+  return count(take(*peer, reclocked(trajectory, -peer->clock.ahead_s()), now));
 }
 
 PeerTable::Verdict PeerTable::take(Peer& peer, const CommittedTrajectory& trajectory, double now) {
@@ -155,21 +154,15 @@ bool PeerTable::read_clock(Peer& peer, const Heartbeat& heartbeat, double now) {
     peer.stamp_s = heartbeat.stamp_s;
     peer.stamp_heard_s = now;
   }
+  double later_s = 0.0;
   for (const Echo& echo : heartbeat.echoes) {
-    if (echo.agent == own_name_) peer.clock.add(echo.stamp_s, echo.held_s, heartbeat.stamp_s, now);
+    if (echo.agent != own_name_) continue;
+    later_s +=
+        peer.clock.add(echo.stamp_s, echo.held_s, heartbeat.stamp_s, clocks_.tolerance_s, now);
   }
-  const auto reading = peer.clock.reading(now);
-  if (!reading) return false;
-  const bool agrees = std::abs(reading->offset_s) <= reading->uncertainty_s + clocks_.tolerance_s;
-  const double ahead_s = agrees ? 0.0 : reading->offset_s;
-  const double error_s = agrees ? 0.0 : reading->uncertainty_s;
-  const double later_s = peer.clock_ahead_s - ahead_s;
-  const double less_sure_s = error_s - peer.clock_error_s;
-  if (std::abs(later_s) < kSameClock_s && std::abs(less_sure_s) < kSameClock_s) return false;
-  peer.clock_ahead_s = ahead_s;
-  peer.clock_error_s = error_s;
-  peer.binding.reclock(later_s, less_sure_s);
-  for (CommittedTrajectory& open : peer.open) open = reclocked(open, later_s, less_sure_s);
+  if (later_s == 0.0) return false;
+  peer.binding.reclock(later_s);
+  for (CommittedTrajectory& open : peer.open) open = reclocked(open, later_s);
   return true;
 }
 
@@ -218,7 +211,17 @@ bool PeerTable::in_reach(const Peer& peer, double now) const {
 }
 
 bool PeerTable::clock_known(const Peer& peer, double now) const {
-  return peer.clock.reading(now) && peer.clock_error_s <= clocks_.max_error_s;
+  const auto error_s = peer.clock.error_s(now);
+  return error_s && *error_s <= clocks_.max_error_s;
+}
+
+bool PeerTable::clock_differs(const Peer& peer, double now) const {
+  const auto reading = peer.clock.reading(now);
+  return reading && std::abs(reading->offset_s) > reading->uncertainty_s + clocks_.tolerance_s;
+}
+
+double PeerTable::mistimed_s(const Peer& peer, double now) const {
+  return std::max(0.0, peer.clock.error_beyond_s(clocks_.tolerance_s, now));
 }
 
 void PeerTable::prune(double now) {

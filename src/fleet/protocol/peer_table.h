@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "fleet/protocol/clock_estimate.h"
 #include "fleet/protocol/commitment_options.h"
 #include "fleet/protocol/committed_trajectory.h"
+#include "fleet/protocol/peer_clock.h"
 #include "fleet/protocol/reservation_chain.h"
 
 namespace mocha {
@@ -35,10 +35,7 @@ struct Peer {
   /// Its newest heartbeat: the stamp, by its clock, and when it came, by ours.
   double stamp_s = -std::numeric_limits<double>::infinity();
   double stamp_heard_s = -std::numeric_limits<double>::infinity();
-  ClockEstimate clock;
-  /// What its promises are told by: its clock is ahead of ours by so much, give or take the error.
-  double clock_ahead_s = 0.0;
-  double clock_error_s = 0.0;
+  PeerClock clock;
 
   /// Its proposal waits for our answer (an endorsement, or silence while we object).
   const CommittedTrajectory* unanswered() const;
@@ -60,9 +57,8 @@ struct Peer {
 /// binding, a former promise stays, one that comes late is taken, and a former proposal may have
 /// become one: it stays to its motion's end, and if we endorsed it, longer.
 ///
-/// A peer's clock is taken to agree with ours to within the tolerance until echoed heartbeats prove
-/// the contrary. Then its promises are shifted by what was measured, and its footprint is wider by
-/// what the measurement leaves open times its speed.
+/// A peer's promises are shifted by what echoed heartbeats say of its clock; what they leave open
+/// beyond the tolerance, robots keep apart in addition (Mistiming).
 class PeerTable {
  public:
   /// So many peers are known at most: a network full of invented names takes no more memory.
@@ -95,6 +91,10 @@ class PeerTable {
 
   /// Its clock has been measured, and that well enough.
   bool clock_known(const Peer& peer, double now) const;
+  /// It is proved that its clock and ours are farther apart than margins allow for.
+  bool clock_differs(const Peer& peer, double now) const;
+  /// By how much its motions may be early or late beyond what margins allow for.
+  double mistimed_s(const Peer& peer, double now) const;
 
   /// The line of our heartbeat about a peer; nothing where there is nothing to say. One that calls
   /// itself by a former epoch is told the epoch that we know of it.

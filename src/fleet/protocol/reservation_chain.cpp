@@ -68,9 +68,9 @@ bool ReservationChain::holds(TrajectoryId id) const {
       [id](const Reservation& reservation) { return reservation.trajectory.id == id; });
 }
 
-void ReservationChain::reclock(double later_s, double less_sure_s) {
+void ReservationChain::reclock(double later_s) {
   for (Reservation& reservation : reservations_)
-    reservation.trajectory = reclocked(reservation.trajectory, later_s, less_sure_s);
+    reservation.trajectory = reclocked(reservation.trajectory, later_s);
   join();
 }
 

@@ -45,7 +45,7 @@ class ReservationChain {
   bool bind(CommittedTrajectory trajectory);
 
   /// See reclocked().
-  void reclock(double later_s, double less_sure_s);
+  void reclock(double later_s);
 
   /// Forgets what has been replaced by time `now`.
   void prune(double now);

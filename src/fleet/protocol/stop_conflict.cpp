@@ -33,8 +33,8 @@ bool all_far_apart(const Future& mine, const Future& theirs, double clearance_m)
   return true;
 }
 
-BrakableMotion brakable(const CommittedTrajectory& trajectory) {
-  return {*trajectory.motion, trajectory.braking.value()};
+BrakableMotion brakable(const CommittedTrajectory& trajectory, double mistimed_s = 0.0) {
+  return {*trajectory.motion, trajectory.braking.value(), mistimed_s};
 }
 
 std::vector<Reservation> parts_of(const Future& future, double now) {
@@ -45,13 +45,14 @@ std::vector<Reservation> parts_of(const Future& future, double now) {
 
 std::optional<Conflict> first_conflict_of(const Reservation& mine, const Reservation& theirs,
                                           const StopDemand& demand, double now) {
-  const double from = std::max({mine.from_s, theirs.from_s, now});
-  const double until = std::min(mine.until_s, theirs.until_s);
+  const double from = std::max({mine.from_s, theirs.from_s - demand.mistimed_s, now});
+  const double until = std::min(mine.until_s, theirs.until_s + demand.mistimed_s);
   if (from >= until) return std::nullopt;
   const double required_m =
       std::min(demand.apart_m, distance_m(mine.trajectory, theirs.trajectory, demand.clearance_m));
-  const auto meeting = first_stop_meeting(brakable(mine.trajectory), brakable(theirs.trajectory),
-                                          required_m, demand.reaction_s, from, until);
+  const auto meeting =
+      first_stop_meeting(brakable(mine.trajectory), brakable(theirs.trajectory, demand.mistimed_s),
+                         required_m, demand.reaction_s, from, until);
   if (!meeting) return std::nullopt;
   return Conflict{theirs.trajectory.agent, meeting->time_s,
                   meeting->distance_m,     required_m,

@@ -14,9 +14,10 @@ struct Future {
 
 /// What robots keep where one of them brakes.
 struct StopDemand {
-  double reaction_s;   ///< from the moment at which the one brakes until the other does
-  double clearance_m;  ///< between the discs
-  double apart_m;      ///< the centres now: too close already, they may come no closer
+  double reaction_s;        ///< from the moment at which the one brakes until the other does
+  double clearance_m;       ///< between the discs
+  double apart_m;           ///< the centres now: too close already, they may come no closer
+  double mistimed_s = 0.0;  ///< motions of theirs may be early or late by so much
 };
 
 /// The first moment from `now` on at which either robot must not brake along its path, each as it

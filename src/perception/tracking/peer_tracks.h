@@ -20,6 +20,7 @@ struct PeerMotion {
   std::shared_ptr<const Motion> motion;        ///< map frame
   double radius_m;                             ///< circumscribed
   Braking braking;
+  double mistimed_s = 0.0;  ///< it may be early or late by so much
 };
 
 /// Where the team-mates are according to their promises, so that the lidar does not take them for

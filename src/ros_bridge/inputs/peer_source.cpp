@@ -21,8 +21,8 @@ void PeerSource::on_fleet(const mocha_ugv::FleetTrajectories& fleet) {
     const PeerReading reading = peers_of(fleet, own_name_, frame_);
     std::vector<std::shared_ptr<const MovingObstacle>> obstacles;
     for (const PeerMotion& peer : reading.motions)
-      obstacles.push_back(
-          std::make_shared<PeerObstacle>(peer.name, peer.motion, peer.radius_m, peer.braking));
+      obstacles.push_back(std::make_shared<PeerObstacle>(peer.name, peer.motion, peer.radius_m,
+                                                         peer.braking, peer.mistimed_s));
     for (const std::string& name : reading.refused) {
       std::copy_if(obstacles_.begin(), obstacles_.end(), std::back_inserter(obstacles),
                    [&](const auto& former) { return former->name() == name; });

@@ -14,15 +14,17 @@ std::string seconds(double value_s) {
   return text;
 }
 
-void warn_of_clock(const std::string& name, const Peer& peer, bool known, double delay_s,
-                   double delta_dc_s, DiagnosticStatusWrapper& status) {
+void warn_of_clock(const std::string& name, const Peer& peer, const PeerTable& peers,
+                   const ClockReading& clock, double delta_dc_s, double now_s,
+                   DiagnosticStatusWrapper& status) {
   const auto warn = [&](const std::string& what) {
     status.mergeSummary(DiagnosticStatus::WARN, name + what);
   };
-  if (delay_s > delta_dc_s) warn(": messages take longer than delta_dc");
-  if (peer.clock_ahead_s != 0.0)
-    warn(": its clock is ahead by " + seconds(peer.clock_ahead_s) + "; set both by chrony");
-  if (!known) warn(": its clock cannot be told well enough, nothing is settled with it");
+  if (clock.delay_s > delta_dc_s) warn(": messages take longer than delta_dc");
+  if (peers.clock_differs(peer, now_s))
+    warn(": its clock is ahead by " + seconds(clock.offset_s) + "; set both by chrony");
+  if (!peers.clock_known(peer, now_s))
+    warn(": its clock cannot be told well enough, nothing is settled with it");
 }
 
 }  // namespace
@@ -47,8 +49,8 @@ void diagnose_peers(const PeerTable& peers, double now_s, double delta_dc_s,
     status.add(name + " delay", seconds(clock->delay_s));
     status.add(name + " clock ahead",
                seconds(clock->offset_s) + ", give or take " + seconds(clock->uncertainty_s));
-    if (in_reach)
-      warn_of_clock(name, peer, peers.clock_known(peer, now_s), clock->delay_s, delta_dc_s, status);
+    status.add(name + " mistimed beyond margin_clock", seconds(peers.mistimed_s(peer, now_s)));
+    if (in_reach) warn_of_clock(name, peer, peers, *clock, delta_dc_s, now_s, status);
   }
   if (peers.unlikely_epochs() > 0) {
     status.add("starts of this robot told that cannot be", peers.unlikely_epochs());

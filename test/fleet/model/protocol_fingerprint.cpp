@@ -122,7 +122,7 @@ void ProtocolFingerprint::add(const PeerTable& table) {
 void ProtocolFingerprint::add(const Peer& peer, double reach_timeout_s) {
   const auto& [epoch, binding, open, newest, endorsed, endorsed_state, of_us, last_heard_s,
                last_heartbeat_s, promise_reach_m, placed_s, last_old_s, stamp_s, stamp_heard_s,
-               clock, clock_ahead_s, clock_error_s] = peer;
+               clock] = peer;
   hash_.add(epoch);
   add(binding);
   add_each(open);
@@ -139,15 +139,13 @@ void ProtocolFingerprint::add(const Peer& peer, double reach_timeout_s) {
   hash_.add(std::isfinite(stamp_s));  // models make stamps and echoes as they arrive
   (void)stamp_heard_s;
   add(clock);
-  hash_.add(clock_ahead_s);
-  hash_.add(clock_error_s);
 }
 
 /// All exchanges of a model tell the same, and it ends before any is forgotten.
-void ProtocolFingerprint::add(const ClockEstimate& clock) {
-  const auto& [delay_s, best, recent, from_s] = clock;
-  (void)delay_s, (void)recent, (void)from_s;
-  hash_.add(best.has_value());
+void ProtocolFingerprint::add(const PeerClock& clock) {
+  const auto& [estimate, ahead_s] = clock;
+  hash_.add(estimate.reading(now_s_).has_value());
+  hash_.add(ahead_s);
 }
 
 void ProtocolFingerprint::add(const ReservationChain& chain) {
@@ -162,7 +160,8 @@ void ProtocolFingerprint::add(const ReservationChain& chain) {
 }
 
 void ProtocolFingerprint::add(const CommittedTrajectory& trajectory) {
-  const auto& [agent, id, state, priority, radius_m, braking, motion] = trajectory;
+  const auto& [agent, id, state, priority, radius_m, braking, motion, mistimed_s] = trajectory;
+  (void)mistimed_s;  // only planners hear of it
   hash_.add(agent);
   add(id);
   hash_.add(state);

@@ -25,7 +25,7 @@ class ProtocolFingerprint {
   void add(const CommitmentProtocol::Pending& pending);
   void add(const PeerTable& peers);
   void add(const Peer& peer, double reach_timeout_s);
-  void add(const ClockEstimate& clock);
+  void add(const PeerClock& clock);
   void add(const ReservationChain& chain);
   void add(const CommittedTrajectory& trajectory);
   void add(const Heartbeat& heartbeat);

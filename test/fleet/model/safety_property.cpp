@@ -14,7 +14,7 @@ constexpr double kRounding_m = 2e-3;
 Reservation told_by(const ProtocolModel& model, Reservation theirs, int j, int i) {
   const double later_s = model.now(i) - model.now(j);
   if (later_s == 0.0) return theirs;
-  theirs.trajectory = reclocked(theirs.trajectory, later_s, 0.0);
+  theirs.trajectory = reclocked(theirs.trajectory, later_s);
   theirs.from_s += later_s;
   theirs.until_s += later_s;
   return theirs;

@@ -71,6 +71,20 @@ TEST_F(NeighbourhoodTest, WhosePlaceIsNotKnownIsNear) {
   EXPECT_TRUE(here().is_near(peer_at(1000.0)));
 }
 
+TEST_F(NeighbourhoodTest, OfAnUnknownClockThePeerMayBeAnywhereOnItsWay) {
+  Peer peer = peer_at(0.0);
+  CommittedTrajectory comes = standing("p", Vector2::Zero());
+  comes.id.sequence = 2;
+  comes.motion =
+      test::shared(test::drive(kNow_s, {{near_m_ + 6.0, 0.0}, {near_m_ - 0.5, 0.0}}, 1.0));
+  peer.binding = ReservationChain();
+  peer.binding.bind(comes);
+  EXPECT_TRUE(here().is_near(peer));
+  const double stamp_s = kNow_s;  // our clocks agree
+  peer.clock.add(kNow_s - 0.01, 0.0, stamp_s, 0.0, kNow_s);
+  EXPECT_FALSE(here().is_near(peer));
+}
+
 TEST_F(NeighbourhoodTest, UrgencyFallsWithTheDistanceSquared) {
   EXPECT_EQ(here().urgency(peer_at(1.0)), 1.0);
   EXPECT_NEAR(here().urgency(peer_at(3.0 * near_m_)), 1.0 / 9.0, 1e-9);

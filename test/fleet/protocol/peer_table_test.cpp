@@ -247,22 +247,25 @@ TEST_F(PeerTableTest, TellsPromisesByItsOwnClock) {
   EXPECT_NEAR(peer().open.at(0).motion->start_time(), 11.0, 1e-9);
   table_.receive(trajectory({1, 3}, TrajectoryState::kCommitted, 15.0), 8.2);
   EXPECT_NEAR(peer().binding.newest().motion->start_time(), 12.0, 1e-9);
-  // 0.05 s and the clocks' resolution of 0.02 s, at the highest speed of its motion.
-  const double speed = bounds(*peer().binding.newest().motion).speed;
-  EXPECT_NEAR(peer().binding.newest().footprint_radius_m, 0.3 + 0.07 * speed, 1e-6);
+  // 0.05 s and the clocks' resolution.
+  EXPECT_NEAR(table_.mistimed_s(peer(), 8.2), 0.07, 1e-4);
+  EXPECT_TRUE(table_.clock_differs(peer(), 8.2));
   // The clock is set right.
   table_.receive(Heartbeat{"a", 1, 9.05, {}, {{"me", 9.0, 0.0}}}, 9.1);
   EXPECT_NEAR(peer().binding.newest().motion->start_time(), 15.0, 1e-9);
-  EXPECT_NEAR(peer().binding.newest().footprint_radius_m, 0.3, 1e-9);
+  EXPECT_FALSE(table_.clock_differs(peer(), 9.1));
 }
 
-TEST(PeerTable, ClocksThatAgreeWithinTheToleranceAreTakenAsTheyAre) {
+TEST(PeerTable, WhatTheToleranceLeavesOpenOfAnUncertainClockCounts) {
   for (const double ahead_s : {0.0, 0.1, -0.1}) {
     PeerTable table("me", 3, 1.0, {0.05, 0.25});
     table.receive(Heartbeat{"a", 1, 8.05 + ahead_s, {}, {{"me", 8.0, 0.0}}}, 8.1);
-    EXPECT_EQ(table.peers().at("a").clock_ahead_s, 0.0);
-    EXPECT_EQ(table.peers().at("a").clock_error_s, 0.0);
-    EXPECT_TRUE(table.clock_known(table.peers().at("a"), 8.1));
+    const Peer& a = table.peers().at("a");
+    EXPECT_NEAR(a.clock.ahead_s(), ahead_s, 1e-6);  // what is most likely
+    EXPECT_NEAR(table.mistimed_s(a, 8.1), 0.05 + ClockEstimate::kResolution_s - 0.05, 1e-6);
+    EXPECT_NEAR(table.mistimed_s(a, 18.1), 0.02 + 10.0 * ClockEstimate::kDrift, 1e-6);
+    EXPECT_FALSE(table.clock_differs(a, 8.1));
+    EXPECT_TRUE(table.clock_known(a, 8.1));
   }
 }
 

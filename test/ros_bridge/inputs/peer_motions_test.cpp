@@ -25,6 +25,7 @@ mocha_ugv::Trajectory trajectory(const std::string& agent, std::uint32_t sequenc
 mocha_ugv::FleetTrajectories fleet(std::vector<mocha_ugv::Trajectory> trajectories) {
   mocha_ugv::FleetTrajectories message;
   message.header.frame_id = "map";
+  message.mistimed.assign(trajectories.size(), 0.1);
   message.trajectories = std::move(trajectories);
   return message;
 }
@@ -36,6 +37,7 @@ TEST(PeerMotions, AreThoseOfAllOthers) {
   EXPECT_EQ(reading.motions[0].name, "ugv2");
   EXPECT_EQ(reading.motions[1].id, std::make_pair(4u, 2u));
   EXPECT_EQ(reading.motions[1].radius_m, 0.3);
+  EXPECT_EQ(reading.motions[1].mistimed_s, 0.1);
   EXPECT_EQ(reading.motions[1].braking.deceleration(), test::kRoverBraking.deceleration());
   EXPECT_EQ(reading.motions[1].braking.max_acceleration(), test::kRoverBraking.max_acceleration());
   EXPECT_EQ(reading.motions[1].motion->start_time(), 12.0);
