@@ -160,12 +160,17 @@ Seed FrontEnd::seed_of(const HomotopyPath& path, std::vector<StartManeuver> star
           path.signature == driven};
 }
 
-GlobalSeeds FrontEnd::under_way(const MotionState& start, HomotopyPaths found) const {
+Drives FrontEnd::drives_of(const PlanQuery& query) const {
+  return !query.along.empty() && robot_.may_back() ? Drives::kEitherWay : Drives::kForward;
+}
+
+GlobalSeeds FrontEnd::under_way(const MotionState& start, HomotopyPaths found,
+                                Drives drives) const {
   GlobalSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
   for (const HomotopyPath& path : found.paths) {
     std::vector<StartManeuver> start_maneuvers =
-        start.at_rest ? start_maneuvers_.from_rest({}, start.pose, path.points)
-                      : start_maneuvers_.rolling(start, path.points);
+        start.at_rest ? start_maneuvers_.from_rest({}, start.pose, path.points, drives)
+                      : start_maneuvers_.rolling(start, path.points, drives);
     if (start_maneuvers.empty()) continue;
     result.list.push_back(seed_of(path, std::move(start_maneuvers), result.driven));
   }
@@ -180,8 +185,8 @@ GlobalSeeds FrontEnd::promising(const PlanQuery& query, const PlanningScene& sce
   });
   if (!is_under_way(query, goal) || !all_stand) return {};
   const MotionState start = query.committed.at(query.start_time_s);
-  GlobalSeeds found =
-      under_way(start, paths({start.pose.position}, query, scene, goal, below_driven_));
+  GlobalSeeds found = under_way(
+      start, paths({start.pose.position}, query, scene, goal, below_driven_), drives_of(query));
   const bool has_driven = std::any_of(found.list.begin(), found.list.end(),
                                       [](const Seed& seed) { return seed.driven; });
   return has_driven ? found : GlobalSeeds();
@@ -192,7 +197,7 @@ GlobalSeeds FrontEnd::seeds(const PlanQuery& query, const PlanningScene& scene,
   const MotionState start = query.committed.at(query.start_time_s);
   HomotopyPaths found = paths({start.pose.position}, query, scene, goal);
   const std::size_t count = found.paths.size();
-  GlobalSeeds result = under_way(start, std::move(found));
+  GlobalSeeds result = under_way(start, std::move(found), drives_of(query));
   if (result.list.size() == count) return result;
   for (Seed& seed : after_braking(query, scene, goal).list) {
     const bool known = std::any_of(result.list.begin(), result.list.end(), [&](const Seed& other) {
@@ -229,7 +234,8 @@ GlobalSeeds FrontEnd::after(const std::vector<Phase>& before, const PlanQuery& q
   GlobalSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
   for (const HomotopyPath& path : found.paths) {
     result.list.push_back(seed_of(
-        path, start_maneuvers_.from_rest(before, lead_in.end_pose(), path.points), result.driven));
+        path, start_maneuvers_.from_rest(before, lead_in.end_pose(), path.points, drives_of(query)),
+        result.driven));
   }
   return result;
 }

@@ -97,6 +97,15 @@ TEST_F(PassingTest, TurnsToWhereItGoesOnWhileItWaits) {
   EXPECT_EQ(asked_.at(0).goal, Vector2(0.0, 2.0));
 }
 
+TEST_F(PassingTest, TurnsItsTailThereIfThatIsNearer) {
+  step();
+  hear(ordered({{0.0, 0.0}, {-2.0, 0.6}}, {1}));
+  run_beside(0, 0.5);
+  ASSERT_EQ(asked_.size(), 1u);
+  ASSERT_TRUE(asked_[0].goal_yaw_rad);
+  EXPECT_NEAR(*asked_[0].goal_yaw_rad, std::atan2(-0.6, 2.0), 1e-9);
+}
+
 TEST_F(PassingTest, DoesNotTurnBeforeItStands) {
   step();
   state_.twist = {0.3, 0.0};
