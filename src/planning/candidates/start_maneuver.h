@@ -12,6 +12,9 @@ namespace mocha {
 /// Between velocity and path; beyond, the robot brakes before it turns there.
 inline constexpr double kRollingStart_rad = 1.2;
 
+/// Between two parts of a path; beyond, no drive leads from one to the other.
+inline constexpr double kTurnsBack_rad = 1.9;
+
 /// Which way drives may go.
 enum class Drives { kForward, kEitherWay };
 

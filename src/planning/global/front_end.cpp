@@ -7,17 +7,16 @@
 
 #include "planning/candidates/path_clearance.h"
 #include "planning/candidates/peer_discs.h"
+#include "planning/global/given_path.h"
 #include "planning/global/parking_out.h"
 #include "safety/requirement.h"
 #include "trajectory/stopping.h"
 #include "world/margin_budget.h"
-#include "world/obstacle.h"
 
 namespace mocha {
 namespace {
 
 constexpr double kSameGoal_m = 0.5;
-constexpr double kOnPath_m = 0.3;
 constexpr double kReachableStep_m = 0.1;  // between the places that are tried
 // To what a drive costs, the costs of paths are in proportion to within a few percent, measured on
 // maps of 100 m.
@@ -69,35 +68,6 @@ std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_spe
 }
 
 namespace {
-
-double off_m(const std::vector<Vector2>& path, std::size_t segment, const Vector2& from) {
-  return (from - nearest_on_segment(from, path[segment - 1], path[segment])).norm();
-}
-
-/// What is left of a path for who is at `from`.
-std::vector<Vector2> rest_of(const std::vector<Vector2>& path, const Vector2& from) {
-  std::size_t next = std::min<std::size_t>(1, path.size() - 1);
-  for (std::size_t i = 2; i < path.size(); ++i) {
-    if (off_m(path, i, from) < off_m(path, next, from)) next = i;
-  }
-  std::vector<Vector2> rest = {from};
-  rest.insert(rest.end(), path.begin() + static_cast<std::ptrdiff_t>(next), path.end());
-  return rest;
-}
-
-/// The path that the query gives, from `from` on. A robot that has not reached its beginning yet
-/// goes there by the way that it has promised.
-std::vector<Vector2> given_path(const PlanQuery& query, const Vector2& from, double max_speed) {
-  const std::vector<Vector2>& path = query.along;
-  const Vector2& promised = query.committed.end_pose().position;
-  bool is_on_path = (promised - path.front()).norm() > kOnPath_m;
-  for (std::size_t i = 1; i < path.size(); ++i)
-    is_on_path = is_on_path || off_m(path, i, from) < kOnPath_m;
-  if (is_on_path) return rest_of(path, from);
-  std::vector<Vector2> way = rest_of(path_of(query.committed, query.start_time_s, max_speed), from);
-  way.insert(way.end(), path.begin() + 1, path.end());
-  return way;
-}
 
 HomotopyPaths only(std::vector<Vector2> path) {
   HomotopyPaths paths;
@@ -195,6 +165,10 @@ GlobalSeeds FrontEnd::promising(const PlanQuery& query, const PlanningScene& sce
 GlobalSeeds FrontEnd::seeds(const PlanQuery& query, const PlanningScene& scene,
                             const Vector2& goal) const {
   const MotionState start = query.committed.at(query.start_time_s);
+  if (turns_back_first(query, start)) {
+    const double rests_s = query.committed.end_time();
+    return after(query.committed.phases_between(query.start_time_s, rests_s), query, scene, goal);
+  }
   HomotopyPaths found = paths({start.pose.position}, query, scene, goal);
   const std::size_t count = found.paths.size();
   GlobalSeeds result = under_way(start, std::move(found), drives_of(query));
