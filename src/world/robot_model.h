@@ -73,6 +73,8 @@ struct RobotModel {
   double odometry_noise_distance;  ///< [m/sqrt(m)]
   double odometry_noise_yaw;       ///< [rad/sqrt(rad)]
 
+  /// Whether it may drive backward: where its lidar does not look, somebody may come.
+  bool may_back() const { return limits.can_reverse && lidar.sees_all_round(); }
   /// Braking in good time: the braking motion stays within the limits. Whole mm/s^2, so that peers
   /// are told exactly what is driven.
   Braking braking() const;

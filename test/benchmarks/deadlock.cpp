@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "benchmarks/fleet_scene.h"
+#include "safety/requirement.h"
 
 namespace mocha {
 namespace {
@@ -21,8 +22,17 @@ FleetScene scene_of(const char* path, int seed) {
 
 const char* text(bool value) { return value ? "true" : "false"; }
 
+/// What each robot can do at best among others.
+void print_pace() {
+  const RobotModel robot = load_robot_model("config", "rover");
+  const double apart_m = robot.footprint.circumscribed_radius_m() + distance_to_peers_m(robot);
+  std::printf("{\"pace\": {\"speed_mps\": %.4g, \"acceleration_mps2\": %.4g, \"apart_m\": %.4g},\n",
+              robot.limits.max_speed, robot.limits.max_acceleration, apart_m);
+}
+
 void print_rows(const char* path, int first, int count) {
-  std::printf("{\"rows\": [");
+  print_pace();
+  std::printf(" \"rows\": [");
   for (int seed = first; seed < first + count; ++seed) {
     const FleetRun run = run_fleet(scene_of(path, seed));
     int reached = 0;

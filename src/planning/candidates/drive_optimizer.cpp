@@ -194,8 +194,9 @@ std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQu
     const double inside_m = std::min(disc.radius_m, robot_.footprint.depth_m(disc.offset_m));
     const SpeedMargin least(inside_m + static_margin_.still_m + kShareOfRoom_m,
                             static_margin_.per_speed2);
-    wished.push_back({disc.offset_m.x(), disc.radius_m + wished_m, disc.offset_m.y()});
-    required.push_back({disc.offset_m.x(), least, max_speed, disc.offset_m.y()});
+    const Vector2 offset_m = query.direction * disc.offset_m;  // in the direction of travel
+    wished.push_back({offset_m.x(), disc.radius_m + wished_m, offset_m.y()});
+    required.push_back({offset_m.x(), least, max_speed, offset_m.y()});
   }
   std::vector<std::unique_ptr<Penalty<2>>> penalties;
   const double weight = options_.weight_obstacle * effort.obstacle_weight;

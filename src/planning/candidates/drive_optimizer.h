@@ -34,6 +34,7 @@ struct DriveQuery {
   /// Of a drive that was found before and nearly serves; the first attempt begins there instead of
   /// on the path.
   std::optional<InitialKnots<2>> found_before = std::nullopt;
+  int direction = 1;  ///< +1 forward, -1 backward
 };
 
 /// How hard the optimiser tries to satisfy the constraints; raised step by step where a result is

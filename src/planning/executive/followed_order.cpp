@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planning/candidates/start_maneuver.h"
 #include "trajectory/plane_vectors.h"
 #include "world/obstacle.h"
 
@@ -11,7 +12,6 @@ namespace {
 
 constexpr double kAtEnd_m = 0.03;  // of a move, along its path
 constexpr double kOnPath_m = 0.5;  // a motion that ends farther off it is not of this order
-constexpr double kTurnsBack_rad = 1.9;
 
 /// How far along the path its point nearest to `place` is, and how far away.
 struct Projection {

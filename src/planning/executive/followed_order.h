@@ -45,7 +45,7 @@ class FollowedOrder {
   bool is_over() const { return made_ == turns_.size(); }
   std::uint32_t promised() const { return promised_; }
 
-  /// Takes note of what is in force, and of a robot that stands at a place.
+  /// Takes note of what is in force, and of a robot that stands at a place, or is about to.
   void note_promise(const Motion& committed);
   void note_stand(const Vector2& place, double tolerance_m);
 

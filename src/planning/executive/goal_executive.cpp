@@ -18,6 +18,12 @@ constexpr double kAfterEnd_s = 0.5;  // a plan that ended this long ago without 
 constexpr double kSooner_s = 0.1;    // by less, a stop is no sooner than what is in force
 constexpr double kTurned_rad = 0.1;
 
+/// In which a robot drives off along a way, forward or backward, with the smaller turn.
+double setting_off_rad(double way_rad, double yaw_rad, bool may_back) {
+  const bool backward = may_back && std::abs(wrap_angle(way_rad - yaw_rad)) > M_PI_2;
+  return backward ? wrap_angle(way_rad + M_PI) : way_rad;
+}
+
 }  // namespace
 
 GoalExecutive::GoalExecutive(const GoalExecutiveOptions& options, RobotModel robot,
@@ -195,8 +201,9 @@ void GoalExecutive::keep_promise(const Input& input, Output& output) {
 
 /// Turns to where it will go on.
 void GoalExecutive::wait_for_turn(const Input& input, Output& output) {
-  const auto heading_rad = passing_.next_heading_rad();
   const Pose& pose = input.measured.pose;
+  auto heading_rad = passing_.next_heading_rad();
+  if (heading_rad) heading_rad = setting_off_rad(*heading_rad, pose.yaw_rad, robot_.may_back());
   const bool is_turned =
       !heading_rad || std::abs(wrap_angle(*heading_rad - pose.yaw_rad)) < kTurned_rad;
   const bool may_turn = stands(input.measured) && input.committed.at(input.now_s).at_rest;

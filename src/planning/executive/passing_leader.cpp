@@ -109,7 +109,7 @@ std::optional<GroupOrder> PassingLeader::order_for(const std::vector<PassingMemb
   return order_group({*scene.static_map, std::move(blocked), unseen.get()}, members,
                      {travel_, apart_m},
                      {robot_.limits.max_speed, robot_.limits.max_acceleration,
-                      robot_.limits.max_yaw_rate, kHandover_s});
+                      robot_.limits.max_yaw_rate, robot_.may_back(), kHandover_s});
 }
 
 std::optional<PassingInstruction> PassingLeader::make(const std::vector<PassingIntent>& intents,

@@ -19,6 +19,7 @@ constexpr double kLetDown_s = 10.0;    // who it waits for keeps to something el
 constexpr double kForgotten_s = 40.0;  // it waits, and nobody of the order gets on
 constexpr double kNoNews_s = 45.0;     // whoever still waits has given it up by then
 constexpr double kAtPlace_m = 0.15;
+constexpr double kSoon_s = 0.5;  // planning takes about so long
 
 }  // namespace
 
@@ -152,12 +153,15 @@ void PassingPolicy::progress(const PassingSituation& situation) {
   if (!followed_) return;
   note_promised(situation.now_s);
   followed_->note_promise(situation.committed);
-  if (stands(situation.measured))
-    followed_->note_stand(situation.measured.pose.position, kAtPlace_m);
+  const MotionState soon = situation.committed.at(situation.now_s + kSoon_s);
+  if (soon.at_rest) followed_->note_stand(soon.pose.position, kAtPlace_m);
   stretch_ = followed_->grant([this](const std::string& name) { return promised_by(name); });
   std::uint32_t moves = 0;
   for (const std::string& robot : followed_->robots()) moves += promised_by(robot);
-  if (moves != seen_moves_ || !stands(situation.measured)) progressed_s_ = situation.now_s;
+  // What it has promised may begin with a wait.
+  const bool goes_on =
+      !stands(situation.measured) || situation.committed.end_time() > situation.now_s;
+  if (moves != seen_moves_ || goes_on) progressed_s_ = situation.now_s;
   seen_moves_ = moves;
   if (!followed_->is_over()) return;
   finished_ = followed_->id();

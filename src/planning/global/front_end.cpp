@@ -7,17 +7,16 @@
 
 #include "planning/candidates/path_clearance.h"
 #include "planning/candidates/peer_discs.h"
+#include "planning/global/given_path.h"
 #include "planning/global/parking_out.h"
 #include "safety/requirement.h"
 #include "trajectory/stopping.h"
 #include "world/margin_budget.h"
-#include "world/obstacle.h"
 
 namespace mocha {
 namespace {
 
 constexpr double kSameGoal_m = 0.5;
-constexpr double kOnPath_m = 0.3;
 constexpr double kReachableStep_m = 0.1;  // between the places that are tried
 // To what a drive costs, the costs of paths are in proportion to within a few percent, measured on
 // maps of 100 m.
@@ -69,35 +68,6 @@ std::vector<Vector2> path_of(const Motion& motion, double from_s, double max_spe
 }
 
 namespace {
-
-double off_m(const std::vector<Vector2>& path, std::size_t segment, const Vector2& from) {
-  return (from - nearest_on_segment(from, path[segment - 1], path[segment])).norm();
-}
-
-/// What is left of a path for who is at `from`.
-std::vector<Vector2> rest_of(const std::vector<Vector2>& path, const Vector2& from) {
-  std::size_t next = std::min<std::size_t>(1, path.size() - 1);
-  for (std::size_t i = 2; i < path.size(); ++i) {
-    if (off_m(path, i, from) < off_m(path, next, from)) next = i;
-  }
-  std::vector<Vector2> rest = {from};
-  rest.insert(rest.end(), path.begin() + static_cast<std::ptrdiff_t>(next), path.end());
-  return rest;
-}
-
-/// The path that the query gives, from `from` on. A robot that has not reached its beginning yet
-/// goes there by the way that it has promised.
-std::vector<Vector2> given_path(const PlanQuery& query, const Vector2& from, double max_speed) {
-  const std::vector<Vector2>& path = query.along;
-  const Vector2& promised = query.committed.end_pose().position;
-  bool is_on_path = (promised - path.front()).norm() > kOnPath_m;
-  for (std::size_t i = 1; i < path.size(); ++i)
-    is_on_path = is_on_path || off_m(path, i, from) < kOnPath_m;
-  if (is_on_path) return rest_of(path, from);
-  std::vector<Vector2> way = rest_of(path_of(query.committed, query.start_time_s, max_speed), from);
-  way.insert(way.end(), path.begin() + 1, path.end());
-  return way;
-}
 
 HomotopyPaths only(std::vector<Vector2> path) {
   HomotopyPaths paths;
@@ -160,12 +130,17 @@ Seed FrontEnd::seed_of(const HomotopyPath& path, std::vector<StartManeuver> star
           path.signature == driven};
 }
 
-GlobalSeeds FrontEnd::under_way(const MotionState& start, HomotopyPaths found) const {
+Drives FrontEnd::drives_of(const PlanQuery& query) const {
+  return !query.along.empty() && robot_.may_back() ? Drives::kEitherWay : Drives::kForward;
+}
+
+GlobalSeeds FrontEnd::under_way(const MotionState& start, HomotopyPaths found,
+                                Drives drives) const {
   GlobalSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
   for (const HomotopyPath& path : found.paths) {
     std::vector<StartManeuver> start_maneuvers =
-        start.at_rest ? start_maneuvers_.from_rest({}, start.pose, path.points)
-                      : start_maneuvers_.rolling(start, path.points);
+        start.at_rest ? start_maneuvers_.from_rest({}, start.pose, path.points, drives)
+                      : start_maneuvers_.rolling(start, path.points, drives);
     if (start_maneuvers.empty()) continue;
     result.list.push_back(seed_of(path, std::move(start_maneuvers), result.driven));
   }
@@ -180,8 +155,8 @@ GlobalSeeds FrontEnd::promising(const PlanQuery& query, const PlanningScene& sce
   });
   if (!is_under_way(query, goal) || !all_stand) return {};
   const MotionState start = query.committed.at(query.start_time_s);
-  GlobalSeeds found =
-      under_way(start, paths({start.pose.position}, query, scene, goal, below_driven_));
+  GlobalSeeds found = under_way(
+      start, paths({start.pose.position}, query, scene, goal, below_driven_), drives_of(query));
   const bool has_driven = std::any_of(found.list.begin(), found.list.end(),
                                       [](const Seed& seed) { return seed.driven; });
   return has_driven ? found : GlobalSeeds();
@@ -190,9 +165,13 @@ GlobalSeeds FrontEnd::promising(const PlanQuery& query, const PlanningScene& sce
 GlobalSeeds FrontEnd::seeds(const PlanQuery& query, const PlanningScene& scene,
                             const Vector2& goal) const {
   const MotionState start = query.committed.at(query.start_time_s);
+  if (turns_back_first(query, start)) {
+    const double rests_s = query.committed.end_time();
+    return after(query.committed.phases_between(query.start_time_s, rests_s), query, scene, goal);
+  }
   HomotopyPaths found = paths({start.pose.position}, query, scene, goal);
   const std::size_t count = found.paths.size();
-  GlobalSeeds result = under_way(start, std::move(found));
+  GlobalSeeds result = under_way(start, std::move(found), drives_of(query));
   if (result.list.size() == count) return result;
   for (Seed& seed : after_braking(query, scene, goal).list) {
     const bool known = std::any_of(result.list.begin(), result.list.end(), [&](const Seed& other) {
@@ -229,7 +208,8 @@ GlobalSeeds FrontEnd::after(const std::vector<Phase>& before, const PlanQuery& q
   GlobalSeeds result{{}, std::move(found.cuts), std::move(found.driven)};
   for (const HomotopyPath& path : found.paths) {
     result.list.push_back(seed_of(
-        path, start_maneuvers_.from_rest(before, lead_in.end_pose(), path.points), result.driven));
+        path, start_maneuvers_.from_rest(before, lead_in.end_pose(), path.points, drives_of(query)),
+        result.driven));
   }
   return result;
 }

@@ -77,10 +77,12 @@ class FrontEnd {
                       const PlanningScene& scene, const Vector2& goal,
                       std::optional<double> below_driven = std::nullopt) const;
   /// Of what can be begun as the robot moves.
-  GlobalSeeds under_way(const MotionState& start, HomotopyPaths found) const;
+  GlobalSeeds under_way(const MotionState& start, HomotopyPaths found, Drives drives) const;
   /// Those from where what comes before ends at rest.
   GlobalSeeds after(const std::vector<Phase>& before, const PlanQuery& query,
                     const PlanningScene& scene, const Vector2& goal) const;
+  /// Along a path that is given, backward, too: team-mates wait meanwhile.
+  Drives drives_of(const PlanQuery& query) const;
   /// What the path costs is at least the time that its least length takes at the robot's limits of
   /// speed and acceleration.
   Seed seed_of(const HomotopyPath& path, std::vector<StartManeuver> start_maneuvers,

@@ -107,6 +107,7 @@ DriveQuery GlobalRules::drive(const Seed& seed, const StartManeuver& start_maneu
   DriveQuery drive;
   drive.path = start_maneuver.path;
   drive.start = start_maneuver.state;
+  drive.direction = start_maneuver.direction;
   drive.start_time_s = query_.start_time_s + start_maneuver.duration_s;
   drive.duration_cost = DurationCost::total(options_.weight_duration);
   if (seed.driven)
@@ -129,7 +130,7 @@ DriveQuery GlobalRules::drive(const Seed& seed, const StartManeuver& start_maneu
 bool GlobalRules::assemble(const StartManeuver& start_maneuver, const PlanarPath& curve,
                            PlanCandidate& candidate) const {
   std::vector<Phase> phases = start_maneuver.phases;
-  const DrivePhase drive{1, curve};
+  const DrivePhase drive{start_maneuver.direction, curve};
   phases.emplace_back(drive);
   if (query_.goal_yaw_rad) {
     const double end_s = curve.duration();

@@ -94,8 +94,6 @@ std::vector<Step> steps(const ManeuverStart& start, double join_s, const std::ve
   const Pose stop = Motion(join_s, brake).end_pose();
   const double until_s = join_s + kForeseen_s;
   const double brake_m = (start.committed.position(join_s) - stop.position).norm();
-  // Where its lidar does not look, somebody may come.
-  const bool may_back = limits.can_reverse && start.robot.lidar.sees_all_round();
   const std::vector<MovingThing> near =
       within_reach(exposed_to(start, join_s), stop.position, brake_m, join_s, until_s);
   std::vector<Step> steps;
@@ -105,7 +103,8 @@ std::vector<Step> steps(const ManeuverStart& start, double join_s, const std::ve
       const Vector2 place = stop.position + distance_m * Vector2(std::cos(angle), std::sin(angle));
       if (!stands_free(stop.position, place, start)) continue;
       std::vector<Phase> phases = brake;
-      for (const Phase& phase : step_to(stop, place, limits, may_back)) phases.push_back(phase);
+      for (const Phase& phase : step_to(stop, place, limits, start.robot.may_back()))
+        phases.push_back(phase);
       Motion motion(join_s, std::move(phases));
       const double room_m = least_room_m(motion, near, join_s, until_s);
       steps.push_back({std::min(room_m, kEnough_m), std::move(motion)});

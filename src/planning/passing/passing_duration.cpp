@@ -23,8 +23,8 @@ double length_of(const std::vector<Vector2>& path) {
   return length_m;
 }
 
-/// Between the end of one move and the beginning of the next.
-double bend_rad(const std::vector<Vector2>& before, const std::vector<Vector2>& after) {
+/// Between the end of one move and the beginning of the next [rad].
+double bend(const std::vector<Vector2>& before, const std::vector<Vector2>& after) {
   return std::abs(angle_between(before.back() - before[before.size() - 2], after[1] - after[0]));
 }
 
@@ -63,11 +63,12 @@ class Timing {
           std::max(begins_s, made_[progress.robot][progress.moves - 1].begins_s + pace_.handover_s);
     }
     double drives_s = length_of(turn.path) / pace_.speed_mps;
-    const double turns_rad = move > 0 ? bend_rad(order_[robot][move - 1].path, turn.path) : 0.0;
-    const bool stops = move == 0 || begins_s > here_s + kSame_s || turns_rad > kBend_rad;
+    const double bend_rad = move > 0 ? bend(order_[robot][move - 1].path, turn.path) : 0.0;
+    const bool stops = move == 0 || begins_s > here_s + kSame_s || bend_rad > kBend_rad;
     if (stops) drives_s += pace_.speed_mps / pace_.acceleration;
     // Who waits turns meanwhile.
-    if (turns_rad > kBend_rad) begins_s = std::max(begins_s, here_s + turns_rad / pace_.yaw_rate);
+    const double turns_rad = pace_.may_back ? std::min(bend_rad, M_PI - bend_rad) : bend_rad;
+    if (bend_rad > kBend_rad) begins_s = std::max(begins_s, here_s + turns_rad / pace_.yaw_rate);
     made_[robot].push_back({begins_s, begins_s + drives_s});
     return true;
   }

@@ -9,6 +9,7 @@ struct PassingPace {
   double speed_mps;
   double acceleration;  ///< [m/s^2]
   double yaw_rate;      ///< [rad/s] of turns in place
+  bool may_back;        ///< where a way leads back, they need not turn
   double handover_s;  ///< from the moment at which a robot sets off until those that wait for it do
 };
 

@@ -99,8 +99,11 @@ class LocalReplanner {
   Detour::Start detour_start(const Step& step) const;
   /// The plan, from where it meets what is committed; nothing where no more of it is due.
   std::optional<Maneuver> following(Step& step);
-  /// What of it may be promised. In turn, a robot that rests waits until its way is free.
+  /// What of it may be promised. In turn, a robot that rests waits until its way is free, and
+  /// nothing is taken back because of a team-mate: others count on it.
   std::optional<CertifiedPart> certified_of(Maneuver& maneuver, const Step& step);
+  /// Whether less of the plan's way would be promised than is.
+  bool takes_back(const CertifiedPart& part) const;
   /// Makes what local planning found the plan.
   void take_detour(const Rung& rung, Step& step);
   void propose(const Rung& rung, const Maneuver& maneuver, const CertifiedPart& part, Step& step);

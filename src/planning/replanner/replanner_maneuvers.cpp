@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "planning/local/rejoining.h"
 #include "planning/maneuvers/brake.h"
 #include "planning/maneuvers/most_room.h"
 #include "planning/maneuvers/sidestep.h"
@@ -17,6 +18,7 @@ constexpr double kWorthwhile_s = 0.15;  // of reach, for which a proposal is mad
 constexpr double kRounding_s = 1e-6;    // of times
 constexpr double kWait_s = 0.25;        // by so much longer each time, for the way to get free ...
 constexpr double kLongestWait_s = 4.0;
+constexpr double kOnPlan_m = 0.5;  // a place as near to it is on its way
 
 /// A plan from rest that came too late for its own times is as good later, while the robot stands
 /// where it begins: the same from `join_s` on. Else the plan as it is.
@@ -91,7 +93,10 @@ std::optional<Maneuver> LocalReplanner::following(Step& step) {
   const double reach_s = committed_source_.follows_until_s;
   const bool holds = step.situation == Situation::kHolds || step.situation == Situation::kInTurn;
   const double every_s = holds ? options_.extend_every_s : 0.0;
-  const double until_s = now_s + options_.horizon_s + turns_for_s(plan_, now_s);
+  // Team-mates wait for what is promised of a stretch.
+  const double until_s = kind_ == PlanKind::kInTurn
+                             ? plan_.end_time() + kRounding_s
+                             : now_s + options_.horizon_s + turns_for_s(plan_, now_s);
   const bool far_enough = reach_s >= plan_.end_time() - kRounding_s || reach_s > until_s - every_s;
   if (same_plan && far_enough) return std::nullopt;
   const double join_s =
@@ -103,16 +108,24 @@ std::optional<Maneuver> LocalReplanner::following(Step& step) {
                   robot.braking(), false, Follows::kPlan, ""};
 }
 
+bool LocalReplanner::takes_back(const CertifiedPart& part) const {
+  const auto when_at = [this](const Motion& motion) {
+    return progress_on(plan_, motion.end_pose().position, plan_.start_time(), kOnPlan_m);
+  };
+  const auto promised_s = when_at(committed_);
+  const auto reached_s = when_at(part.motion);
+  return promised_s && reached_s && *reached_s < *promised_s - kWorthwhile_s;
+}
+
 std::optional<CertifiedPart> LocalReplanner::certified_of(Maneuver& maneuver, const Step& step) {
   auto part = certified_part(step.start, maneuver, plan_required_);
   const double begins_s = maneuver.motion.start_time();
   const bool rests = committed_.at(maneuver.join_s).at_rest &&
                      std::abs(begins_s - maneuver.join_s) < kRounding_s &&
                      maneuver.motion.at(begins_s).at_rest;
-  if (kind_ != PlanKind::kInTurn || !rests || !part ||
-      part->cut_by.term != ViolatedTerm::kSeparation)
+  if (kind_ != PlanKind::kInTurn || !part || part->cut_by.term != ViolatedTerm::kSeparation)
     return part;
-  for (double later_s = kWait_s; later_s < kLongestWait_s; later_s += kWait_s) {
+  for (double later_s = kWait_s; rests && later_s < kLongestWait_s; later_s += kWait_s) {
     Maneuver late = maneuver;
     late.motion = after_a_wait(maneuver.motion, later_s);
     late.brake_until_s += later_s;
@@ -122,7 +135,7 @@ std::optional<CertifiedPart> LocalReplanner::certified_of(Maneuver& maneuver, co
     maneuver = late;
     return found;
   }
-  return part;
+  return takes_back(*part) ? std::nullopt : part;
 }
 
 Detour::Start LocalReplanner::detour_start(const Step& step) const {

@@ -160,6 +160,23 @@ TEST_F(DriveOptimizerTest, GoesOnFromTheStateGiven) {
   EXPECT_LT(found.curve.derivative(found.curve.duration(), 1).norm(), 1e-9);
 }
 
+TEST_F(DriveOptimizerTest, BackwardItsTailGoesAhead) {
+  const CircleField field({{{4.0, 0.55}, 0.3}});
+  DriveQuery query = from_rest({{0.0, 0.0}, {4.0, -0.3}, {6.0, 1.5}});
+  const auto found = [&](double tail_m, double nose_m, int direction) {
+    RobotModel robot = robot_;
+    robot.footprint =
+        Footprint::polygon({{-tail_m, -0.2}, {nose_m, -0.2}, {nose_m, 0.2}, {-tail_m, 0.2}});
+    query.direction = direction;
+    return DriveOptimizer(robot, default_options(), MarginBudget::of(robot).static_margin())
+        .optimize_drive(query, field, {}, kGoOn)
+        .curve.position(3.0);
+  };
+  const Vector2 tail_first = found(1.5, 0.25, -1);
+  EXPECT_LT((tail_first - found(0.25, 1.5, 1)).norm(),
+            0.3 * (tail_first - found(1.5, 0.25, 1)).norm());
+}
+
 TEST_F(DriveOptimizerTest, WaitsOrSwervesForAPeer) {
   DriveQuery query = from_rest({{0.0, 0.0}, {8.0, 0.0}});
   query.start_time_s = 50.0;

@@ -59,6 +59,37 @@ TEST(StartManeuvers, GoOnOutOfADriveUnlessThePathTurnsAway) {
   EXPECT_TRUE(kStartManeuvers.rolling({kAhead}, path_towards(0.0)).empty()) << "it stands";
 }
 
+TEST(StartManeuvers, BackwardWhereThatTakesASmallerTurn) {
+  const auto straight =
+      kStartManeuvers.from_rest({}, kAhead, path_towards(M_PI), Drives::kEitherWay);
+  ASSERT_EQ(straight.size(), 2u);
+  EXPECT_EQ(straight[0].direction, -1);
+  EXPECT_TRUE(straight[0].phases.empty());
+  EXPECT_NEAR(straight[0].state(0, 2), -rest_acceleration(kLimits), 1e-12);
+  EXPECT_EQ(straight[1].direction, 1) << "where that is not possible";
+  const auto aside = kStartManeuvers.from_rest({}, kAhead, path_towards(2.0), Drives::kEitherWay);
+  ASSERT_EQ(aside.size(), 2u);
+  EXPECT_NEAR(std::get<TurnPhase>(aside[0].phases.at(0)).yaw_change_rad, 2.0 - M_PI, 1e-9);
+  const Vector2 along = aside[0].state.col(2);
+  EXPECT_NEAR(std::atan2(along.y(), along.x()), 2.0, 1e-9);
+  for (const double yaw_rad : {0.0, 1.0, -1.5}) {
+    for (const auto& start :
+         kStartManeuvers.from_rest({}, kAhead, path_towards(yaw_rad), Drives::kEitherWay))
+      EXPECT_EQ(start.direction, 1) << yaw_rad;
+  }
+}
+
+TEST(StartManeuvers, GoOnBackwardWhereThatIsAllowed) {
+  MotionState state = straight_drive(0.0, kAhead.position, M_PI, 4.0, 0.8, 0.5).at(3.0);
+  state.pose.yaw_rad = 0.0;
+  state.speed = -state.speed;
+  const auto found = kStartManeuvers.rolling(state, path_towards(M_PI), Drives::kEitherWay);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].direction, -1);
+  EXPECT_TRUE(kStartManeuvers.rolling(state, path_towards(M_PI)).empty());
+  EXPECT_TRUE(kStartManeuvers.rolling(state, path_towards(0.0), Drives::kEitherWay).empty());
+}
+
 TEST(TurnInPlace, GoesTheShortWayAndLeavesALittleToTheDrive) {
   const auto turn = turn_in_place({{0.0, 0.0}, 3.0}, -3.0, kLimits);
   ASSERT_TRUE(turn);

@@ -163,6 +163,19 @@ TEST_F(FrontEndTest, AlongAPathItBrakesFirstWhereThatTurnsAway) {
   EXPECT_TRUE(std::equal(rest.begin(), rest.end(), start.path.begin() + 1));
 }
 
+TEST_F(FrontEndTest, AlongAPathThatTurnsBackItComesToRestFirst) {
+  query_.committed = straight_drive(-2.0, {-3.0, 0.0}, 0.0, 3.0, 0.8, 0.8);
+  query_.start_time_s = 0.0;
+  query_.along = {{0.0, 0.0}, {-1.0, 0.3}, {-1.0, 3.0}};
+  const GlobalSeeds found = seeds();
+  ASSERT_EQ(found.list.size(), 1u);
+  const StartManeuver& start = found.list[0].start_maneuvers.at(0);
+  EXPECT_NEAR(start.duration_s, query_.committed.end_time(), 1e-6) << "as it has promised";
+  EXPECT_EQ(start.direction, -1);
+  EXPECT_TRUE(start.state.col(1).isZero());
+  EXPECT_EQ(start.path, query_.along);
+}
+
 TEST_F(FrontEndTest, AlongAPathWhoStandsThereChangesNothing) {
   query_.along = {{-2.0, 0.0}, {-2.0, 3.0}, {2.0, 3.0}, kGoal};
   PlanningScene scene{static_map_of(grid_), {}};

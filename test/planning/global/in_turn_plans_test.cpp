@@ -78,6 +78,29 @@ TEST_F(InTurnPlansTest, WhoDrivesAwayIsInNobodysWay) {
   EXPECT_EQ(plan().reason, PlanReason::kSolved);
 }
 
+TEST_F(InTurnPlansTest, ComeOutBackwardWhereTheWayLeadsBack) {
+  query_.committed = standing(kNow_s - 5.0, {0.0, 0.0}, 3.0);
+  const PlanResult result = plan();
+  ASSERT_EQ(result.reason, PlanReason::kSolved) << result.message;
+  ASSERT_EQ(result.motion.phases().size(), 1u) << "no turn in place";
+  EXPECT_EQ(std::get<DrivePhase>(result.motion.phases()[0]).direction, -1);
+  query_.along.clear();
+  EXPECT_GE(plan().motion.phases().size(), 2u) << "where nobody waits, it turns";
+}
+
+TEST_F(InTurnPlansTest, AreDrivenForwardWhereTheRobotDoesNotSeeBehind) {
+  query_.committed = standing(kNow_s - 5.0, {0.0, 0.0}, 3.0);
+  RobotModel looks_ahead = robot_;
+  looks_ahead.lidar.field_of_view_rad = 4.7;
+  RobotModel forward_only = robot_;
+  forward_only.limits.can_reverse = false;
+  for (const RobotModel& robot : {looks_ahead, forward_only}) {
+    const PlanResult result = GlobalPlanner(robot, default_options()).plan(query_, scene_);
+    ASSERT_EQ(result.reason, PlanReason::kSolved) << result.message;
+    EXPECT_EQ(std::get<DrivePhase>(result.motion.phases().back()).direction, 1);
+  }
+}
+
 TEST_F(InTurnPlansTest, WhoStandsCloserAlreadyCanLeave) {
   add_peer(standing(kNow_s - 9.0, {-0.6, 0.0}, 0.0));
   const PlanResult result = plan();

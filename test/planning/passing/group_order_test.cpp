@@ -14,7 +14,7 @@ namespace {
 
 using Rows = std::vector<std::string>;
 
-constexpr PassingPace kPace = {1.0, 0.5, 1.0, 1.0};
+constexpr PassingPace kPace = {1.0, 0.5, 1.0, false, 1.0};
 
 /// Members a, b, c ... from where the letters are in the first to where they are in the second; who
 /// is not there has no goal.

@@ -12,7 +12,7 @@ namespace {
 
 using Steps = std::vector<JointStep>;
 
-constexpr PassingPace kPace = {1.0, 0.5, 1.0, 1.0};
+constexpr PassingPace kPace = {1.0, 0.5, 1.0, false, 1.0};
 constexpr int kChoices = 20000;
 
 bool go_on() { return false; }

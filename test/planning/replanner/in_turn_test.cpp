@@ -1,6 +1,8 @@
 // A robot on a stretch of an order of passing: others count on where it is.
+#include "planning/local/rejoining.h"
 #include "planning/replanner/replanner_test.h"
 #include "trajectory/rover_braking.h"
+#include "trajectory/stopping.h"
 
 namespace mocha {
 namespace {
@@ -58,17 +60,37 @@ TEST_F(InTurnTest, StaysOnItsLineBehindWhoStandsThere) {
   }
 }
 
-TEST_F(InTurnTest, PromisesMoreOnlyNowAndThen) {
-  replanner_.set_plan(plan_from(kNow_s + options_.settle_s), PlanKind::kInTurn);
-  int proposals = 0;
-  for (double t = kNow_s; t < kNow_s + 6.0; t += 0.1) {
-    const auto output = step_on_track(t);
-    if (!output.proposal) continue;
-    ++proposals;
-    replanner_.set_committed(output.proposal->sequence, output.proposal->motion);
-  }
-  EXPECT_GE(proposals, 4);
-  EXPECT_LE(proposals, 8);
+TEST_F(InTurnTest, PromisesTheWholeAtOnce) {
+  const Motion plan = plan_from(kNow_s + options_.settle_s);
+  replanner_.set_plan(plan, PlanKind::kInTurn);
+  const auto output = step_on_track(kNow_s);
+  ASSERT_TRUE(output.proposal);
+  ASSERT_GT(plan.end_time(), kNow_s + options_.horizon_s + 3.0);
+  EXPECT_NEAR(output.proposal->motion.end_time(), plan.end_time(), 0.01);
+  replanner_.set_committed(output.proposal->sequence, output.proposal->motion);
+  for (double t = kNow_s + 0.1; t < kNow_s + 6.0; t += 0.1)
+    EXPECT_FALSE(step_on_track(t).proposal) << t;
+}
+
+TEST_F(InTurnTest, TakesNothingBackThatItHasPromised) {
+  const Motion quick = plan_from(kNow_s - 1.0);
+  replanner_.set_committed(1, quick);
+  // One that brakes first, and meets who crosses behind the quick one.
+  const double join_s = kNow_s + options_.settle_s;
+  std::vector<Phase> phases = brake_along(quick, join_s, Braking(0.5));
+  const Pose stop = Motion(join_s, phases).end_pose();
+  phases.emplace_back(StandPhase{stop, 2.0});
+  const Motion on = straight_drive(0.0, stop.position, 0.0, 8.0 - stop.position.x(), 0.9, 0.5);
+  phases.insert(phases.end(), on.phases().begin(), on.phases().end());
+  const Motion slow(join_s, phases);
+  const double meets_s = *progress_on(slow, {4.0, 0.0}, join_s, 0.1);
+  ASSERT_GT(meets_s, *progress_on(quick, {4.0, 0.0}, kNow_s, 0.1) + 2.0);
+  add_peer(straight_drive(meets_s - 3.5, {4.0, 2.5}, -M_PI / 2.0, 5.0, 0.9, 0.5));
+  replanner_.set_plan(slow, PlanKind::kInTurn);
+  const auto output = step_on_track(kNow_s);
+  EXPECT_FALSE(output.proposal);
+  EXPECT_TRUE(output.renew_lease);
+  EXPECT_TRUE(output.request_plan) << "there may be a better one";
 }
 
 TEST_F(InTurnTest, AnOfferIsTakenThoughTheOneAtHandMeetsNobody) {
