@@ -41,11 +41,12 @@ class LocalReplannerNode {
         model_(own_robot_model(values)),
         max_prediction_age_s_(values.number("max_prediction_age")),
         prediction_horizon_(values.number("prediction_horizon")),
-        replanning_(
-            model_, values,
-            Reach::from(neighbour_parameters("trajectory_broadcaster"), values, model_).promise_m,
-            {ros::names::resolve("map"), ros::names::resolve("fleet/trajectories"),
-             ros::names::resolve("predicted_obstacles")}),
+        replanning_(model_, values,
+                    Reach::from(neighbour_parameters("trajectory_broadcaster"), model_,
+                                values.number("horizon"))
+                        .promise_m,
+                    {ros::names::resolve("map"), ros::names::resolve("fleet/trajectories"),
+                     ros::names::resolve("predicted_obstacles")}),
         stop_(node),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),

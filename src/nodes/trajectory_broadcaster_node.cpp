@@ -52,7 +52,8 @@ class TrajectoryBroadcasterNode {
       : robot_(robot_identity()),
         model_(own_robot_model(values)),
         epoch_file_(memory_file(values.text("epoch_file"), robot_.name, ".epoch")),
-        reach_(Reach::from(values, neighbour_parameters("local_replanner"), model_)),
+        reach_(
+            Reach::from(values, model_, neighbour_parameters("local_replanner").number("horizon"))),
         commitment_(
             CommitmentOptions::from(values, model_, reach_, robot_.name, next_epoch(epoch_file_))),
         keeping_(model_, neighbour_parameters("local_replanner").number("lease"),

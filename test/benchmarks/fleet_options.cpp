@@ -29,7 +29,7 @@ ParameterTable local_values(const FleetOptions& options) {
 }
 
 Reach reach_of(const RobotModel& robot, const FleetOptions& options) {
-  return Reach::from(broadcaster_values(), local_values(options), robot);
+  return Reach::from(broadcaster_values(), robot, local_values(options).number("horizon"));
 }
 
 CommitmentOptions commitment_options(const std::string& name, const RobotModel& robot,

@@ -67,7 +67,8 @@ LidarRobot::LidarRobot(const World& world, std::uint64_t seed)
       simulator_(with_needed_scans_only(world, schema("perception").number("integration_rate")),
                  kBegin_s, seed),
       perception_(robot_),
-      reach_(Reach::from(schema("trajectory_broadcaster"), local_values(), robot_)),
+      reach_(
+          Reach::from(schema("trajectory_broadcaster"), robot_, local_values().number("horizon"))),
       protocol_(
           CommitmentOptions::from(schema("trajectory_broadcaster"), robot_, reach_, "ugv1", 1)),
       stack_("ugv1", robot_, {global_values(), local_values(), reach_}, protocol_),

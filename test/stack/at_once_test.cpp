@@ -23,7 +23,8 @@ class OneRobot {
  public:
   explicit OneRobot(const RobotModel& robot)
       : robot_(robot),
-        reach_(Reach::from(schema("trajectory_broadcaster"), schema("local_replanner"), robot)),
+        reach_(Reach::from(schema("trajectory_broadcaster"), robot,
+                           schema("local_replanner").number("horizon"))),
         protocol_(
             CommitmentOptions::from(schema("trajectory_broadcaster"), robot, reach_, "ugv1", 1)),
         stack_("ugv1", robot, {schema("global_planner"), schema("local_replanner"), reach_},

@@ -230,14 +230,9 @@ void CommitmentProtocol::keep_in_touch(double now, CommitmentActions& actions) {
   const bool answers = !answers_.empty() && now >= next_answer_s_;
   if (!periodic && !answers) return;
   if (!answers_.empty()) next_answer_s_ = now + kAnswerPeriod_s;
-  actions.heartbeat = periodic ? periodic_heartbeat(now) : heartbeat(now);
-  for (const Acknowledgement& answer : answers_) {
-    std::vector<Acknowledgement>& lines = actions.heartbeat->acknowledgements;
-    const bool said = std::any_of(lines.begin(), lines.end(), [&](const Acknowledgement& line) {
-      return line.agent == answer.agent && !(line.id < answer.id);
-    });
-    if (!said) lines.push_back(answer);
-  }
+  actions.heartbeat =
+      Heartbeat{options_.agent, options_.epoch, now, answers_, {}, options_.reach.promise_m};
+  if (periodic) lines_.add(peers_, neighbourhood(now), now, *actions.heartbeat);
   answers_.clear();
   if (!binding_.empty()) {
     const CommittedTrajectory& newest = binding_.newest();
@@ -246,27 +241,6 @@ void CommitmentProtocol::keep_in_touch(double now, CommitmentActions& actions) {
   if (sequence_ > 0 && !is_binding(last_sent_.state))
     actions.heartbeat->acknowledgements.push_back(last_sent_);
   if (periodic) send_again(now, actions);
-}
-
-Heartbeat CommitmentProtocol::heartbeat(double now) const {
-  return {options_.agent, options_.epoch, now, {}, {}, options_.reach.promise_m};
-}
-
-Heartbeat CommitmentProtocol::periodic_heartbeat(double now) {
-  std::vector<LineRota::Entry> acknowledged;
-  std::vector<LineRota::Entry> echoed;
-  const Neighbourhood here = neighbourhood(now);
-  for (const auto& [name, peer] : peers_.peers()) {
-    const double urgency = here.urgency(peer);
-    if (peers_.acknowledgement(name, now)) acknowledged.push_back({name, urgency});
-    if (peers_.echo(name, now)) echoed.push_back({name, urgency});
-  }
-  Heartbeat heartbeat = this->heartbeat(now);
-  for (const std::string& name : acknowledged_.take(std::move(acknowledged), now))
-    heartbeat.acknowledgements.push_back(*peers_.acknowledgement(name, now));
-  for (const std::string& name : echoed_.take(std::move(echoed), now))
-    heartbeat.echoes.push_back(*peers_.echo(name, now));
-  return heartbeat;
 }
 
 void CommitmentProtocol::send_again(double now, CommitmentActions& actions) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fleet/protocol/commitment_options.h"
-#include "fleet/protocol/line_rota.h"
+#include "fleet/protocol/heartbeat_lines.h"
 #include "fleet/protocol/meetings.h"
 #include "fleet/protocol/neighbourhood.h"
 #include "fleet/protocol/settling_protocol.h"
@@ -17,18 +17,18 @@ namespace mocha {
 /// in and come out.
 ///
 /// Rules. A proposal is sent to all. It becomes binding after delta_dc, as soon as every near peer
-/// (Neighbourhood) in reach (a heartbeat heard within reach_timeout) has endorsed it in a heartbeat,
-/// if it meets nothing: two motions meet where their centres come closer than the two radii plus peer_clearance
-/// at any time from now on, or (with stops) where one robot, braking along its path at some moment,
-/// and the other, braking along its own after the reaction time, would come closer than the radii
-/// plus stop_clearance. It must be settled before it starts, and must begin where the binding
-/// motion will be then (5 cm). A binding promise is never displaced. Of two pending proposals that
-/// meet, the lower in rank (priority, then name) is withdrawn; the other waits for the news of
-/// that, or loses to it if it became binding first. A robot endorses a proposal that it has seen
-/// unless that meets its own binding promise or its own pending proposal of higher rank; it says so
-/// at once, or within kAnswerPeriod_s of the last time, together with whatever else it endorses
-/// until then: a fleet of N robots that all plan anew sends N heartbeats more in that time, not
-/// N^2. Emergency motions bind at once.
+/// (Neighbourhood) in reach (a heartbeat heard within reach_timeout) has endorsed it in a
+/// heartbeat, if it meets nothing: two motions meet where their centres come closer than the two
+/// radii plus peer_clearance at any time from now on, or (with stops) where one robot, braking
+/// along its path at some moment, and the other, braking along its own after the reaction time,
+/// would come closer than the radii plus stop_clearance. It must be settled before it starts, and
+/// must begin where the binding motion will be then (5 cm). A binding promise is never displaced.
+/// Of two pending proposals that meet, the lower in rank (priority, then name) is withdrawn; the
+/// other waits for the news of that, or loses to it if it became binding first. A robot endorses a
+/// proposal that it has seen unless that meets its own binding promise or its own pending proposal
+/// of higher rank; it says so at once, or within kAnswerPeriod_s of the last time, together with
+/// whatever else it endorses until then: a fleet of N robots that all plan anew sends N heartbeats
+/// more in that time, not N^2. Emergency motions bind at once.
 ///
 /// A model checker tries all that can happen to two and three robots within bounds, room to brake
 /// aside: test/fleet/model.
@@ -48,8 +48,8 @@ namespace mocha {
 ///
 /// Why peers that are not near need not be asked: at any moment, all that two robots have promised
 /// or proposed lies within their promise reaches of where they are (Reach). Where both settle
-/// without having asked, they are not near as the later one settles, and so the motions do not meet.
-/// Where the one has asked the other, that one had not settled its own motion, or would have
+/// without having asked, they are not near as the later one settles, and so the motions do not
+/// meet. Where the one has asked the other, that one had not settled its own motion, or would have
 /// objected; nor proposed it, or would have withdrawn it or objected; and afterwards it knew what
 /// it had endorsed.
 ///
@@ -81,11 +81,6 @@ class CommitmentProtocol : public SettlingProtocol {
   /// Endorsements that come up within this time of the last ones wait, and go together. Well below
   /// any useful delta_dc, so that no proposal settles later than it would anyway.
   static constexpr double kAnswerPeriod_s = 0.025;
-
-  /// Of so many peers a periodic heartbeat says what is endorsed, and what was heard last: near
-  /// ones have their turn oftener (LineRota), so what a robot sends does not grow with the fleet.
-  static constexpr std::size_t kMostAcknowledged = 12;
-  static constexpr std::size_t kMostEchoed = 6;
 
   /// Throws std::invalid_argument for options out of range.
   explicit CommitmentProtocol(CommitmentOptions options);
@@ -131,8 +126,6 @@ class CommitmentProtocol : public SettlingProtocol {
   void answer(double now);
   void answer(const std::string& name, const Peer& peer, double now);
   void keep_in_touch(double now, CommitmentActions& actions);
-  Heartbeat heartbeat(double now) const;
-  Heartbeat periodic_heartbeat(double now);
   void send_again(double now, CommitmentActions& actions);
   void report_breach(const std::string& name, double now, CommitmentActions& actions) const;
 
@@ -156,8 +149,7 @@ class CommitmentProtocol : public SettlingProtocol {
   bool listening_ = true;
   std::vector<Acknowledgement> answers_;  // endorsed, not said yet
   double next_answer_s_ = 0.0;
-  LineRota acknowledged_{kMostAcknowledged};
-  LineRota echoed_{kMostEchoed};
+  HeartbeatLines lines_;
   double next_heartbeat_s_ = 0.0;
   double next_resend_s_ = 0.0;
   int impostors_ = 0;

@@ -18,8 +18,7 @@ std::string number(double value) { return std::to_string(value); }
 
 }  // namespace
 
-Reach Reach::from(const ParameterTable& values, const ParameterTable& local_values,
-                  const RobotModel& robot) {
+Reach Reach::from(const ParameterTable& values, const RobotModel& robot, double horizon_s) {
   const double speed = robot.limits.max_speed;
   Reach reach;
   reach.radio_range_m = values.number("radio_range");
@@ -40,7 +39,7 @@ Reach Reach::from(const ParameterTable& values, const ParameterTable& local_valu
                                 number(2.0 * least_m + apart_m + unheard_m) +
                                 " m or more: promises end where unheard robots could be met");
   }
-  const double wished_m = speed * (local_values.number("horizon") + kBeyond_s) + stopping_m;
+  const double wished_m = speed * (horizon_s + kBeyond_s) + stopping_m;
   reach.promise_m = std::min({heard_m, wished_m, kMost_m});
   return reach;
 }

@@ -21,11 +21,10 @@ struct Reach {
   ///
   ///   2 promise_m <= radio_range_m - apart_m - 2 fleet_speed reach_timeout
   ///
-  /// is less. `values` are those of config/trajectory_broadcaster.yaml, `local_values` those of
-  /// config/local_replanner.yaml. Throws std::invalid_argument for a robot that is faster than its
-  /// fleet, and where there is no room left to stop from its highest speed.
-  static Reach from(const ParameterTable& values, const ParameterTable& local_values,
-                    const RobotModel& robot);
+  /// is less. `values` are those of config/trajectory_broadcaster.yaml, the horizon is that of the
+  /// local replanner. Throws std::invalid_argument for a robot that is faster than its fleet, and
+  /// where there is no room left to stop from its highest speed.
+  static Reach from(const ParameterTable& values, const RobotModel& robot, double horizon_s);
 };
 
 }  // namespace mocha

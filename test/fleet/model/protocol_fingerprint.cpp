@@ -80,8 +80,8 @@ void ProtocolFingerprint::add(const test::DrivenPromises& driven) {
 
 void ProtocolFingerprint::add(const CommitmentProtocol& protocol) {
   const auto& [options, peers, binding, pending, last_sent, sequence, listen_until_s, listening,
-               answers, next_answer_s, acknowledged, echoed, next_heartbeat_s, next_resend_s,
-               impostors] = protocol;
+               answers, next_answer_s, lines, next_heartbeat_s, next_resend_s, impostors] =
+      protocol;
   hash_.add(options.epoch);  // the others are the scenario's
   add(peers);
   add(binding);
@@ -96,8 +96,8 @@ void ProtocolFingerprint::add(const CommitmentProtocol& protocol) {
   add_next(next_answer_s);
   add_next(next_heartbeat_s);
   add_next(next_resend_s);
-  (void)impostors;                   // only counts
-  (void)acknowledged, (void)echoed;  // there is room for all peers of a model in each heartbeat
+  (void)impostors;  // only counts
+  (void)lines;      // there is room for all peers of a model in each heartbeat
 }
 
 void ProtocolFingerprint::add(const CommitmentProtocol::Pending& pending) {

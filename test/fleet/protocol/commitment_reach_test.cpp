@@ -93,8 +93,8 @@ TEST_F(CommitmentReach, AHeartbeatDoesNotGrowWithTheFleet) {
   const auto count = [&](const CommitmentActions& actions) {
     if (!actions.heartbeat) return;
     EXPECT_LE(actions.heartbeat->acknowledgements.size(),
-              CommitmentProtocol::kMostAcknowledged + 1);  // and its own promise
-    EXPECT_LE(actions.heartbeat->echoes.size(), CommitmentProtocol::kMostEchoed);
+              HeartbeatLines::kMostAcknowledged + 1);  // and its own promise
+    EXPECT_LE(actions.heartbeat->echoes.size(), HeartbeatLines::kMostEchoed);
     for (const Acknowledgement& line : actions.heartbeat->acknowledgements)
       ++acknowledged[line.agent];
     for (const Echo& line : actions.heartbeat->echoes) ++echoed[line.agent];

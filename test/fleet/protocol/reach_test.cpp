@@ -10,20 +10,13 @@
 namespace mocha {
 namespace {
 
-ParameterTable table(const std::string& node, const YAML::Node& changes) {
-  ParameterTable values = ParameterTable::from_schema("config/" + node + ".yaml");
-  values.assign(changes, "test");
-  return values;
-}
-
 Reach reach(double radio_range_m, double fleet_speed, double horizon_s) {
   YAML::Node fleet;
   fleet["radio_range"] = radio_range_m;
   fleet["fleet_speed"] = fleet_speed;
-  YAML::Node local;
-  local["horizon"] = horizon_s;
-  return Reach::from(table("trajectory_broadcaster", fleet), table("local_replanner", local),
-                     load_robot_model("config", "rover"));
+  ParameterTable values = ParameterTable::from_schema("config/trajectory_broadcaster.yaml");
+  values.assign(fleet, "test");
+  return Reach::from(values, load_robot_model("config", "rover"), horizon_s);
 }
 
 TEST(Reach, PromisesAreAsLongAsTheHorizonAsks) {
