@@ -139,6 +139,7 @@ Seen all_that_may_be_promised(const CommitmentOptions& options, double most_ahea
 
 CommitmentOptions options() {
   CommitmentOptions options = test::shipped_options("ugv1");
+  options.reach.promise_m = 20.0;  // robots at 2 m/s
   options.peer_clearance_m = 0.4;
   options.stop_clearance_m = 0.0;
   return options;

@@ -43,7 +43,7 @@ class CertifiedPartTest : public ManeuverTest {
   }
 
   /// What is committed: to brake along the way, soon.
-  Motion test_stop(double now_s) const {
+  Motion stop_soon(double now_s) const {
     return try_brake(ahead_, kStart_s, now_s + 0.2, robot_.braking()).motion;
   }
 
@@ -65,7 +65,8 @@ TEST_F(CertifiedPartTest, PromisesAllOfAShortMotion) {
 TEST_F(CertifiedPartTest, LeadsNoFartherFromTheRobotThanItMayPromise) {
   const LocalScene scene = scene_of(open_);
   for (const double now_s : {kStart_s, kStart_s + 2.0, kStart_s + 5.0}) {
-    ManeuverStart start = start_of(test_stop(now_s), scene, now_s);
+    const Motion committed = stop_soon(now_s);
+    ManeuverStart start = start_of(committed, scene, now_s);
     start.promise_reach_m = 5.0;
     const Maneuver follows{now_s + 0.1,      ahead_, now_s + 0.1,    now_s + 60.0, now_s,
                            robot_.braking(), false,  Follows::kPlan, "follows"};
