@@ -236,6 +236,9 @@ class BroadcasterTest(unittest.TestCase):
                         {"phases": []}, {"state": Trajectory.PLANNED}, {"s": 2}):
             status = self.first.settlement(self.first.propose(here, (72.0, 70.0), **changes))
             self.assertEqual(status.result, Settlement.INVALID, status.message)
+        status = self.first.settlement(self.first.propose(here, (84.0, 70.0)))
+        self.assertEqual(status.result, Settlement.INVALID)
+        self.assertIn("leads 14.0", status.message)
         status = self.first.settlement(self.first.propose((75.0, 70.0), (76.0, 70.0)))
         self.assertEqual((status.result, status.refusal), (Settlement.REJECTED, Settlement.DISCONTINUOUS), status.message)
         impostor = drive(self.clock, here, (72.0, 70.0))
@@ -245,8 +248,8 @@ class BroadcasterTest(unittest.TestCase):
         impostor.agent = "race3"
         impostor.phases[0].x = [70.0, float("nan")]
         self.promises.publish(impostor)
-        self.clock.run_until(lambda: self.first.refused() >= before + 11, 10.0, lambda: "all are counted: %s" % self.first.diagnosis)
-        self.assertEqual(self.first.refused(), before + 11)
+        self.clock.run_until(lambda: self.first.refused() >= before + 12, 10.0, lambda: "all are counted: %s" % self.first.diagnosis)
+        self.assertEqual(self.first.refused(), before + 12)
         self.assertEqual(len(self.first.committed), count)
 
     def test_what_is_said_about_passing_reaches_the_others_in_the_own_name_only(self):
