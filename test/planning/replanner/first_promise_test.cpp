@@ -17,7 +17,7 @@ TEST(FirstPromise, KeepsTheTimesOfThePlan) {
   const OccupancyGrid open = free_grid({-2.0, -3.0}, {12.0, 3.0});
   const LocalScene scene = scene_of(open);
   const Motion plan = straight_drive(kNow_s + 0.5, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5);
-  LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.09, 0.5, 3.0},
+  LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.09, 0.5, 3.0, 50.0},
                            default_local_options());
   replanner.set_committed(1, standing(kNow_s + 0.3, {0.0, 0.0}, 0.0));
   replanner.set_plan(plan);
@@ -42,7 +42,7 @@ TEST(FirstPromise, IsToStandAndBindsAtOnce) {
   const auto through_it = std::make_shared<const Motion>(
       straight_drive(kNow_s, {1.0, -3.0}, M_PI / 2.0, 6.0, 0.9, 0.5));
   scene.peers = {std::make_shared<PeerObstacle>("ugv2", through_it, 0.3, test::kRoverBraking)};
-  LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.09, 0.5, 3.0},
+  LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.09, 0.5, 3.0, 50.0},
                            default_local_options());
   const RobotState here{kNow_s, {{1.0, 0.0}, 0.3}, {0.0, 0.0}};
   const auto output = replanner.step(kNow_s, here, scene);
@@ -60,7 +60,7 @@ TEST(FirstPromise, IsNotHeldAgainstARobotThatIsOnItsWayThere) {
   const OccupancyGrid open = free_grid({-2.0, -3.0}, {12.0, 3.0});
   const LocalScene scene = scene_of(open);
   const Motion plan = straight_drive(kNow_s, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5);
-  LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.09, 0.5, 3.0},
+  LocalReplanner replanner(robot, {0.3, 0.1, 4.0, 1.0, 0.6, 0.09, 0.09, 0.5, 3.0, 50.0},
                            default_local_options());
   replanner.set_plan(plan);
   replanner.set_committed(7, rest_of(plan, kNow_s + 4.0));
