@@ -29,6 +29,8 @@ PassingInstruction of_epoch(PassingInstruction instruction, std::uint32_t epoch)
   return instruction;
 }
 
+}  // namespace
+
 Answer answer_of(const Settled& settled) {
   using Kind = CommitmentEvent::Kind;
   const Kind kind = settled.event.kind;
@@ -37,8 +39,6 @@ Answer answer_of(const Settled& settled) {
                                               : Answer::Kind::kRefused;
   return {said, settled.sequence, name_of(settled.event.refusal)};
 }
-
-}  // namespace
 
 RobotStack::RobotStack(std::string name, const RobotModel& robot, const Parameters& parameters,
                        SettlingProtocol& protocol)

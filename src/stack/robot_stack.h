@@ -11,6 +11,9 @@
 
 namespace mocha {
 
+/// What the local replanner is told of a settlement.
+Answer answer_of(const Settled& settled);
+
 /// The brain of one robot between the map and the wheels: goal planning, local replanning and
 /// commitment keeping, wired as the nodes are by topics, but without delay. Each call returns what
 /// is to be said to all peers.

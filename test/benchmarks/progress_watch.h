@@ -4,7 +4,7 @@
 
 namespace mocha {
 
-/// How long a robot that has a goal neither arrives nor gets anywhere.
+/// Tells how long a robot that has a goal neither arrives nor gets anywhere.
 class ProgressWatch {
  public:
   static constexpr double kMoved_m = 0.3;  ///< that far from where it was, it gets somewhere

@@ -4,20 +4,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "stack/robot_stack.h"
+
 namespace mocha {
 namespace {
 
 ParameterTable schema(const char* node) {
   return ParameterTable::from_schema(std::string("config/") + node + ".yaml");
-}
-
-Answer answer_of(const Settled& settled) {
-  using Kind = CommitmentEvent::Kind;
-  const Kind kind = settled.event.kind;
-  const auto said = kind == Kind::kSettled    ? Answer::Kind::kSettled
-                    : kind == Kind::kBreached ? Answer::Kind::kBreached
-                                              : Answer::Kind::kRefused;
-  return {said, settled.sequence, name_of(settled.event.refusal)};
 }
 
 }  // namespace

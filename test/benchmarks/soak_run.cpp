@@ -89,7 +89,7 @@ class Soak {
   }
 
  private:
-  /// Who sends a robot from place to place.
+  /// The driver of a robot, which sends it from place to place.
   struct Client {
     double free_s = 0.0;  ///< until then it stays where it arrived
     bool has_goal = false;

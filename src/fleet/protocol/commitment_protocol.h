@@ -49,9 +49,9 @@ namespace mocha {
 /// Why peers that are not near need not be asked: at any moment, all that two robots have promised
 /// or proposed lies within their promise reaches of where they are (Reach). Where both settle
 /// without having asked, they are not near as the later one settles, and so the motions do not
-/// meet. Where the one has asked the other, that one had not settled its own motion, or would have
-/// objected; nor proposed it, or would have withdrawn it or objected; and afterwards it knew what
-/// it had endorsed.
+/// meet. Where A has asked B, and B endorsed a, B had not settled b then, or it would have
+/// objected. Where b was pending, B withdrew it or objected. Where B proposed b later, it held b
+/// against a, which it had endorsed.
 ///
 /// What a robot may assume: while two robots keep their binding promises, their centres stay radii
 /// plus clearance apart, less the tracking errors of both. So a robot that keeps its promise is not

@@ -8,8 +8,9 @@
 
 namespace mocha {
 
-/// Whose turn it is to be spoken of in a heartbeat, which has room for so many lines: those of whom
-/// nothing was said yet, the nearest first; then each the oftener, the more urgent it is.
+/// The order in which heartbeats, which have room for so many lines, speak of peers: first of those
+/// of which nothing was said yet, the most urgent first; then of each the oftener, the more urgent
+/// it is.
 class LineRota {
  public:
   struct Entry {
@@ -20,7 +21,7 @@ class LineRota {
   /// Throws std::invalid_argument where there is room for nothing.
   explicit LineRota(std::size_t most_lines);
 
-  /// The peers that have their turn now.
+  /// Returns the peers that have their turn now.
   std::vector<std::string> take(std::vector<Entry> entries, double now);
 
  private:

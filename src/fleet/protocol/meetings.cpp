@@ -100,8 +100,7 @@ std::optional<Conflict> Meetings::by_stopping(const CommittedTrajectory* my_prop
 
 /// By its end, clocks will have drifted.
 double Meetings::mistimed_s(const Peer& peer, const Motion& theirs) const {
-  return std::max(0.0, peer.clock.error_beyond_s(options_.clocks.tolerance_s,
-                                                 std::max(now_, theirs.end_time())));
+  return peer.clock.mistimed_s(options_.clocks.tolerance_s, std::max(now_, theirs.end_time()));
 }
 
 double Meetings::closest_m(const Motion& mine, const Peer& peer, const Motion& theirs) const {

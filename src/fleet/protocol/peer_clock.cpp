@@ -1,7 +1,7 @@
 #include "fleet/protocol/peer_clock.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace mocha {
 namespace {
@@ -14,7 +14,7 @@ double PeerClock::add(double sent_s, double held_s, double stamp_s, double toler
                       double now) {
   estimate_.add(sent_s, held_s, stamp_s, now);
   const auto reading = estimate_.reading(now);
-  if (!reading || error_beyond_s(tolerance_s, now) <= 0.0) return 0.0;
+  if (!reading || mistimed_s(tolerance_s, now) == 0.0) return 0.0;
   const double later_s = ahead_s_ - reading->offset_s;
   if (std::abs(later_s) < kWorthTelling_s) return 0.0;
   ahead_s_ = reading->offset_s;
@@ -27,8 +27,8 @@ std::optional<double> PeerClock::error_s(double now) const {
   return reading->uncertainty_s + std::abs(reading->offset_s - ahead_s_);
 }
 
-double PeerClock::error_beyond_s(double tolerance_s, double now) const {
-  return error_s(now).value_or(-std::numeric_limits<double>::infinity()) - tolerance_s;
+double PeerClock::mistimed_s(double tolerance_s, double now) const {
+  return std::max(0.0, error_s(now).value_or(0.0) - tolerance_s);
 }
 
 }  // namespace mocha

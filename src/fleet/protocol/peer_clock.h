@@ -20,9 +20,9 @@ class PeerClock {
   double ahead_s() const { return ahead_s_; }
   /// By how much the clock may be wrong, at a time that may lie ahead; none: nothing is known.
   std::optional<double> error_s(double now) const;
-  /// How much more that is than the tolerance, for which margins allow; negative where it is less,
-  /// -infinity where nothing is known.
-  double error_beyond_s(double tolerance_s, double now) const;
+  /// How much more that is than the tolerance, for which margins allow; 0 where it is less, or
+  /// where nothing is known.
+  double mistimed_s(double tolerance_s, double now) const;
 
  private:
   friend class ProtocolFingerprint;  // of test/fleet/model

@@ -221,7 +221,7 @@ bool PeerTable::clock_differs(const Peer& peer, double now) const {
 }
 
 double PeerTable::mistimed_s(const Peer& peer, double now) const {
-  return std::max(0.0, peer.clock.error_beyond_s(clocks_.tolerance_s, now));
+  return peer.clock.mistimed_s(clocks_.tolerance_s, now);
 }
 
 void PeerTable::prune(double now) {

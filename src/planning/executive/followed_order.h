@@ -52,7 +52,7 @@ class FollowedOrder {
   /// Grants the moves from the last stop on that may be made by now: none has to wait for another
   /// robot, and they do not turn back. Nothing where it has to wait.
   std::optional<PassingStretch> grant(const PromisedBy& promised_by);
-  /// Who has to promise moves before the one after the last stop may begin.
+  /// The robots that have to promise moves before the one after the last stop may begin.
   std::vector<std::string> waits_for(const PromisedBy& promised_by) const;
   /// Which way the move after the last stop begins [rad]: a robot that waits can turn there.
   /// Nothing where there is none, or the robot was not told of it.

@@ -15,7 +15,7 @@ constexpr double kHold_s = 1.2;
 constexpr double kHoldAgain_s = 5.0;
 constexpr double kCallAgain_s = 2.0;   // at least, after an order that it was stuck in
 constexpr double kStuck_s = 6.0;       // it may go on, and does not
-constexpr double kLetDown_s = 10.0;    // who it waits for keeps to something else
+constexpr double kLetDown_s = 10.0;    // the robot that it waits for has left the order
 constexpr double kForgotten_s = 40.0;  // it waits, and nobody of the order gets on
 constexpr double kNoNews_s = 45.0;     // whoever still waits has given it up by then
 constexpr double kAtPlace_m = 0.15;
@@ -170,7 +170,7 @@ void PassingPolicy::progress(const PassingSituation& situation) {
   leave_order();
 }
 
-/// Who it waits for says that it keeps to another order, or to none.
+/// A robot that it waits for says that it keeps to another order, or to none.
 bool PassingPolicy::is_let_down(double now_s) const {
   const auto names =
       followed_->waits_for([this](const std::string& name) { return promised_by(name); });

@@ -17,7 +17,7 @@ double off_m(const std::vector<Vector2>& path, std::size_t segment, const Vector
   return (from - nearest_on_segment(from, path[segment - 1], path[segment])).norm();
 }
 
-/// What is left of a path for who is at `from`.
+/// The part of a path that a robot at `from` has not driven yet.
 std::vector<Vector2> rest_of(const std::vector<Vector2>& path, const Vector2& from) {
   std::size_t next = std::min<std::size_t>(1, path.size() - 1);
   for (std::size_t i = 2; i < path.size(); ++i) {
