@@ -118,6 +118,7 @@ class Fuzzer {
     for (int i = 1; i <= 5; ++i) whole.robots.push_back("ugv" + std::to_string(i));
     whole.robot = whole.robots[below(5)];
     whole.turns = below(below(20) == 0 ? 400 : 20);
+    whole.alone_from = below(static_cast<int>(whole.turns) + 1);
     Vector2 place(below(40), below(40));
     for (std::uint32_t i = 0; i < whole.turns; ++i) {
       const Vector2 end = place + 0.01 * Vector2(below(99), below(99));

@@ -169,7 +169,7 @@ def passing_turn(path=((1.5, 2.0), (3.0, -4.25)), after=()):
 
 
 def passing_instruction(**changes):
-    return changed(PassingInstruction(agent="race1", number=5, robot="race2", robots=["race1", "race2"], turns=9, first=7,
+    return changed(PassingInstruction(agent="race1", number=5, robot="race2", robots=["race1", "race2"], turns=9, alone_from=8, first=7,
                                       part=[passing_turn(after=[(0, 3)])]), changes)
 
 
@@ -272,7 +272,7 @@ class BroadcasterTest(unittest.TestCase):
         self.assertGreater(intent.epoch, 0)
         instruction, = self.second.instructions
         self.assertEqual((instruction.agent, instruction.number, instruction.robot), ("race1", 5, "race2"))
-        self.assertEqual((instruction.robots, instruction.turns, instruction.first), (["race1", "race2"], 9, 7))
+        self.assertEqual((instruction.robots, instruction.turns, instruction.alone_from, instruction.first), (["race1", "race2"], 9, 8, 7))
         turn, = instruction.part
         self.assertEqual([(place.x, place.y) for place in turn.path], [(1.5, 2.0), (3.0, -4.25)])
         self.assertEqual([(other.robot, other.turns) for other in turn.after], [(0, 3)])

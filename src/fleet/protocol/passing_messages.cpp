@@ -58,6 +58,7 @@ void validate(const PassingInstruction& instruction) {
   const auto self = std::find(robots.begin(), robots.end(), instruction.robot);
   require(self != robots.end(), "is for a robot that its order is not for");
   require_most(instruction.turns, kMostTurns, "turns");
+  require(instruction.alone_from <= instruction.turns, "is alone from beyond its end");
   require(instruction.first <= instruction.turns &&
               instruction.part.size() <= instruction.turns - instruction.first,
           "a part goes beyond the end");

@@ -115,6 +115,7 @@ void put_instruction(ByteWriter& out, const PassingInstruction& instruction) {
   const auto self = std::find(robots.begin(), robots.end(), instruction.robot);
   out.put(static_cast<std::uint8_t>(self - robots.begin()));
   out.put_varint(instruction.turns);
+  out.put_varint(instruction.alone_from);
   out.put_varint(instruction.first);
   out.put_varint(instruction.part.size());
   PlaceCounts before;
@@ -130,6 +131,7 @@ PassingInstruction get_instruction(ByteReader& in, std::string leader, std::uint
   require_said(self < robots, "an instruction is for a robot that its order is not for");
   instruction.robot = instruction.robots[self];
   instruction.turns = get_count(in);
+  instruction.alone_from = get_count(in);
   instruction.first = get_count(in);
   PlaceCounts before;
   for (std::uint32_t left = get_count(in); left > 0; --left)

@@ -22,7 +22,7 @@ constexpr Everywhere kFromEverywhere[] = {
 constexpr Everywhere kWhereItTakesPart[] = {
     {E::kTurn, S::kPlanning},
     {E::kNotItsTurn, S::kWaiting},
-    {E::kPassed, S::kPlanning},
+    {E::kPassed, S::kReplanning},
     {E::kPassedToTheEnd, S::kParked},
 };
 

@@ -46,7 +46,10 @@ bool turns_back(const std::vector<Vector2>& before, const std::vector<Vector2>& 
 }  // namespace
 
 FollowedOrder::FollowedOrder(const PassingInstruction& beginning)
-    : id_(beginning.id), robots_(beginning.robots), turns_(beginning.turns) {
+    : id_(beginning.id),
+      robots_(beginning.robots),
+      turns_(beginning.turns),
+      alone_from_(beginning.alone_from) {
   add(beginning);
 }
 
@@ -123,6 +126,13 @@ void FollowedOrder::note_stand(const Vector2& place, double tolerance_m) {
   for (std::uint32_t move = made_; move < promised_; ++move) {
     if ((turns_[move]->path.back() - place).norm() < tolerance_m) made_ = move + 1;
   }
+}
+
+void FollowedOrder::note_drive(const Vector2& place) {
+  if (is_over() || promised_ < alone_from_) return;
+  const double needed_m = length_of(stretch_until(alone_from_).path);
+  const double along_m = projected(place, stretch_until(granted_).path).along_m;
+  if (along_m >= needed_m - kAtEnd_m) made_ = alone_from_;
 }
 
 }  // namespace mocha

@@ -41,13 +41,17 @@ class FollowedOrder {
   const std::vector<std::string>& robots() const { return robots_; }
   /// Where its first move begins; nothing where it has none, or not been told of it.
   std::optional<Vector2> start() const;
-  /// All moves are made.
-  bool is_over() const { return made_ == turns_.size(); }
+  /// What is left of it has nothing to do with others: the robot had better drive on as it likes.
+  bool is_over() const { return made_ >= alone_from_; }
+  /// How many there are.
+  std::uint32_t moves() const { return static_cast<std::uint32_t>(turns_.size()); }
   std::uint32_t promised() const { return promised_; }
 
-  /// Takes note of what is in force, and of a robot that stands at a place, or is about to.
+  /// Takes note of what is in force, of a robot that stands at a place, or is about to, and of one
+  /// that drives by there.
   void note_promise(const Motion& committed);
   void note_stand(const Vector2& place, double tolerance_m);
+  void note_drive(const Vector2& place);
 
   /// Grants the moves from the last stop on that may be made by now: none has to wait for another
   /// robot, and they do not turn back. Nothing where it has to wait.
@@ -65,6 +69,7 @@ class FollowedOrder {
   PassingOrderId id_;
   std::vector<std::string> robots_;
   std::vector<std::optional<PassingTurn>> turns_;
+  std::uint32_t alone_from_;
   std::uint32_t made_ = 0;      // before it stood last
   std::uint32_t promised_ = 0;  // made ones among them
   std::uint32_t granted_ = 0;   // the same

@@ -184,6 +184,7 @@ void GoalExecutive::pass(const Input& input, Output& output) {
   } else if (!passing_.follows()) {
     if (state_ != S::kWaiting && is_to_goal()) return;
     begin_errand(goal ? E::kPassed : E::kPassedToTheEnd);
+    if (goal) errand_.plan = input.committed;
     keep_promise(input, output);
   } else if (!stretch) {
     wait_for_turn(input, output);

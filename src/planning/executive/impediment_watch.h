@@ -10,7 +10,8 @@
 namespace mocha {
 
 /// Whether a robot cannot get on because of its team-mates: it has stood for a while, though it
-/// wants to go on, while one of them is to come to rest on its way; and for as long as one is.
+/// wants to go on, while one of them is to come to rest on its way. Where there is another way,
+/// that while is longer; where there is none, it is impeded for as long as one rests there.
 class ImpedimentWatch {
  public:
   /// A robot that stands, or does not, at `here` on its way to `goal`; on the newest look. Looks at

@@ -125,9 +125,11 @@ std::optional<PassingInstruction> PassingLeader::make(const std::vector<PassingI
   if (!group) return std::nullopt;
   std::vector<std::string> names;
   for (const PassingMember& member : members) names.push_back(member.name);
+  const std::vector<std::uint32_t> alone = alone_from(group->order);
   for (std::size_t i = 0; i < members.size(); ++i) {
     const auto turns = static_cast<std::uint32_t>(group->order[i].size());
-    order_->instructions[names[i]] = {order_->id, names[i], names, turns, 0, group->order[i]};
+    order_->instructions[names[i]] = {order_->id, names[i], names,          turns,
+                                      alone[i],   0,        group->order[i]};
   }
   try {
     return quantised(order_->instructions.at(name_));

@@ -155,6 +155,8 @@ void PassingPolicy::progress(const PassingSituation& situation) {
   followed_->note_promise(situation.committed);
   const MotionState soon = situation.committed.at(situation.now_s + kSoon_s);
   if (soon.at_rest) followed_->note_stand(soon.pose.position, kAtPlace_m);
+  // The way on leads forward: what it drives backward, it drives to its end.
+  if (soon.speed > 0.0) followed_->note_drive(soon.pose.position);
   stretch_ = followed_->grant([this](const std::string& name) { return promised_by(name); });
   std::uint32_t moves = 0;
   for (const std::string& robot : followed_->robots()) moves += promised_by(robot);
@@ -165,7 +167,7 @@ void PassingPolicy::progress(const PassingSituation& situation) {
   seen_moves_ = moves;
   if (!followed_->is_over()) return;
   finished_ = followed_->id();
-  finished_moves_ = followed_->promised();
+  finished_moves_ = followed_->moves();
   news_s_ = situation.now_s;
   leave_order();
 }

@@ -32,11 +32,11 @@ struct PassingSituation {
 /// in which order all pass, by which places (order_group()), and tells each its moves; who has been
 /// told goes on move by move, each as soon as those before it are promised.
 ///
-/// What follows. An order that was made leads all that it is for to their goals, whatever their
-/// timing, as long as they keep to it (PassingOrder) and the map holds; where not all can get
-/// there, the highest ranks do. Who strays, gets stuck for long, or takes another goal leaves the
-/// order, and calls anew if need be. Orders bind nobody: what may be driven is settled by promises
-/// alone.
+/// What follows. An order that was made leads all that it is for past each other, whatever their
+/// timing, as long as they keep to it (PassingOrder) and the map holds, and then the way to each
+/// goal is free; where not all can get there, the highest ranks do. Who strays, gets stuck for
+/// long, or takes another goal leaves the order, and calls anew if need be. Orders bind nobody:
+/// what may be driven is settled by promises alone.
 class PassingPolicy {
  public:
   PassingPolicy(std::string name, int priority, RobotModel robot, const PlannerOptions& options);

@@ -14,7 +14,7 @@ constexpr double kAround_m = 8.0;  // of the group, in which it looks for room f
 constexpr double kSamePlace_m = 0.02;
 constexpr int kMostMoves = 500000;    // that the search for the fewest may look at ...
 constexpr int kMostSteps = 300000;    // ... and steps, where that does not suffice
-constexpr int kMostChoices = 100000;  // to find quicker ones
+constexpr int kMostChoices = 200000;  // to find quicker ones
 
 class Grouping {
  public:

@@ -8,8 +8,7 @@ namespace mocha {
 namespace {
 
 bool blocks(const PlaceMove* move, int place) {
-  return move != nullptr &&
-         std::binary_search(move->blocked_by.begin(), move->blocked_by.end(), place);
+  return move != nullptr && move->blocked_by.contains(place);
 }
 
 }  // namespace

@@ -47,9 +47,7 @@ class Search {
 
   static bool is_free(const Placing& placing, int robot, const PlaceMove& move) {
     for (int other = 0; other < static_cast<int>(placing.size()); ++other) {
-      const bool blocks =
-          std::binary_search(move.blocked_by.begin(), move.blocked_by.end(), placing[other]);
-      if (other != robot && blocks) return false;
+      if (other != robot && move.blocked_by.contains(placing[other])) return false;
     }
     return true;
   }

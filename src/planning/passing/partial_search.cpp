@@ -66,6 +66,9 @@ class Run {
         if (sequence[t].move(other) != nullptr) others_rest_ = static_cast<int>(t) + 1;
       }
     }
+    others_left_m_.assign(others_rest_ + 1, 0.0);
+    for (int t = others_rest_ - 1; t >= 0; --t)
+      others_left_m_[t] = others_left_m_[t + 1] + others_farthest_m(sequence[t]);
   }
 
   PassingSequence run(int& left, const std::function<bool()>& should_stop) {
@@ -113,8 +116,18 @@ class Run {
     return (1.0 + longer) * (move.length_m + kPerMove_m);
   }
 
+  /// What a step costs at least, by those that are not searched for.
+  double others_farthest_m(const JointStep& step) const {
+    double farthest_m = 0.0;
+    for (const int other : others_) {
+      if (step.move(other) != nullptr)
+        farthest_m = std::max(farthest_m, cost_m(step.from(other), *step.move(other)));
+    }
+    return farthest_m;
+  }
+
   void add(const Node& node) {
-    double farthest_m = node.farthest_m;
+    double farthest_m = std::max(node.farthest_m, others_left_m_[time(node)]);
     double all_m = node.all_m;
     for (int i = 0; i < count(); ++i) {
       const double left_m = distances_m_(robots_[i], place_after(node, i));
@@ -177,11 +190,7 @@ class Run {
 
   /// Where all are after a step that all have chosen.
   Node after(const Node& node, const JointStep& step) const {
-    double farthest_m = node.farthest_m;
-    for (const int other : others_) {
-      if (step.move(other) != nullptr)
-        farthest_m = std::max(farthest_m, cost_m(step.from(other), *step.move(other)));
-    }
+    const double farthest_m = std::max(node.farthest_m, others_farthest_m(step));
     Node next = node;
     for (int i = 0; i < count(); ++i) next.at[i] = static_cast<std::int16_t>(place_after(node, i));
     next.at.back() = static_cast<std::int16_t>(std::min(time(node) + 1, others_rest_));
@@ -210,7 +219,8 @@ class Run {
   const std::vector<JointStep>& sequence_;
   const std::vector<int>& robots_;
   std::vector<int> others_;
-  int others_rest_ = 0;  // after so many steps
+  int others_rest_ = 0;                // after so many steps
+  std::vector<double> others_left_m_;  // what the steps from each on cost at least
   std::vector<Node> nodes_;
   std::unordered_map<Placement, double, HashOfPlacement> best_m_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;

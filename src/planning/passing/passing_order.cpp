@@ -10,14 +10,10 @@ struct Made {
   int from;
 };
 
-bool holds(const std::vector<int>& sorted, int place) {
-  return std::binary_search(sorted.begin(), sorted.end(), place);
-}
-
 /// Whether the later move is only possible, or leaves the earlier one possible, after it.
 bool has_to_follow(const Made& later, const Made& earlier) {
-  return holds(later.move->blocked_by, earlier.from) ||
-         holds(earlier.move->blocked_by, later.move->to);
+  return later.move->blocked_by.contains(earlier.from) ||
+         earlier.move->blocked_by.contains(later.move->to);
 }
 
 }  // namespace
@@ -41,6 +37,19 @@ PassingOrder order_of(const std::vector<JointStep>& steps, int robots) {
     }
   }
   return order;
+}
+
+std::vector<std::uint32_t> alone_from(const PassingOrder& order) {
+  std::vector<std::uint32_t> from(order.size(), 0);
+  for (std::size_t robot = 0; robot < order.size(); ++robot) {
+    for (std::uint32_t move = 0; move < order[robot].size(); ++move) {
+      const auto& after = order[robot][move].after;
+      if (!after.empty()) from[robot] = std::max(from[robot], move + 1);
+      for (const PassingProgress& progress : after)
+        from[progress.robot] = std::max(from[progress.robot], progress.moves);
+    }
+  }
+  return from;
 }
 
 }  // namespace mocha

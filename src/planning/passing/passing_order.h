@@ -14,4 +14,7 @@ using PassingOrder = std::vector<std::vector<PassingTurn>>;
 
 PassingOrder order_of(const std::vector<JointStep>& steps, int robots);
 
+/// Of each robot, the number of the move from which on it waits for no other robot, nor one for it.
+std::vector<std::uint32_t> alone_from(const PassingOrder& order);
+
 }  // namespace mocha

@@ -200,13 +200,13 @@ double distance_m(const Vector2& place, const std::vector<Vector2>& path) {
 }
 
 /// What is too close to where the robot begins is in its way only if it comes closer still.
-std::vector<int> blocking(const std::vector<Vector2>& places, int from, int to,
-                          const std::vector<Vector2>& path, double apart_m) {
-  std::vector<int> blocking;
+PlaceSet blocking(const std::vector<Vector2>& places, int from, int to,
+                  const std::vector<Vector2>& path, double apart_m) {
+  PlaceSet blocking;
   for (int i = 0; i < static_cast<int>(places.size()); ++i) {
     const double keep_m = std::min(apart_m, (places[i] - places[from]).norm()) - kSame_m;
     const bool in_the_way = distance_m(places[i], path) < keep_m;
-    if (i == to || (i != from && in_the_way)) blocking.push_back(i);
+    if (i == to || (i != from && in_the_way)) blocking.insert(i);
   }
   return blocking;
 }

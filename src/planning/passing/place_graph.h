@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "planning/passing/place_set.h"
 #include "topology/static_map/travel_cost.h"
 #include "world/obstacle_field.h"
 
@@ -12,9 +13,9 @@ namespace mocha {
 struct PlaceMove {
   int to;
   double length_m;
-  std::vector<Vector2> path;    ///< from place to place, straight between
-  std::vector<int> blocked_by;  ///< sorted: while a robot stands at one of these places, no other
-                                ///< can go this way; `to` is one of them, `from` is not
+  std::vector<Vector2> path;  ///< from place to place, straight between
+  PlaceSet blocked_by;  ///< while a robot stands at one of these places, no other can go this way;
+                        ///< `to` is one of them, `from` is not
 };
 
 /// Places for the centres of robots of one size, and the ways between them: pebble motion on this

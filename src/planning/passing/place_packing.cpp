@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
-#include <set>
+#include <queue>
 #include <utility>
 
 namespace mocha {
@@ -56,31 +57,28 @@ std::vector<int> packed(const std::vector<Vector2>& candidates, const std::vecto
   std::vector<bool> open(count, true);
   for (const Vector2& place : fixed) buckets.visit_near(place, [&](int i) { open[i] = false; });
   std::vector<int> rivals(count, 0);
-  std::set<std::pair<int, int>> fewest_first;
+  using Entry = std::pair<int, int>;  // with so many rivals, then; the candidate
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> fewest_first;
   for (int i = 0; i < count; ++i) {
     if (!open[i]) continue;
     buckets.visit_near(candidates[i], [&](int j) { rivals[i] += open[j] && j != i; });
     fewest_first.emplace(rivals[i], i);
   }
-  const auto close = [&](int i) {
-    open[i] = false;
-    fewest_first.erase({rivals[i], i});
-  };
   std::vector<int> chosen;
   while (!fewest_first.empty()) {
-    const int next = fewest_first.begin()->second;
+    const auto [then, next] = fewest_first.top();
+    fewest_first.pop();
+    if (!open[next] || then != rivals[next]) continue;
     chosen.push_back(next);
-    close(next);
+    open[next] = false;
     std::vector<int> closed;
     buckets.visit_near(candidates[next], [&](int i) {
       if (open[i]) closed.push_back(i);
     });
-    for (const int i : closed) close(i);
+    for (const int i : closed) open[i] = false;
     for (const int i : closed) {
       buckets.visit_near(candidates[i], [&](int j) {
-        if (!open[j]) return;
-        fewest_first.erase({rivals[j], j});
-        fewest_first.emplace(--rivals[j], j);
+        if (open[j]) fewest_first.emplace(--rivals[j], j);
       });
     }
   }

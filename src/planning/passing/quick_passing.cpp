@@ -12,7 +12,7 @@ namespace mocha {
 namespace {
 
 constexpr int kMostAtOnce = 3;  // robots
-constexpr int kChoicesAtOnce = 20000;
+constexpr int kChoicesAtOnce = 10000;
 constexpr double kQuicker_s = 1e-6;
 
 class Quickening {

@@ -66,6 +66,7 @@ mocha_ugv::PassingInstruction to_message(const PassingInstruction& instruction,
   message.robot = instruction.robot;
   message.robots = instruction.robots;
   message.turns = instruction.turns;
+  message.alone_from = instruction.alone_from;
   message.first = instruction.first;
   for (const PassingTurn& turn : instruction.part) message.part.push_back(to_message(turn));
   return message;
@@ -96,6 +97,7 @@ PassingInstruction passing_from_message(const mocha_ugv::PassingInstruction& mes
   instruction.robot = message.robot;
   instruction.robots = message.robots;
   instruction.turns = message.turns;
+  instruction.alone_from = message.alone_from;
   instruction.first = message.first;
   for (const auto& turn : message.part) instruction.part.push_back(turn_from_message(turn));
   validate(instruction);

@@ -20,6 +20,7 @@ PassingInstruction instruction() {
           "ugv2",
           {"ugv1", "ugv2", "ugv3"},
           4,
+          3,
           2,
           {{{{0.0, 0.0}, {1.0, 0.0}}, {{0, 3}, {2, 1}}}, {{{1.0, 0.0}, {1.0, 1.0}}, {}}}};
 }
@@ -93,6 +94,7 @@ TEST(PassingMessages, RefuseInstructionsThatAreNotOfTheirOrder) {
   expect_refused(with(instruction(), more_robots), "33 robots");
   expect_refused(with(instruction(), [](Instruction& i) { i.turns = kMostTurns + 1; }), "turns");
   expect_refused(with(instruction(), [](Instruction& i) { i.turns = 3; }), "beyond the end");
+  expect_refused(with(instruction(), [](Instruction& i) { i.alone_from = 5; }), "beyond its end");
   expect_refused(with(instruction(), [](Instruction& i) { i.first = 3; }), "beyond the end");
   expect_refused(with(instruction(), [](Instruction& i) { i.first = 4000000000U; }), "beyond");
 }

@@ -29,7 +29,7 @@ PassingIntent intent() {
 /// As an order makes them: each turn goes on where the one before ended, by a bend, and waits for
 /// two others.
 PassingInstruction instruction(std::uint32_t turns, const Vector2& origin = {3.0, -7.0}) {
-  PassingInstruction whole{{"ugv3", 2, 9}, "ugv2", {}, turns, 0, {}};
+  PassingInstruction whole{{"ugv3", 2, 9}, "ugv2", {}, turns, turns / 2, 0, {}};
   for (int i = 1; i <= 12; ++i) whole.robots.push_back("ugv" + std::to_string(i));
   Vector2 place = origin;
   for (std::uint32_t i = 0; i < turns; ++i) {
@@ -46,6 +46,7 @@ void expect_same(const PassingInstruction& a, const PassingInstruction& b) {
   EXPECT_EQ(a.robot, b.robot);
   EXPECT_EQ(a.robots, b.robots);
   EXPECT_EQ(a.turns, b.turns);
+  EXPECT_EQ(a.alone_from, b.alone_from);
   EXPECT_EQ(a.first, b.first);
   ASSERT_EQ(a.part.size(), b.part.size());
   for (std::size_t i = 0; i < a.part.size(); ++i) {

@@ -81,7 +81,7 @@ PassingIntent passing_intent() {
 }
 
 PassingInstruction passing_instruction() {
-  PassingInstruction instruction{{"ugv1", 3, 5}, "ugv2", {"ugv1", "ugv2", "ugv3"}, 40, 10, {}};
+  PassingInstruction instruction{{"ugv1", 3, 5}, "ugv2", {"ugv1", "ugv2", "ugv3"}, 40, 37, 10, {}};
   for (std::uint32_t i = 0; i < 20; ++i)
     instruction.part.push_back({{{0.5 * i, 12.34567}, {0.5 * i + 0.5, 12.3}}, {{0, i}, {2, 7}}});
   return instruction;

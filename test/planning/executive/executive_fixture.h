@@ -99,13 +99,14 @@ class ExecutiveFixture : public ::testing::Test {
   /// What ugv2 orders: straight moves from place to place, each after so many of its own.
   static PassingInstruction ordered(const std::vector<Vector2>& places,
                                     const std::vector<std::uint32_t>& after = {}) {
-    PassingInstruction instruction{{"ugv2", 1, 1}, "ugv5", {"ugv2", "ugv5"}, 0, 0, {}};
+    PassingInstruction instruction{{"ugv2", 1, 1}, "ugv5", {"ugv2", "ugv5"}, 0, 0, 0, {}};
     for (std::size_t i = 1; i < places.size(); ++i) {
       PassingTurn turn{{places[i - 1], places[i]}, {}};
       if (i <= after.size() && after[i - 1] > 0) turn.after = {{0, after[i - 1]}};
       instruction.part.push_back(turn);
     }
     instruction.turns = static_cast<std::uint32_t>(instruction.part.size());
+    instruction.alone_from = instruction.turns;
     return instruction;
   }
 

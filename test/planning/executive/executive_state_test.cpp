@@ -73,7 +73,7 @@ std::map<S, Row> table() {
     if (state == S::kIdle || state == S::kPaused) continue;
     row.insert({{E::kTurn, S::kPlanning},
                 {E::kNotItsTurn, S::kWaiting},
-                {E::kPassed, S::kPlanning},
+                {E::kPassed, S::kReplanning},
                 {E::kPassedToTheEnd, S::kParked}});
   }
   return rows;

@@ -24,7 +24,7 @@ PassingTurn turn(const Vector2& from, const Vector2& to, std::vector<PassingProg
 }
 
 PassingInstruction part(std::uint32_t turns, std::uint32_t first, std::vector<PassingTurn> part) {
-  return {{"ugv1", 1, 7}, "ugv2", {"ugv1", "ugv2", "ugv3"}, turns, first, std::move(part)};
+  return {{"ugv1", 1, 7}, "ugv2", {"ugv1", "ugv2", "ugv3"}, turns, turns, first, std::move(part)};
 }
 
 /// One metre along x, the same again, and then one along y.
@@ -184,6 +184,38 @@ TEST(FollowedOrder, MadeIsWhereTheRobotStandsAtTheEndOfAMoveThatItPromised) {
   order.note_stand({2.0, 0.9}, 0.15);
   EXPECT_TRUE(order.is_over());
   EXPECT_FALSE(order.grant(by({})));
+}
+
+/// Others wait for its second move, or it for theirs; the third is its own affair.
+TEST(FollowedOrder, ItIsOverOnceTheRobotDrivesByTheEndOfTheLastMoveThatOthersHaveToDoWith) {
+  PassingInstruction instruction = bend();
+  instruction.alone_from = 2;
+  FollowedOrder order(instruction);
+  order.grant(by({}));
+  order.note_drive({2.0, 0.2});
+  EXPECT_FALSE(order.is_over()) << "not promised";
+  order.note_promise(to_rest_at({2.0, 1.0}));
+  order.note_drive({1.5, 0.0});
+  EXPECT_FALSE(order.is_over()) << "not by there yet";
+  order.note_drive({2.0, 0.1});
+  EXPECT_TRUE(order.is_over());
+  EXPECT_EQ(order.moves(), 3U);
+}
+
+TEST(FollowedOrder, ItIsNotOverWhereTheRobotDrivesByOnlyUpToThere) {
+  PassingInstruction instruction = bend();
+  instruction.alone_from = 2;
+  FollowedOrder order(instruction);
+  order.grant(by({}));
+  order.note_promise(to_rest_at({1.5, 0.0}));
+  order.note_drive({1.5, 0.0});
+  EXPECT_FALSE(order.is_over());
+}
+
+TEST(FollowedOrder, ItIsOverAtOnceForWhoHasNothingToDoWithOthers) {
+  PassingInstruction instruction = bend();
+  instruction.alone_from = 0;
+  EXPECT_TRUE(FollowedOrder(instruction).is_over());
 }
 
 TEST(FollowedOrder, WithoutMovesItIsOverAtOnce) {

@@ -12,9 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include "planning/candidates/peer_discs.h"
 #include "planning/candidates/start_maneuver.h"
 #include "planning/executive/passing_policy.h"
+#include "planning/global/front_end.h"
+#include "planning/passing/few_places.h"
 #include "planning/worlds.h"
+#include "topology/paths/grid_path.h"
 #include "trajectory/rover_braking.h"
 
 namespace mocha {
@@ -49,8 +53,8 @@ inline Motion drive_along(const std::vector<Vector2>& path, double start_s, doub
   return Motion(start_s, std::move(phases));
 }
 
-/// Robots that stand, but for what their orders let them drive, and tell each other what their
-/// policies say.
+/// Robots that stand until an order lets them drive, and tell each other what their policies say.
+/// Those that an order is over for drive on to their goals, where others leave a way.
 class PassingFleet : public ::testing::Test {
  protected:
   struct Robot {
@@ -60,6 +64,7 @@ class PassingFleet : public ::testing::Test {
     std::optional<Vector2> goal;
     bool takes_part = true;
     bool drives = true;  ///< what its order lets it
+    bool keeps = false;  ///< says that it keeps to an order, or is through
     std::vector<PassingMessage> said;
 
     Vector2 place(double now_s) const { return committed.at(now_s).pose.position; }
@@ -74,6 +79,7 @@ class PassingFleet : public ::testing::Test {
                        goal,
                        true,
                        true,
+                       false,
                        {}});
     return robots_.back();
   }
@@ -103,12 +109,36 @@ class PassingFleet : public ::testing::Test {
         robot.policy->step({now_s_, measured, robot.committed, robot.goal},
                            [&](const std::vector<Vector2>&) { return scene_of(robot); });
     robot.said.insert(robot.said.end(), messages.begin(), messages.end());
-    const auto& stretch = robot.policy->stretch();
-    const bool ends_there =
-        stretch && (stretch->end() - robot.committed.end_pose().position).norm() < 1e-3;
-    if (stretch && robot.drives && state.at_rest && !ends_there)
-      robot.committed = drive_along(stretch->path, now_s_ + 0.3, state.pose.yaw_rad, speed_);
+    for (const PassingMessage& message : messages) {
+      if (const auto* intent = std::get_if<PassingIntent>(&message))
+        robot.keeps = intent->follows.number > 0;
+    }
+    if (!robot.drives || !state.at_rest) return messages;
+    if (const auto& stretch = robot.policy->stretch()) {
+      drive(robot, stretch->path);
+    } else if (robot.keeps && !robot.policy->follows() && robot.goal) {
+      drive(robot, way(robot));
+    }
     return messages;
+  }
+
+  /// Unless it is to be there already.
+  void drive(Robot& robot, const std::vector<Vector2>& path) const {
+    const Pose end = robot.committed.end_pose();
+    if (!path.empty() && (path.back() - end.position).norm() > 1e-3)
+      robot.committed = drive_along(path, now_s_ + 0.3, end.yaw_rad, speed_);
+  }
+
+  /// To its goal, where others leave one; else empty.
+  std::vector<Vector2> way(const Robot& robot) const {
+    const Vector2 from = robot.committed.end_pose().position;
+    std::vector<BlockedDisc> blocked;
+    for (const auto& peer : scene_of(robot).peers)
+      blocked.push_back(peer_keep_out(*peer, peer->rest_time(), rover(), 0.0));
+    const TravelCost cost(*static_map_, from, std::move(blocked),
+                          homotopy_path_options(rover(), default_options()).travel);
+    const auto path = find_grid_path(*static_map_, from, *robot.goal, cost, kLatticeStep_m).points;
+    return path.empty() ? path : few_places(path, 8);
   }
 
   /// All step, and hear what the others say a moment later.

@@ -21,11 +21,12 @@ PassingIntent intent_of(const std::string& agent, bool calls, PassingOrderId fol
 /// own.
 PassingInstruction order(const std::vector<Vector2>& places, std::uint32_t after = 0,
                          std::uint32_t number = 1) {
-  PassingInstruction instruction{{"ugv1", 1, number}, "ugv2", {"ugv1", "ugv2"}, 0, 0, {}};
+  PassingInstruction instruction{{"ugv1", 1, number}, "ugv2", {"ugv1", "ugv2"}, 0, 0, 0, {}};
   for (std::size_t i = 1; i < places.size(); ++i)
     instruction.part.push_back({{places[i - 1], places[i]}, {}});
   if (after > 0) instruction.part.front().after = {{0, after}};
   instruction.turns = static_cast<std::uint32_t>(instruction.part.size());
+  instruction.alone_from = instruction.turns;
   return instruction;
 }
 
@@ -445,6 +446,24 @@ TEST_F(PassingPolicyTest, WhoIsThroughSaysSoAsLongAsOthersWait) {
     EXPECT_EQ(said<PassingIntent>(robot).back().follows, instruction.id);
     EXPECT_EQ(said<PassingIntent>(robot).back().moves, 1u);
   }
+}
+
+/// It is through for the others, too, who may wait for what it has not driven yet.
+TEST_F(PassingPolicyTest, WhoHasNothingToDoWithOthersAnyMoreIsThrough) {
+  Robot& robot = add("ugv2", {-2.0, 0.0}, Vector2(4.0, 0.0));
+  PassingInstruction instruction = order({{-2.0, 0.0}, {0.0, 0.0}, {2.0, 0.0}, {4.0, 0.0}});
+  instruction.alone_from = 1;
+  robot.policy->hear(instruction, now_s_);
+  while (robot.place(now_s_).x() < -0.7) {
+    step();
+    ASSERT_TRUE(robot.policy->follows());
+  }
+  run(1.0);
+  EXPECT_FALSE(robot.policy->follows());
+  EXPECT_LT(robot.place(now_s_).x(), 1.0) << "on its way";
+  ASSERT_FALSE(robot.said.empty());
+  EXPECT_EQ(said<PassingIntent>(robot).back().follows, instruction.id);
+  EXPECT_EQ(said<PassingIntent>(robot).back().moves, 3U);
 }
 
 TEST_F(PassingPolicyTest, NobodySaysAnythingWhenAllIsOver) {

@@ -49,8 +49,7 @@ void drive(const PassingProblem& problem, const PassingOrder& order, int seed) {
     const PlaceMove& move = move_of(problem.graph, placing[robot], order[robot][made[robot]].path);
     for (int other = 0; other < robots; ++other) {
       if (other == robot) continue;
-      ASSERT_FALSE(
-          std::binary_search(move.blocked_by.begin(), move.blocked_by.end(), placing[other]));
+      ASSERT_FALSE(move.blocked_by.contains(placing[other]));
     }
     placing[robot] = move.to;
     ++made[robot];
@@ -71,6 +70,57 @@ TEST(PassingOrder, LeadsToTheGoalsInWhateverOrderItAllows) {
     }
   }
   EXPECT_GT(waits, 50);
+}
+
+/// Whether the moves, or where they end, are in the way of each other.
+bool meet(const PlaceMove& a, const PlaceMove& b) {
+  return a.blocked_by.contains(b.to) || b.blocked_by.contains(a.to);
+}
+
+TEST(PassingOrder, WhatARobotDrivesAloneMeetsNoMoveOfOthers) {
+  std::uint32_t alone = 0;
+  auto puzzles = test::puzzles();
+  puzzles.push_back(
+      {"arms",
+       {"###b###", "###.###", "###.###", "a......", "###.###", "###.###", "###.###"},
+       {"###.###", "###.###", "###.###", "......a", "###.###", "###.###", "###b###"}});
+  for (const auto& puzzle : puzzles) {
+    const PassingProblem problem = test::in_space(puzzle);
+    const PassingSequence sequence = test::solved(problem);
+    if (sequence.outcome != PassingSequence::Outcome::kFound) continue;
+    const int robots = static_cast<int>(problem.starts.size());
+    const PassingOrder order = order_of(sequence.steps, robots);
+    const std::vector<std::uint32_t> from = alone_from(order);
+    std::vector<std::vector<PlaceMove>> moves(robots);
+    for (int robot = 0; robot < robots; ++robot) {
+      ASSERT_LE(from[robot], order[robot].size());
+      int place = problem.starts[robot];
+      for (const PassingTurn& turn : order[robot]) {
+        moves[robot].push_back(move_of(problem.graph, place, turn.path));
+        place = moves[robot].back().to;
+      }
+    }
+    for (int robot = 0; robot < robots; ++robot) {
+      for (std::uint32_t i = from[robot]; i < moves[robot].size(); ++i, ++alone) {
+        EXPECT_TRUE(order[robot][i].after.empty());
+        for (int other = 0; other < robots; ++other) {
+          if (other == robot) continue;
+          for (const PlaceMove& move : moves[other])
+            EXPECT_FALSE(meet(moves[robot][i], move)) << puzzle.name;
+        }
+      }
+    }
+  }
+  EXPECT_GE(alone, 3U);
+}
+
+TEST(PassingOrder, ARobotIsAloneOnceItWaitsForNobodyNorAnybodyForIt) {
+  const PassingTurn free{{{0.0, 0.0}, {1.0, 0.0}}, {}};
+  PassingTurn second = free;
+  second.after = {{1, 2}};
+  const std::vector<std::uint32_t> two_wait = {2, 2, 0};
+  EXPECT_EQ(alone_from({{free, second, free}, {free, free, free}, {free}}), two_wait);
+  EXPECT_TRUE(alone_from({}).empty());
 }
 
 TEST(PassingOrder, RobotsThatDoNotMeetDoNotWait) {

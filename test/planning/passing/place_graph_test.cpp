@@ -48,8 +48,7 @@ TEST(PlaceGraph, PathsAreFreeAndSayWhoIsInTheirWay) {
           }
         }
         for (int other = 0; other < graph.size(); ++other) {
-          const bool blocks =
-              std::binary_search(move.blocked_by.begin(), move.blocked_by.end(), other);
+          const bool blocks = move.blocked_by.contains(other);
           if (other == from || other == move.to) {
             EXPECT_EQ(blocks, other == move.to);
             continue;
@@ -136,7 +135,7 @@ TEST(PlaceGraph, RobotsThatAreTooCloseCanLeaveEachOther) {
   ASSERT_FALSE(graph.moves[0].empty());
   bool leaves = false;
   for (const PlaceMove& move : graph.moves[0]) {
-    const bool blocked = std::binary_search(move.blocked_by.begin(), move.blocked_by.end(), 1);
+    const bool blocked = move.blocked_by.contains(1);
     const bool away = graph.places[move.to].x() < 2.7;
     EXPECT_EQ(blocked, !away);
     leaves = leaves || away;

@@ -21,8 +21,7 @@ inline constexpr double kPerMove_m = 1.0;  // what a move costs beside its lengt
 inline bool is_free(const PlaceMove& move, const Placing& placing, int robot) {
   for (int other = 0; other < static_cast<int>(placing.size()); ++other) {
     if (other == robot) continue;
-    if (std::binary_search(move.blocked_by.begin(), move.blocked_by.end(), placing[other]))
-      return false;
+    if (move.blocked_by.contains(placing[other])) return false;
   }
   return true;
 }
@@ -115,10 +114,9 @@ inline PassingProblem random_problem(int seed) {
   for (int more = 0; more < seed % 3; ++more) join(random() % places, random() % places);
   for (int place = 0; place < places; ++place) {
     for (const int to : neighbours[place]) {
-      std::vector<int> blocked_by = {to};
+      PlaceSet blocked_by = {to};
       const int passed = static_cast<int>(random() % places);
-      if (random() % 5 == 0 && passed != to && passed != place) blocked_by.push_back(passed);
-      std::sort(blocked_by.begin(), blocked_by.end());
+      if (random() % 5 == 0 && passed != to && passed != place) blocked_by.insert(passed);
       const auto& at = problem.graph.places;
       problem.graph.moves[place].push_back(
           {to, (at[to] - at[place]).norm(), {at[place], at[to]}, blocked_by});

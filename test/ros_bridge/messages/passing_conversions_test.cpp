@@ -15,7 +15,7 @@ PassingIntent intent() {
 }
 
 PassingInstruction instruction() {
-  PassingInstruction instruction{{"ugv1", 3, 5}, "ugv2", {"ugv1", "ugv2", "ugv3"}, 8, 2, {}};
+  PassingInstruction instruction{{"ugv1", 3, 5}, "ugv2", {"ugv1", "ugv2", "ugv3"}, 8, 5, 2, {}};
   instruction.part.push_back({{{0.0, 1.0}, {0.5, 1.0}, {0.5, 2.0}}, {{0, 3}, {2, 1}}});
   instruction.part.push_back({{{0.5, 2.0}, {0.5, 3.0}}, {}});
   return instruction;
@@ -46,6 +46,7 @@ TEST(PassingConversions, GiveBackInstructions) {
   EXPECT_EQ(heard.robot, "ugv2");
   EXPECT_EQ(heard.robots, sent.robots);
   EXPECT_EQ(heard.turns, 8U);
+  EXPECT_EQ(heard.alone_from, 5U);
   EXPECT_EQ(heard.first, 2U);
   ASSERT_EQ(heard.part.size(), 2U);
   EXPECT_EQ(heard.part[0].path, sent.part[0].path);
