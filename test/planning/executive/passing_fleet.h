@@ -203,4 +203,23 @@ class PassingFleet : public ::testing::Test {
   std::uniform_real_distribution<double> lost_{0.0, 1.0};
 };
 
+/// What a robot without a goal says.
+inline PassingIntent intent_of(const std::string& agent, bool calls, PassingOrderId follows = {},
+                               std::uint32_t moves = 0) {
+  return {agent, 1, 0, calls, 0.3, std::nullopt, std::move(follows), moves};
+}
+
+/// What ugv1 orders ugv2 to do: straight moves from place to place, the first after so many of its
+/// own.
+inline PassingInstruction order(const std::vector<Vector2>& places, std::uint32_t after = 0,
+                                std::uint32_t number = 1) {
+  PassingInstruction instruction{{"ugv1", 1, number}, "ugv2", {"ugv1", "ugv2"}, 0, 0, 0, {}};
+  for (std::size_t i = 1; i < places.size(); ++i)
+    instruction.part.push_back({{places[i - 1], places[i]}, {}});
+  if (after > 0) instruction.part.front().after = {{0, after}};
+  instruction.turns = static_cast<std::uint32_t>(instruction.part.size());
+  instruction.alone_from = instruction.turns;
+  return instruction;
+}
+
 }  // namespace mocha

@@ -38,9 +38,7 @@ TEST_F(PassingMakingTest, ARobotHoldsFromTheFirstCallUntilAnOrderMayHaveCome) {
 
 TEST_F(PassingMakingTest, WhoKeepsToAnOrderDoesNotHold) {
   Robot& robot = add("ugv2", {-3.0, 0.0}, Vector2(-1.0, 0.0));
-  PassingInstruction order{{"ugv1", 1, 1}, "ugv2", {"ugv1", "ugv2"}, 1, 1, 0, {}};
-  order.part.push_back({{{-3.0, 0.0}, {-1.0, 0.0}}, {}});
-  robot.policy->hear(order, now_s_);
+  robot.policy->hear(order({{-3.0, 0.0}, {-1.0, 0.0}}), now_s_);
   robot.policy->hear(call_of("ugv1"), now_s_);
   run(kStep_s);
   ASSERT_TRUE(robot.policy->follows());

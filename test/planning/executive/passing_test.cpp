@@ -68,6 +68,30 @@ TEST_F(PassingTest, ToTheGoalAnyPathWillDo) {
   EXPECT_TRUE(asked_[0].along.empty());
 }
 
+/// It does not brake for want of a plan, and asks for one again.
+TEST_F(PassingTest, WhoIsThroughDrivesWhatItHasPromisedUntilThereIsAPlanToItsGoal) {
+  step();
+  PassingInstruction instruction = ordered({{0.0, 0.0}, {1.0, 0.0}, {3.0, 0.0}});
+  instruction.alone_from = 1;
+  hear(instruction);
+  step();
+  committed_ = executive_.plan();
+  reason_ = PlanReason::kBudgetExhausted;
+  std::vector<Vector2> goals;
+  for (int i = 0; i < 100 && now_s_ < committed_.end_time() - 0.5; ++i) {
+    state_.pose = committed_.at(now_s_).pose;
+    state_.twist = {committed_.at(now_s_).speed, 0.0};
+    const auto output = step();
+    EXPECT_TRUE(!output.plan || keeps_promise(output));
+    if (output.planned) goals.push_back(query_.goal);
+  }
+  ASSERT_FALSE(goals.empty());
+  EXPECT_EQ(goals.back(), Vector2(kLength_m, 0.0));
+  reason_ = PlanReason::kSolved;
+  run(3.0);
+  EXPECT_NEAR((end_of_plan() - Vector2(kLength_m, 0.0)).norm(), 0.0, 1e-6);
+}
+
 TEST_F(PassingTest, WaitsForItsTurnWhereItsPromiseEnds) {
   step();
   hear(ordered({{0.0, 0.0}, {2.0, 0.0}}, {1}));
