@@ -57,7 +57,7 @@ struct PassingInstruction {
   std::string robot;                ///< whom it is for
   std::vector<std::string> robots;  ///< all that the order is for
   std::uint32_t turns = 0;          ///< so many there are altogether
-  std::uint32_t alone_from = 0;     ///< from this one on, none waits for others, nor others for it
+  std::uint32_t alone_from = 0;     ///< no turn from this number on has to do with others
   std::uint32_t first = 0;          ///< number of part.front(), from 0
   std::vector<PassingTurn> part;
 };

@@ -33,10 +33,10 @@ struct PassingSituation {
 /// told goes on move by move, each as soon as those before it are promised.
 ///
 /// What follows. An order that was made leads all that it is for past each other, whatever their
-/// timing, as long as they keep to it (PassingOrder) and the map holds, and then the way to each
-/// goal is free; where not all can get there, the highest ranks do. Who strays, gets stuck for
-/// long, or takes another goal leaves the order, and calls anew if need be. Orders bind nobody:
-/// what may be driven is settled by promises alone.
+/// timing, as long as they keep to it (PassingOrder) and the map holds; then the way to each goal
+/// is free. Where not all can get to their goals, the highest ranks do. A robot that strays, gets
+/// stuck for long, or takes another goal leaves the order, and calls anew if need be. Orders bind
+/// nobody: what may be driven is settled by promises alone.
 class PassingPolicy {
  public:
   PassingPolicy(std::string name, int priority, RobotModel robot, const PlannerOptions& options);

@@ -14,7 +14,8 @@ using PassingOrder = std::vector<std::vector<PassingTurn>>;
 
 PassingOrder order_of(const std::vector<JointStep>& steps, int robots);
 
-/// Of each robot, the number of the move from which on it waits for no other robot, nor one for it.
+/// Returns for each robot the number of its first move from which on none of its moves waits for
+/// another robot, and no other robot for them.
 std::vector<std::uint32_t> alone_from(const PassingOrder& order);
 
 }  // namespace mocha

@@ -1,4 +1,4 @@
-// Who has been told what to do, from the first instruction on to the end.
+// What a robot does that was ordered to pass: from its first instruction to the end of the order.
 #include <gtest/gtest.h>
 
 #include "planning/executive/passing_fleet.h"
@@ -253,7 +253,7 @@ TEST_F(PassingFollowingTest, WhoIsThroughSaysSoAsLongAsOthersWait) {
   }
 }
 
-/// It is through for the others, too, who may wait for what it has not driven yet.
+/// The robot says that it has promised all its moves: others may wait for those it does not make.
 TEST_F(PassingFollowingTest, WhoHasNothingToDoWithOthersAnyMoreIsThrough) {
   Robot& robot = add("ugv2", {-2.0, 0.0}, Vector2(4.0, 0.0));
   PassingInstruction instruction = order({{-2.0, 0.0}, {0.0, 0.0}, {2.0, 0.0}, {4.0, 0.0}});
