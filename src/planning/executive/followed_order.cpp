@@ -72,6 +72,10 @@ bool FollowedOrder::may_begin(std::size_t move, const PromisedBy& promised_by) c
   });
 }
 
+bool FollowedOrder::turns_back_before(std::size_t move) const {
+  return turns_back(turns_[move - 1]->path, turns_[move]->path);
+}
+
 PassingStretch FollowedOrder::stretch_until(std::uint32_t until) const {
   PassingStretch stretch{id_, made_, until, {}};
   for (std::uint32_t move = made_; move < until; ++move) {
@@ -83,10 +87,14 @@ PassingStretch FollowedOrder::stretch_until(std::uint32_t until) const {
 }
 
 std::optional<PassingStretch> FollowedOrder::grant(const PromisedBy& promised_by) {
+  // It drives to the end of what it has promised, and then back: that can be promised by now.
+  if (made_ < promised_ && promised_ == granted_ && promised_ < turns_.size() &&
+      may_begin(promised_, promised_by) && turns_back_before(promised_))
+    made_ = promised_;
   std::uint32_t until = made_;
   while (until < turns_.size()) {
     if (until >= granted_ && !may_begin(until, promised_by)) break;
-    if (until > made_ && turns_back(turns_[until - 1]->path, turns_[until]->path)) break;
+    if (until > made_ && turns_back_before(until)) break;
     ++until;
   }
   granted_ = std::max(granted_, until);

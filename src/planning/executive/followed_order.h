@@ -54,7 +54,9 @@ class FollowedOrder {
   void note_drive(const Vector2& place);
 
   /// Grants the moves from the last stop on that may be made by now: none has to wait for another
-  /// robot, and they do not turn back. Nothing where it has to wait.
+  /// robot, and they do not turn back. Where they end, as promised, and the next may be made and
+  /// turns back, that is the last stop, though the robot still drives there. Nothing where it has
+  /// to wait.
   std::optional<PassingStretch> grant(const PromisedBy& promised_by);
   /// The robots that have to promise moves before the one after the last stop may begin.
   std::vector<std::string> waits_for(const PromisedBy& promised_by) const;
@@ -64,13 +66,15 @@ class FollowedOrder {
 
  private:
   bool may_begin(std::size_t move, const PromisedBy& promised_by) const;
+  /// Both moves must be known.
+  bool turns_back_before(std::size_t move) const;
   PassingStretch stretch_until(std::uint32_t until) const;
 
   PassingOrderId id_;
   std::vector<std::string> robots_;
   std::vector<std::optional<PassingTurn>> turns_;
   std::uint32_t alone_from_;
-  std::uint32_t made_ = 0;      // before it stood last
+  std::uint32_t made_ = 0;      // before the last stop
   std::uint32_t promised_ = 0;  // made ones among them
   std::uint32_t granted_ = 0;   // the same
 };

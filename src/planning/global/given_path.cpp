@@ -10,8 +10,10 @@
 namespace mocha {
 namespace {
 
-constexpr double kOnPath_m = 0.3;
-constexpr double kComes_s = 0.5;  // before it rests, a robot moves as it comes
+constexpr double kAtBeginning_m = 0.3;
+constexpr double kSame_m = 0.01;
+constexpr double kComes_m = 0.1;  // before its end, a motion leads as it arrives there
+constexpr double kLook_s = 0.1;
 
 double off_m(const std::vector<Vector2>& path, std::size_t segment, const Vector2& from) {
   return (from - nearest_on_segment(from, path[segment - 1], path[segment])).norm();
@@ -28,15 +30,21 @@ std::vector<Vector2> rest_of(const std::vector<Vector2>& path, const Vector2& fr
   return rest;
 }
 
-/// Whether the robot is still on its way to the beginning of the given path.
+/// Whether a robot at `from` is still on its way to the beginning of the given path, where its
+/// promise ends. It may come the way that it is to go back.
 bool comes_to_path(const PlanQuery& query, const Vector2& from) {
   const std::vector<Vector2>& path = query.along;
+  if (path.size() < 2 || query.committed.end_time() <= query.start_time_s) return false;
   const Vector2& promised = query.committed.end_pose().position;
-  if (path.size() < 2 || (promised - path.front()).norm() > kOnPath_m) return false;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    if (off_m(path, i, from) < kOnPath_m) return false;
-  }
-  return true;
+  return (promised - path.front()).norm() < kAtBeginning_m && (from - promised).norm() > kSame_m;
+}
+
+/// From where a motion arrives at its end.
+Vector2 arrival(const Motion& motion, double from_s) {
+  const Vector2& end = motion.end_pose().position;
+  double t = motion.end_time();
+  while (t > from_s && (end - motion.position(t)).norm() < kComes_m) t -= kLook_s;
+  return end - motion.position(t);
 }
 
 }  // namespace
@@ -50,10 +58,10 @@ std::vector<Vector2> given_path(const PlanQuery& query, const Vector2& from, dou
 }
 
 bool turns_back_first(const PlanQuery& query, const MotionState& start) {
-  if (start.at_rest || !comes_to_path(query, start.pose.position)) return false;
-  const Vector2& end = query.committed.end_pose().position;
-  const Vector2 comes = end - query.committed.position(query.committed.end_time() - kComes_s);
-  return std::abs(angle_between(comes, query.along[1] - end)) > kTurnsBack_rad;
+  if (!comes_to_path(query, start.pose.position)) return false;
+  const Vector2 comes = arrival(query.committed, query.start_time_s);
+  const Vector2 goes = query.along[1] - query.along[0];
+  return std::abs(angle_between(comes, goes)) > kTurnsBack_rad;
 }
 
 }  // namespace mocha

@@ -12,7 +12,7 @@ namespace mocha {
 std::vector<Vector2> given_path(const PlanQuery& query, const Vector2& from, double max_speed);
 
 /// Whether there is a path that turns back where it begins and the promise ends, to which the robot
-/// still drives: it comes to rest there first, whatever the path.
+/// still drives, or is yet to set off: it comes to rest there first, whatever the path.
 bool turns_back_first(const PlanQuery& query, const MotionState& start);
 
 }  // namespace mocha

@@ -34,6 +34,13 @@ PassingInstruction bend() {
       {turn({0.0, 0.0}, {1.0, 0.0}), turn({1.0, 0.0}, {2.0, 0.0}), turn({2.0, 0.0}, {2.0, 1.0})});
 }
 
+/// Into a siding and out again.
+PassingInstruction siding() {
+  return part(
+      3, 0,
+      {turn({0.0, 0.0}, {1.0, 0.0}), turn({1.0, 0.0}, {1.0, 1.0}), turn({1.0, 1.0}, {1.0, -1.0})});
+}
+
 Motion to_rest_at(const Vector2& place) { return standing(0.0, place, 0.0); }
 
 TEST(FollowedOrder, GrantsAllMovesThatWaitForNobodyAsOneStretch) {
@@ -106,19 +113,42 @@ TEST(FollowedOrder, APartThatIsNotOfThisOrderChangesNothing) {
 }
 
 TEST(FollowedOrder, AStretchEndsWhereTheWayTurnsBack) {
-  // Into a siding and out again.
-  FollowedOrder order(part(
-      3, 0,
-      {turn({0.0, 0.0}, {1.0, 0.0}), turn({1.0, 0.0}, {1.0, 1.0}), turn({1.0, 1.0}, {1.0, -1.0})}));
-  EXPECT_EQ(order.grant(by({}))->until, 2u) << "square bends are driven through";
+  FollowedOrder order(siding());
+  const auto in = order.grant(by({}));
+  ASSERT_TRUE(in);
+  EXPECT_EQ(in->until, 2u) << "square bends are driven through";
+  EXPECT_EQ(in->end(), Vector2(1.0, 1.0));
+}
+
+TEST(FollowedOrder, ThatItIsToTurnBackCanBePromisedBeforeTheRobotIsThere) {
+  FollowedOrder order(siding());
+  order.grant(by({}));
+  order.note_promise(to_rest_at({1.0, 0.5}));
+  EXPECT_EQ(order.grant(by({}))->until, 2u) << "it has not promised to get there";
   order.note_promise(to_rest_at({1.0, 1.0}));
-  EXPECT_EQ(order.grant(by({}))->until, 2u) << "not there yet";
-  order.note_stand({1.0, 1.0}, 0.15);
   const auto back = order.grant(by({}));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->from, 2u);
   EXPECT_EQ(back->until, 3u);
   EXPECT_EQ(back->path.front(), Vector2(1.0, 1.0));
+}
+
+/// Until then, a quicker way there can be promised.
+TEST(FollowedOrder, WhereItTurnsBackIsNoStopBeforeItMayGoOnOrStandsThere) {
+  PassingInstruction instruction = siding();
+  instruction.part[2].after = {{0, 1}};
+  FollowedOrder order(instruction);
+  order.grant(by({}));
+  order.note_promise(to_rest_at({1.0, 1.0}));
+  const auto in = order.grant(by({}));
+  ASSERT_TRUE(in);
+  EXPECT_EQ(in->from, 0u);
+  EXPECT_EQ(in->until, 2u);
+  FollowedOrder stands = order;
+  EXPECT_EQ(order.grant(by({{"ugv1", 1}}))->from, 2u);
+  stands.note_stand({1.0, 1.0}, 0.15);
+  EXPECT_FALSE(stands.grant(by({})));
+  EXPECT_EQ(stands.grant(by({{"ugv1", 1}}))->from, 2u);
 }
 
 TEST(FollowedOrder, PromisedIsWhatTheMotionInForceLeadsThrough) {

@@ -176,6 +176,23 @@ TEST_F(FrontEndTest, AlongAPathThatTurnsBackItComesToRestFirst) {
   EXPECT_EQ(start.path, query_.along);
 }
 
+/// Under way, and while it waits before it sets off.
+TEST_F(FrontEndTest, AlongAPathBackTheWayItComesItComesToRestFirst) {
+  const Motion drives = straight_drive(-2.0, {-3.0, 0.0}, 0.0, 3.0, 0.8, 0.8);
+  const StandPhase stands{{{-3.0, 0.0}, 0.0}, 2.0};
+  query_.start_time_s = 0.0;
+  query_.along = {{0.0, 0.0}, {-3.0, 0.0}};
+  for (const Motion& committed : {drives, Motion(-1.0, {stands, drives.phases().front()})}) {
+    query_.committed = committed;
+    const GlobalSeeds found = seeds();
+    ASSERT_EQ(found.list.size(), 1u);
+    const StartManeuver& start = found.list[0].start_maneuvers.at(0);
+    EXPECT_NEAR(start.duration_s, committed.end_time(), 1e-6) << "as it has promised";
+    EXPECT_EQ(start.direction, -1);
+    EXPECT_EQ(start.path, query_.along);
+  }
+}
+
 TEST_F(FrontEndTest, AlongAPathWhoStandsThereChangesNothing) {
   query_.along = {{-2.0, 0.0}, {-2.0, 3.0}, {2.0, 3.0}, kGoal};
   PlanningScene scene{static_map_of(grid_), {}};

@@ -88,7 +88,7 @@ TEST_F(LocalRulesTest, GoesOnAlongThePlanAndIsCertifiedUpToThere) {
 TEST_F(LocalRulesTest, IsNoMotionWhereItComesMuchTooLate) {
   const auto& plan = std::get<DrivePhase>(query_.plan.phases()[0]).path;
   PlanCandidate candidate;
-  const StartManeuver waits{{}, 2.0 * options_.mu_s, {}, {}};
+  const StartManeuver waits{{}, 2.0 * options_.mu_s, 1, {}, {}};
   EXPECT_FALSE(rules_.assemble(waits, plan.slice(3.0, back_.rejoin_point.plan_time_s), candidate));
   EXPECT_TRUE(candidate.motion.empty());
 }
