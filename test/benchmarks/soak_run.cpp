@@ -273,6 +273,8 @@ class Soak {
       run_.promises.refusals += counts.refusals;
       wait_s = std::max(wait_s, clients_[i].watch.update(run_.time_s, state(i).pose.position));
     }
+    // They are of no robot, and come and go with what is seen.
+    sight_.forget_maps();
     run_.minutes.push_back({memory_bytes(), run_.arrivals, wait_s});
   }
 

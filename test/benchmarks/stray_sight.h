@@ -21,6 +21,8 @@ class StraySight {
   void look(double now_s, const std::vector<RobotState>& truth);
   /// What robot `observer` knows now.
   RobotSenses senses(int observer, double now_s, const RobotNodes& nodes);
+  /// Maps that are kept in case they are needed again are drawn anew from now on.
+  void forget_maps() { drawn_.clear(); }
 
  private:
   bool sees(const Vector2& from, const Vector2& to) const;
