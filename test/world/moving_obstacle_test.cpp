@@ -37,6 +37,31 @@ TEST(PeerObstacle, HoldsAPeerThatIsEarlyOrLate) {
   }
 }
 
+/// As proofs in continuous time take it: centre and radius change uniformly between two looks, and
+/// what that leaves out is the chord error.
+TEST(PeerObstacle, SticksOutByNoMoreThanItSays) {
+  for (const double mistimed_s : {0.0, 0.3}) {
+    for (int seed = 0; seed < 10; ++seed) {
+      const auto motion =
+          std::make_shared<const Motion>(10.0, std::vector<Phase>{random_drive(seed, 4)});
+      const PeerObstacle peer("ugv2", motion, 0.3, test::kRoverBraking, mistimed_s);
+      for (const double span_s : {0.05, 0.2, 1.0}) {
+        for (double from_s = 9.0; from_s < motion->end_time() + 0.5; from_s += 0.07) {
+          const auto first = peer.at(from_s);
+          const auto last = peer.at(from_s + span_s);
+          const double error_m = peer.chord_error_m(from_s, from_s + span_s);
+          for (double share = 0.1; share < 1.0; share += 0.2) {
+            const auto disc = peer.at(from_s + share * span_s);
+            const Vector2 centre = (1.0 - share) * first.centre + share * last.centre;
+            const double radius_m = (1.0 - share) * first.radius_m + share * last.radius_m;
+            EXPECT_LE((disc.centre - centre).norm() + disc.radius_m, radius_m + error_m + 1e-9);
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(PeerObstacle, ClosingSpeedIsABoundAndNotALooseOne) {
   for (int seed = 0; seed < 20; ++seed) {
     const auto motion =
