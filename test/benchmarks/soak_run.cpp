@@ -273,7 +273,7 @@ class Soak {
       run_.promises.refusals += counts.refusals;
       wait_s = std::max(wait_s, clients_[i].watch.update(run_.time_s, state(i).pose.position));
     }
-    // They are of no robot, and come and go with what is seen.
+    // The maps that the sight keeps belong to no robot, and come and go with what is seen.
     sight_.forget_maps();
     run_.minutes.push_back({memory_bytes(), run_.arrivals, wait_s});
   }

@@ -21,7 +21,7 @@ class StraySight {
   void look(double now_s, const std::vector<RobotState>& truth);
   /// What robot `observer` knows now.
   RobotSenses senses(int observer, double now_s, const RobotNodes& nodes);
-  /// Maps that are kept in case they are needed again are drawn anew from now on.
+  /// Drops the maps that are kept in case they are needed again.
   void forget_maps() { drawn_.clear(); }
 
  private:

@@ -87,7 +87,8 @@ PassingStretch FollowedOrder::stretch_until(std::uint32_t until) const {
 }
 
 std::optional<PassingStretch> FollowedOrder::grant(const PromisedBy& promised_by) {
-  // It drives to the end of what it has promised, and then back: that can be promised by now.
+  // The robot drives to the end of what it has promised, whatever follows: the way back can be
+  // promised by now.
   if (made_ < promised_ && promised_ == granted_ && promised_ < turns_.size() &&
       may_begin(promised_, promised_by) && turns_back_before(promised_))
     made_ = promised_;

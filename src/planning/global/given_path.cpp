@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kAtBeginning_m = 0.3;
 constexpr double kSame_m = 0.01;
-constexpr double kComes_m = 0.1;  // before its end, a motion leads as it arrives there
+constexpr double kLastStretch_m = 0.1;
 constexpr double kLook_s = 0.1;
 
 double off_m(const std::vector<Vector2>& path, std::size_t segment, const Vector2& from) {
@@ -39,11 +39,11 @@ bool comes_to_path(const PlanQuery& query, const Vector2& from) {
   return (promised - path.front()).norm() < kAtBeginning_m && (from - promised).norm() > kSame_m;
 }
 
-/// From where a motion arrives at its end.
-Vector2 arrival(const Motion& motion, double from_s) {
+/// Returns the last stretch of a motion, from a place shortly before its end to the end [m].
+Vector2 last_stretch(const Motion& motion, double from_s) {
   const Vector2& end = motion.end_pose().position;
   double t = motion.end_time();
-  while (t > from_s && (end - motion.position(t)).norm() < kComes_m) t -= kLook_s;
+  while (t > from_s && (end - motion.position(t)).norm() < kLastStretch_m) t -= kLook_s;
   return end - motion.position(t);
 }
 
@@ -59,7 +59,7 @@ std::vector<Vector2> given_path(const PlanQuery& query, const Vector2& from, dou
 
 bool turns_back_first(const PlanQuery& query, const MotionState& start) {
   if (!comes_to_path(query, start.pose.position)) return false;
-  const Vector2 comes = arrival(query.committed, query.start_time_s);
+  const Vector2 comes = last_stretch(query.committed, query.start_time_s);
   const Vector2 goes = query.along[1] - query.along[0];
   return std::abs(angle_between(comes, goes)) > kTurnsBack_rad;
 }

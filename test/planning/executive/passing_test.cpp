@@ -68,7 +68,7 @@ TEST_F(PassingTest, ToTheGoalAnyPathWillDo) {
   EXPECT_TRUE(asked_[0].along.empty());
 }
 
-/// The robot neither brakes for want of a plan nor stops asking for one.
+/// The robot keeps its promise meanwhile, and goes on asking for a plan.
 TEST_F(PassingTest, WhoIsThroughDrivesWhatItHasPromisedUntilThereIsAPlanToItsGoal) {
   step();
   PassingInstruction instruction = ordered({{0.0, 0.0}, {1.0, 0.0}, {3.0, 0.0}});
