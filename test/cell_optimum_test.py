@@ -43,6 +43,13 @@ class CellOptimumTest(unittest.TestCase):
     def test_a_siding_lets_them_pass(self):
         self.assertEqual(steps_of(corridor(3, [(0, 2), (2, 0)], siding=1)), 4)
 
+    def test_many_are_as_quick_as_the_farthest_where_nobody_is_in_the_way(self):
+        self.assertEqual(steps_of(corridor(12, [(cell, cell + 5) for cell in range(7)])), 5)
+
+    def test_more_than_can_be_numbered_are_refused(self):
+        with self.assertRaises(ValueError):
+            steps_of(corridor(40, [(cell, cell + 1) for cell in range(12)]))
+
     def test_places_between_cells_are_none(self):
         world = corridor(4, [(0, 3)])
         world["robots"][0]["goal"][0] += 0.1

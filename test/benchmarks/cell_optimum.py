@@ -1,6 +1,5 @@
-"""The quickest plan of a puzzle of cells, by joint A*: in a step each robot stays or goes to a neighbouring cell that nobody is at or comes to afterwards;
-two do not swap. Cells are square, as many as fit between the outer walls of a world."""
-import heapq
+"""The quickest plan of a puzzle of cells, by breadth-first search from both ends: in a step each robot stays or goes to a neighbouring
+cell that nobody is at or comes to afterwards; two do not swap. Cells are square, as many as fit between the outer walls of a world."""
 import itertools
 
 import numpy
@@ -8,6 +7,7 @@ import yaml
 
 CELL_M = 1.2
 SPEED_MPS = 1.0  # of the rover
+ROWS_AT_ONCE = 20000  # for memory
 
 
 def _covers(polygon, point):
@@ -34,46 +34,67 @@ def _neighbours(world):
     return {(x, y): [each for each in ((x, y), (x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)) if each in free] for x, y in free}
 
 
-def _steps_to(goal, neighbours):
-    steps = {goal: 0}
-    front = [goal]
-    while front:
-        front = [cell for each in front for cell in neighbours[each] if steps.setdefault(cell, steps[each] + 1) == steps[each] + 1]
-        front = list(dict.fromkeys(front))
+def _steps_between(neighbours):
+    """From each cell to each, for one robot alone; -1 where there is no way."""
+    steps = numpy.full((len(neighbours), len(neighbours)), -1)
+    for start, row in enumerate(steps):
+        front = [start]
+        while front:
+            row[front] = row.max() + 1
+            front = [cell for cell in numpy.unique(neighbours[front]) if cell >= 0 and row[cell] < 0]
     return steps
 
 
-def _joint_steps(here, neighbours):
-    for there in itertools.product(*(neighbours[cell] for cell in here)):
-        if len(set(there)) == len(there) and not any(here[i] == there[j] and here[j] == there[i] for i in range(len(here)) for j in range(i)):
-            yield there
+def _joint_steps(here, neighbours, allowed):
+    """All that can follow: rows of a cell for each robot, of such rows. `allowed` tells for each robot and cell whether it may be there."""
+    there = here[:, :0]
+    for robot in range(here.shape[1]):
+        options = neighbours[here[:, robot]]
+        row, choice = numpy.nonzero((options >= 0) & allowed[robot][options])
+        here, before, cell = here[row], there[row], options[row, choice][:, None]
+        taken = before == cell
+        swapped = (before == here[:, [robot]]) & (here[:, :robot] == cell)
+        free = ~(taken | swapped).any(axis=1)
+        here, there = here[free], numpy.hstack([before, cell])[free]
+    return there
+
+
+def _reached(start, neighbours, steps, allowed_after):
+    """All rows that can be reached in so many steps, as sorted numbers, and whether the last of them reached a new one."""
+    place_values = len(neighbours) ** numpy.arange(start.size)
+    front = reached = numpy.array([start @ place_values])
+    for step in range(1, steps + 1):
+        rows = (front[:, None] // place_values % len(neighbours)).astype(numpy.int16)
+        parts = numpy.array_split(rows, len(rows) // ROWS_AT_ONCE + 1)
+        after = [numpy.unique(_joint_steps(part, neighbours, allowed_after(step)) @ place_values) for part in parts]
+        front = numpy.setdiff1d(numpy.concatenate(after), reached)
+        reached = numpy.union1d(reached, front)
+    return reached, front.size > 0
 
 
 def least_steps(path):
-    """The steps of the quickest plan of a world file; None where there is none."""
+    """The steps of the quickest plan of a world file; None where there is none.
+
+    In so many steps are those plans of which the first half, and the second one backwards, meet; a robot is nowhere from where it
+    could not come to its end, all alone, in the steps that are left."""
     with open(path, encoding="utf-8") as file:
         world = yaml.safe_load(file)
-    neighbours = _neighbours(world)
-    start = tuple(_cell_of(robot["start"]) for robot in world["robots"])
-    goal = tuple(_cell_of(robot["goal"]) for robot in world["robots"])
-    steps_to = [_steps_to(cell, neighbours) for cell in goal]
-
-    def left(cells):
-        return max(steps[cell] for steps, cell in zip(steps_to, cells))
-
-    best = {start: 0}
-    queue = [(left(start), 0, start)]
-    while queue:
-        _, negative, here = heapq.heappop(queue)
-        if here == goal:
-            return best[here]
-        if -negative > best[here]:
-            continue
-        for there in _joint_steps(here, neighbours):
-            if best[here] + 1 < best.get(there, 1 << 30):
-                best[there] = best[here] + 1
-                heapq.heappush(queue, (best[there] + left(there), -best[there], there))
-    return None
+    cells = _neighbours(world)
+    index = {cell: number for number, cell in enumerate(cells)}
+    neighbours = numpy.array([[index[each] for each in near] + [-1] * (5 - len(near)) for near in cells.values()], numpy.int16)
+    start, goal = (numpy.array([index[_cell_of(robot[end])] for robot in world["robots"]]) for end in ("start", "goal"))
+    if len(cells) ** len(start) >= 1 << 63:
+        raise ValueError(f"{len(start)} robots on {len(cells)} cells are too many to be numbered")
+    between = _steps_between(neighbours)
+    if between[start, goal].min() < 0:
+        return None
+    for steps in itertools.count(between[start, goal].max()):
+        halves = [_reached(end, neighbours, half, lambda step, other=other: between[other] <= steps - step)
+                  for end, other, half in ((start, goal, steps // 2), (goal, start, steps - steps // 2))]
+        if numpy.isin(halves[0][0], halves[1][0]).any():
+            return int(steps)
+        if steps // 2 > between.max() and not all(grows for _, grows in halves):
+            return None
 
 
 def least_time_s(path):

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kAtEnd_m = 0.03;  // of a move, along its path
 constexpr double kOnPath_m = 0.5;  // a motion that ends farther off it is not of this order
+constexpr double kMeets_m = 0.3;   // where two paths are nearer, a place may be on either
+constexpr double kStep_m = 0.1;
 
 /// How far along the path its point nearest to `place` is, and how far away.
 struct Projection {
@@ -43,6 +45,19 @@ bool turns_back(const std::vector<Vector2>& before, const std::vector<Vector2>& 
   return std::abs(angle_between(in, out)) > kTurnsBack_rad;
 }
 
+/// Whether a path comes to where another one leads.
+bool meets(const std::vector<Vector2>& path, const std::vector<Vector2>& other) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vector2 leg = path[i] - path[i - 1];
+    const int steps = static_cast<int>(std::ceil(leg.norm() / kStep_m));
+    for (int k = 1; k <= steps; ++k) {
+      const Vector2 place = path[i - 1] + leg * k / steps;
+      if (projected(place, other).off_m < kMeets_m) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 FollowedOrder::FollowedOrder(const PassingInstruction& beginning)
@@ -72,8 +87,11 @@ bool FollowedOrder::may_begin(std::size_t move, const PromisedBy& promised_by) c
   });
 }
 
-bool FollowedOrder::turns_back_before(std::size_t move) const {
-  return turns_back(turns_[move - 1]->path, turns_[move]->path);
+bool FollowedOrder::ends_stretch_before(std::uint32_t move) const {
+  if (move == made_) return false;
+  if (turns_back(turns_[move - 1]->path, turns_[move]->path)) return true;
+  if (move - 1 == made_) return false;
+  return meets(turns_[move]->path, stretch_until(move - 1).path);
 }
 
 PassingStretch FollowedOrder::stretch_until(std::uint32_t until) const {
@@ -90,12 +108,12 @@ std::optional<PassingStretch> FollowedOrder::grant(const PromisedBy& promised_by
   // The robot drives to the end of what it has promised, whatever follows: the way back can be
   // promised by now.
   if (made_ < promised_ && promised_ == granted_ && promised_ < turns_.size() &&
-      may_begin(promised_, promised_by) && turns_back_before(promised_))
+      may_begin(promised_, promised_by) && ends_stretch_before(promised_))
     made_ = promised_;
   std::uint32_t until = made_;
   while (until < turns_.size()) {
     if (until >= granted_ && !may_begin(until, promised_by)) break;
-    if (until > made_ && turns_back_before(until)) break;
+    if (ends_stretch_before(until)) break;
     ++until;
   }
   granted_ = std::max(granted_, until);

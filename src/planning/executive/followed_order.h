@@ -54,8 +54,9 @@ class FollowedOrder {
   void note_drive(const Vector2& place);
 
   /// Grants the moves from the last stop on that may be made by now: none has to wait for another
-  /// robot, and they do not turn back. Where they end, as promised, and the next may be made and
-  /// turns back, that is the last stop, though the robot still drives there. Nothing where it has
+  /// robot, they do not turn back, and do not come again to where they have led, so that each place
+  /// tells how far the robot is. Where they end for one of the latter, as promised, and the next
+  /// may be made, that is the last stop, though the robot still drives there. Nothing where it has
   /// to wait.
   std::optional<PassingStretch> grant(const PromisedBy& promised_by);
   /// The robots that have to promise moves before the one after the last stop may begin.
@@ -66,8 +67,9 @@ class FollowedOrder {
 
  private:
   bool may_begin(std::size_t move, const PromisedBy& promised_by) const;
-  /// Both moves must be known.
-  bool turns_back_before(std::size_t move) const;
+  /// Whether the moves from the last stop on are a stretch of their own before this one: it turns
+  /// back, or comes to where they have led. All of them must be known.
+  bool ends_stretch_before(std::uint32_t move) const;
   PassingStretch stretch_until(std::uint32_t until) const;
 
   PassingOrderId id_;

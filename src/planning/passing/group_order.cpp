@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kAround_m = 8.0;  // of the group, in which it looks for room first
 constexpr double kSamePlace_m = 0.02;
-constexpr int kMostMoves = 500000;    // that the search for the fewest may look at ...
-constexpr int kMostSteps = 300000;    // ... and steps, where that does not suffice
+// One after the other, where the search is stopped before it finds a way.
+constexpr MoveSearchOptions kMoveSearches[] = {{100000, 1.0}, {400000, 2.0}};
+constexpr int kMostSteps = 300000;    // where no search for moves finds one
 constexpr int kMostChoices = 200000;  // to find quicker ones
 
 class Grouping {
@@ -95,8 +96,10 @@ class Grouping {
   }
 
   PassingSequence some_sequence(const std::function<bool()>& should_stop) const {
-    PassingSequence best = find_fewest_moves(problem_, kMostMoves, should_stop);
-    if (best.outcome != PassingSequence::Outcome::kStopped) return best;
+    for (const MoveSearchOptions& options : kMoveSearches) {
+      PassingSequence found = find_few_moves(problem_, options, should_stop);
+      if (found.outcome != PassingSequence::Outcome::kStopped) return found;
+    }
     return find_passing(problem_, kMostSteps, should_stop);
   }
 

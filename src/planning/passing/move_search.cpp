@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 #include <queue>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -20,20 +22,20 @@ struct Node {
 
 class Search {
  public:
-  explicit Search(const PassingProblem& problem)
-      : problem_(problem), distances_m_(problem, kPerMove_m) {}
+  Search(const PassingProblem& problem, const MoveSearchOptions& options)
+      : problem_(problem), options_(options), distances_m_(problem, kPerMove_m) {}
 
-  PassingSequence run(int left, const std::function<bool()>& should_stop) {
+  PassingSequence run(const std::function<bool()>& should_stop) {
     add({problem_.starts, -1, -1, nullptr, 0.0});
     while (!queue_.empty()) {
-      const auto [least_m, unused, number] = queue_.top();
+      const auto [rank_m, unused, number] = queue_.top();
       queue_.pop();
       if (best_m_.at(nodes_[number].placing) < nodes_[number].cost_m) continue;
       if (problem_.is_solved(nodes_[number].placing)) return {Outcome::kFound, steps_to(number)};
-      if (should_stop()) return {Outcome::kStopped, {}};
+      if (static_cast<int>(nodes_.size()) > options_.most_placings || should_stop())
+        return {Outcome::kStopped, {}};
       for (int robot = 0; robot < problem_.robots(); ++robot) {
         for (const PlaceMove& move : problem_.graph.moves[nodes_[number].placing[robot]]) {
-          if (--left < 0) return {Outcome::kStopped, {}};
           if (is_free(nodes_[number].placing, robot, move)) make(number, robot, move);
         }
       }
@@ -43,7 +45,7 @@ class Search {
 
  private:
   using Outcome = PassingSequence::Outcome;
-  using Entry = std::tuple<double, int, int>;  // costs at least; newest first; the node
+  using Entry = std::tuple<double, int, int>;  // its rank; newest first; the node
 
   static bool is_free(const Placing& placing, int robot, const PlaceMove& move) {
     for (int other = 0; other < static_cast<int>(placing.size()); ++other) {
@@ -60,15 +62,15 @@ class Search {
   }
 
   void add(Node node) {
-    double least_m = node.cost_m;
+    double left_m = 0.0;
     for (int robot = 0; robot < problem_.robots(); ++robot)
-      least_m += distances_m_(robot, node.placing[robot]);
-    if (!std::isfinite(least_m)) return;
+      left_m += distances_m_(robot, node.placing[robot]);
+    if (!std::isfinite(left_m)) return;
     const auto [known, is_new] = best_m_.emplace(node.placing, node.cost_m);
     if (!is_new && known->second <= node.cost_m) return;
     known->second = node.cost_m;
     const int number = static_cast<int>(nodes_.size());
-    queue_.emplace(least_m, -number, number);
+    queue_.emplace(node.cost_m + options_.times_least * left_m, -number, number);
     nodes_.push_back(std::move(node));
   }
 
@@ -85,6 +87,7 @@ class Search {
   }
 
   const PassingProblem& problem_;
+  const MoveSearchOptions options_;
   const GoalDistances distances_m_;
   std::vector<Node> nodes_;
   std::map<Placing, double> best_m_;
@@ -93,10 +96,14 @@ class Search {
 
 }  // namespace
 
-PassingSequence find_fewest_moves(const PassingProblem& problem, int most_moves,
-                                  const std::function<bool()>& should_stop) {
+PassingSequence find_few_moves(const PassingProblem& problem, const MoveSearchOptions& options,
+                               const std::function<bool()>& should_stop) {
   validate(problem);
-  return Search(problem).run(most_moves, should_stop);
+  if (!(options.times_least >= 1.0)) {
+    throw std::invalid_argument("find_few_moves: times_least " +
+                                std::to_string(options.times_least) + ", allowed is 1 or above");
+  }
+  return Search(problem, options).run(should_stop);
 }
 
 }  // namespace mocha

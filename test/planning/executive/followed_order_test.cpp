@@ -151,6 +151,31 @@ TEST(FollowedOrder, WhereItTurnsBackIsNoStopBeforeItMayGoOnOrStandsThere) {
   EXPECT_EQ(stands.grant(by({{"ugv1", 1}}))->from, 2u);
 }
 
+/// Round a block, and on through the place where it began.
+TEST(FollowedOrder, AStretchEndsBeforeItComesToWhereItHasLed) {
+  const std::vector<Vector2> round = {{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0},
+                                      {2.0, 2.0}, {0.0, 2.0}, {0.0, -2.0}};
+  const std::vector<Vector2> across = {{0.0, 0.0}, {2.0, 0.0},  {2.0, 2.0},
+                                       {1.0, 2.0}, {1.0, -2.0}, {0.0, -2.0}};
+  for (const auto& places : {round, across}) {
+    std::vector<PassingTurn> turns;
+    for (std::size_t i = 1; i < places.size(); ++i) turns.push_back(turn(places[i - 1], places[i]));
+    FollowedOrder order(part(5, 0, turns));
+    const auto there = order.grant(by({}));
+    ASSERT_TRUE(there);
+    ASSERT_LT(there->until, 5u);
+    EXPECT_EQ(there->end().y(), 2.0);
+    order.note_promise(to_rest_at(places[there->until]));
+    EXPECT_EQ(order.promised(), there->until);
+    const auto on = order.grant(by({}));
+    ASSERT_TRUE(on) << "before the robot is there";
+    EXPECT_EQ(on->from, there->until);
+    EXPECT_EQ(on->until, 5u);
+    order.note_promise(to_rest_at(places.back()));
+    EXPECT_EQ(order.promised(), 5u) << "though its end is near the beginning";
+  }
+}
+
 TEST(FollowedOrder, PromisedIsWhatTheMotionInForceLeadsThrough) {
   FollowedOrder order(bend());
   order.grant(by({}));

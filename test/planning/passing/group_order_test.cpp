@@ -68,6 +68,22 @@ TEST(GroupOrder, LeadsAllToTheirGoalsWhereThatIsPossible) {
   EXPECT_GE(possible, 3);
 }
 
+/// Seven on nine cells, as in loop-chain of Okumura's puzzles; two do not stand in the middle.
+TEST(GroupOrder, GivesUpNoGoalWhereManyStandClose) {
+  const Rows starts = {"edc.", "f#b#", "g.a#"};
+  const Rows goals = {"cde.", "b#f#", "a.g#"};
+  auto members = members_of(starts, goals);
+  members[0].place.y() += 0.05;
+  members[6].place.y() += 0.05;
+  const auto group =
+      order_group({*test::static_map_of_cells(starts), {}}, members, test::graph_options(), kPace);
+  ASSERT_TRUE(group);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    EXPECT_TRUE(group->gets_there[i]) << i;
+    EXPECT_LT((end_of(*group, i, members) - *members[i].goal).norm(), 0.03) << i;
+  }
+}
+
 /// How near a way comes to a place.
 double gap_m(const std::vector<Vector2>& path, const Vector2& place) {
   double least_m = (path.front() - place).norm();

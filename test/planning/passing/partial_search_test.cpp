@@ -244,7 +244,7 @@ TEST(PartialSearch, FindsTheMovesOfAsManyAsItMay) {
   const PassingProblem problem =
       test::on_cells({"row", {"abcdef.", "......."}, {".abcdef", "......."}});
   ASSERT_EQ(problem.robots(), PartialSearch::kMostTogether);
-  const PassingSequence sequence = find_fewest_moves(problem, kEnough);
+  const PassingSequence sequence = find_few_moves(problem, {kEnough});
   ASSERT_EQ(sequence.steps.size(), 6u);  // one by one
   int left = kEnough;
   const PassingSequence found =
