@@ -42,6 +42,9 @@ class RobotStack {
   Messages hear(const FleetMessage& message, double now_s);
   /// As often as trajectory_broadcaster: follows leases and settles.
   Messages tick(double now_s);
+  /// Takes over what the peers have promised, where there is news of it; both calls below begin
+  /// with it.
+  void refresh_peers(double now_s);
   /// As often as local_replanner, and where step_is_due(). The peers are added to the scene.
   Messages replan(double now_s, const RobotState& measured, LocalScene scene);
   /// As often as global_planner. The peers are added to the scene.
@@ -63,7 +66,6 @@ class RobotStack {
  private:
   Messages propose(const ProposedMotion& proposal, double now_s);
   Messages apply(CommitmentNews news);
-  void refresh_peers(double now_s);
 
   const std::string name_;
   const double radius_m_;

@@ -126,7 +126,15 @@ RobotState FleetRobot::state(double now_s) const {
   return state;
 }
 
+void FleetRobot::take_news(double now_s) {
+  const bool one_thread = options_.planning_threads == 1;
+  const double begin_s = clock_s(one_thread);
+  stack_.refresh_peers(now_s);
+  record_.news_s += clock_s(one_thread) - begin_s;
+}
+
 std::vector<FleetRobot::Bytes> FleetRobot::propose(double now_s) {
+  take_news(now_s);
   LocalScene scene = local_scene(agent_.map->static_map, agent_.map->unseen);
   scene.predicted_until_s = now_s;
   const bool one_thread = options_.planning_threads == 1;
@@ -138,6 +146,7 @@ std::vector<FleetRobot::Bytes> FleetRobot::propose(double now_s) {
 
 std::vector<FleetRobot::Bytes> FleetRobot::pursue(double now_s) {
   if (!reached_ && stack_.idle()) stack_.take({Goal{agent_.goal, std::nullopt}}, now_s);
+  take_news(now_s);
   const bool one_thread = options_.planning_threads == 1;
   const double begin_s = clock_s(one_thread);
   const auto messages = stack_.pursue(now_s, state(now_s), {agent_.map->static_map, {}, {}});

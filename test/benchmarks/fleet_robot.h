@@ -35,6 +35,7 @@ struct PlanningRecord {
   std::vector<double> plans_s;  ///< of each global plan
   std::vector<double> steps_s;  ///< of each step of the local replanner
   double protocol_s = 0.0;      ///< of everything that the protocol did
+  double news_s = 0.0;          ///< of taking over what the peers have promised
   int paths = 0;                ///< most that were optimised for one plan
   int leases_lost = 0;          ///< the robot had to brake because nothing was proved in time
   int breaches = 0;             ///< promises of others that met the own binding one
@@ -93,6 +94,8 @@ class FleetRobot {
   const std::string& name() const { return name_; }
 
  private:
+  /// In good time before a plan: that is no part of it.
+  void take_news(double now_s);
   /// Follows what is in force, if it fits, and packs what is to be said.
   std::vector<Bytes> apply(const RobotStack::Messages& messages, double now_s);
 

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <deque>
 #include <limits>
+#include <memory>
+#include <random>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/fleet_robot.h"
@@ -52,9 +56,41 @@ struct FleetRun {
   bool all_reached() const;
 };
 
-/// Until all stand at their goals or scene.longest_s is over. The same for the same scene, but for
-/// wall times. `at_end` is called while the robots are still there.
-FleetRun run_fleet(
-    const FleetScene& scene, const std::function<void()>& at_end = [] {});
+/// A fleet that drives, in steps of simulated time. The same for the same scene, but for wall
+/// times.
+class FleetSimulation {
+ public:
+  explicit FleetSimulation(FleetScene scene);
+
+  /// Whether all stand at their goals, or scene.longest_s is over.
+  bool is_over() const;
+  void step();
+  /// What came of it so far.
+  FleetRun run() const;
+
+ private:
+  int size() const { return static_cast<int>(robots_.size()); }
+  double now_s() const;
+  double now_s(int i) const;  // by the clock of robot i
+  void deliver();
+  void work(int i);
+  void send(int from, std::vector<FleetRobot::Bytes> datagrams);
+  void watch();
+  void watch_pair(int i, int k, const RobotState& a, const RobotState& b);
+
+  const FleetScene scene_;
+  const double radius_m_;
+  LossyNetwork<std::shared_ptr<const FleetRobot::Bytes>> network_;
+  std::mt19937 random_;
+  std::deque<FleetRobot> robots_;
+  std::vector<int> late_ms_;
+  std::vector<Vector2> places_;
+  std::set<std::pair<int, int>> touching_;
+  int ms_ = 0;
+  FleetRun run_;
+};
+
+/// To the end.
+FleetRun run_fleet(const FleetScene& scene);
 
 }  // namespace mocha
