@@ -109,6 +109,7 @@ class Fuzzer {
     if (below(3) != 0) intent.goal = Vector2(below(40), below(40));
     if (below(3) != 0) intent.follows = {"ugv" + std::to_string(1 + below(5)), 0, 1U + below(9)};
     intent.moves = below(40);
+    for (int left = below(4); left > 0; --left) intent.obstacles.emplace_back(below(40), below(40));
     return intent;
   }
 

@@ -45,6 +45,9 @@ void validate(const PassingIntent& intent) {
   require(!intent.goal || intent.goal->allFinite(), "the goal is not finite");
   require(intent.follows.number == 0 || !intent.follows.leader.empty(), "follows nobody's order");
   require_most(intent.moves, kMostTurns, "moves");
+  require_most(intent.obstacles.size(), kMostObstacles, "obstacles");
+  for (const Vector2& place : intent.obstacles)
+    require(place.allFinite(), "an obstacle is not finite");
 }
 
 void validate(const PassingInstruction& instruction) {

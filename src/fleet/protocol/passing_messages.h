@@ -36,6 +36,9 @@ struct PassingIntent {
   std::optional<Vector2> goal;  ///< map frame; none: it is parked, and makes room as it likes
   PassingOrderId follows;       ///< the order that it keeps to
   std::uint32_t moves = 0;      ///< of that order, which it has promised to make
+  /// Why it does not keep to the newest order that it was told of: what stands on its way there, by
+  /// its own map; map frame [m].
+  std::vector<Vector2> obstacles = {};
 };
 
 /// So many of its moves a robot has to have promised.
@@ -72,9 +75,10 @@ inline bool outranks(const PassingIntent& a, const PassingIntent& b) {
 constexpr std::size_t kMostPassing = 32;    // robots of an order
 constexpr std::size_t kMostTurns = 400;     // of one robot
 constexpr std::size_t kMostTurnPlaces = 8;  // of the path of one turn
+constexpr std::size_t kMostObstacles = 16;  // that a robot tells of
 
 /// Throws std::invalid_argument, saying what is wrong, for what no robot can have meant: no name, a
-/// radius outside (0, 10] m, places that are not finite.
+/// radius outside (0, 10] m, places that are not finite, too many of anything.
 void validate(const PassingIntent& intent);
 /// Likewise: no name, no number, a robot that the order is not for, too many of anything, a path of
 /// less than two places, a part that goes beyond the end, progress of a robot that is not there or

@@ -14,6 +14,7 @@ namespace {
 constexpr std::uint8_t kCalls = 1;
 constexpr std::uint8_t kHasGoal = 2;
 constexpr std::uint8_t kFollows = 4;
+constexpr std::uint8_t kHasObstacles = 8;
 
 /// Of either sign: the nearer to zero, the shorter.
 void put_step(ByteWriter& out, std::int64_t step) {
@@ -74,17 +75,21 @@ PassingTurn get_turn(ByteReader& in, PlaceCounts& before) {
 void put_intent(ByteWriter& out, const PassingIntent& intent) {
   const bool follows = intent.follows.number > 0;
   out.put(static_cast<std::uint8_t>((intent.calls ? kCalls : 0) | (intent.goal ? kHasGoal : 0) |
-                                    (follows ? kFollows : 0)));
+                                    (follows ? kFollows : 0) |
+                                    (intent.obstacles.empty() ? 0 : kHasObstacles)));
   out.put(static_cast<std::int32_t>(intent.priority));
   // Rounded up: a robot must not be taken for smaller than it is.
   put_number<std::uint16_t>(out, std::ceil(intent.radius_m * kRadii - 1e-6), 1.0, "the radius");
-  PlaceCounts origin;
-  if (intent.goal) put_place(out, *intent.goal, origin);
+  PlaceCounts before;
+  if (intent.goal) put_place(out, *intent.goal, before);
   if (follows) {
     put_name(out, intent.follows.leader);
     out.put_varint(intent.follows.number);
   }
   out.put_varint(intent.moves);
+  if (intent.obstacles.empty()) return;
+  out.put(count_of(intent.obstacles.size(), "obstacles"));
+  for (const Vector2& place : intent.obstacles) put_place(out, place, before);
 }
 
 PassingIntent get_intent(ByteReader& in, std::string agent, std::uint32_t epoch) {
@@ -92,17 +97,20 @@ PassingIntent get_intent(ByteReader& in, std::string agent, std::uint32_t epoch)
   intent.agent = std::move(agent);
   intent.epoch = epoch;
   const auto said = in.get<std::uint8_t>();
-  require_said(said <= (kCalls | kHasGoal | kFollows), "an intent says what is not known");
+  require_said(said <= (kCalls | kHasGoal | kFollows | kHasObstacles),
+               "an intent says what is not known");
   intent.calls = (said & kCalls) != 0;
   intent.priority = in.get<std::int32_t>();
   intent.radius_m = get_number<std::uint16_t>(in, kRadii);
-  PlaceCounts origin;
-  if ((said & kHasGoal) != 0) intent.goal = get_place(in, origin);
+  PlaceCounts before;
+  if ((said & kHasGoal) != 0) intent.goal = get_place(in, before);
   if ((said & kFollows) != 0) {
     intent.follows.leader = get_name(in);
     intent.follows.number = get_count(in);
   }
   intent.moves = get_count(in);
+  const std::size_t obstacles = (said & kHasObstacles) != 0 ? in.get<std::uint8_t>() : 0;
+  for (std::size_t i = 0; i < obstacles; ++i) intent.obstacles.push_back(get_place(in, before));
   validate(intent);
   return intent;
 }

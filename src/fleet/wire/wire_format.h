@@ -22,7 +22,7 @@ namespace mocha {
 // rounding.
 
 /// Of everything below; others are refused.
-constexpr int kWireVersion = 6;
+constexpr int kWireVersion = 7;
 
 /// What a datagram holds at most, LCM's own header with a channel of up to 15 characters included:
 /// larger ones would be cut into fragments, each of which may get lost.

@@ -9,7 +9,8 @@ constexpr std::size_t kMostHeard = 256;
 }  // namespace
 
 bool is_news(const PassingIntent& before, const PassingIntent& now) {
-  return now.calls != before.calls || now.follows != before.follows || now.moves != before.moves;
+  return now.calls != before.calls || now.follows != before.follows || now.moves != before.moves ||
+         now.obstacles != before.obstacles;
 }
 
 HeardIntents::Heard HeardIntents::hear(const PassingIntent& intent, double now_s) {

@@ -60,8 +60,11 @@ bool PassingLeader::competes(const PassingOrderId& other, const std::string& rob
   return order_ && other != order_->id && order_->instructions.count(robot) > 0;
 }
 
-void PassingLeader::hear(const PassingIntent& intent) {
-  if (!order_ || intent.follows != order_->id) return;
+void PassingLeader::hear(const PassingIntent& intent, double now_s) {
+  const bool is_new = obstacles_.note(intent.obstacles, now_s);
+  if (!order_) return;
+  if (is_new && order_->instructions.count(intent.agent) > 0) order_->is_obstructed = true;
+  if (intent.follows != order_->id) return;
   std::uint32_t& moves = order_->promised[intent.agent];
   moves = std::max(moves, intent.moves);
 }
@@ -77,7 +80,7 @@ bool PassingLeader::is_not_kept(const std::vector<PassingIntent>& heard) const {
 }
 
 bool PassingLeader::may_make_another(double now_s) const {
-  return !order_ || now_s >= order_->made_s + kMakeAgain_s;
+  return !order_ || order_->is_obstructed || now_s >= order_->made_s + kMakeAgain_s;
 }
 
 std::vector<PassingMember> PassingLeader::members_of(const std::vector<PassingIntent>& intents,
@@ -95,9 +98,11 @@ std::vector<PassingMember> PassingLeader::members_of(const std::vector<PassingIn
 }
 
 std::optional<GroupOrder> PassingLeader::order_for(const std::vector<PassingMember>& members,
-                                                   double radius_m,
-                                                   const PlanningScene& scene) const {
+                                                   double radius_m, const PlanningScene& scene,
+                                                   double now_s) const {
   std::vector<BlockedDisc> blocked;
+  for (const Vector2& obstacle : obstacles_.all(now_s))
+    blocked.push_back({obstacle, travel_.required_clearance_m});
   for (const auto& peer : scene.peers) {
     const bool is_member =
         std::any_of(members.begin(), members.end(),
@@ -121,7 +126,7 @@ std::optional<PassingInstruction> PassingLeader::make(const std::vector<PassingI
   keep_nearest(here, members);
   double radius_m = 0.0;
   for (const PassingIntent& intent : intents) radius_m = std::max(radius_m, intent.radius_m);
-  const auto group = order_for(members, radius_m, scene);
+  const auto group = order_for(members, radius_m, scene, now_s);
   if (!group) return std::nullopt;
   std::vector<std::string> names;
   for (const PassingMember& member : members) names.push_back(member.name);

@@ -9,6 +9,7 @@
 #include "fleet/protocol/passing_messages.h"
 #include "planning/candidates/planning_scene.h"
 #include "planning/executive/heard_intents.h"
+#include "planning/executive/told_obstacles.h"
 #include "planning/global/planner_options.h"
 #include "planning/passing/group_order.h"
 #include "world/robot_model.h"
@@ -31,11 +32,12 @@ class PassingLeader {
 
   /// Whether another robot, which keeps to the other order, has a part in the one that was made.
   bool competes(const PassingOrderId& other, const std::string& robot) const;
-  /// What a team-mate says of the order that was made.
-  void hear(const PassingIntent& intent);
+  /// What a team-mate says of the order that was made, and of obstacles.
+  void hear(const PassingIntent& intent, double now_s);
   /// Whether one of those that were heard has a part in the order, and does not keep to it.
   bool is_not_kept(const std::vector<PassingIntent>& heard) const;
-  /// Whether the newest order was made so long ago that it is not just unheard yet.
+  /// Whether the newest order was made so long ago that it is not just unheard yet, or leads by
+  /// obstacles that were not known.
   bool may_make_another(double now_s) const;
 
   /// Makes an order for those that say where they are to get, highest rank first, the robot itself
@@ -56,16 +58,18 @@ class PassingLeader {
     std::map<std::string, PassingInstruction> instructions;  ///< of each robot
     std::map<std::string, std::uint32_t> promised;           ///< moves of it, as far as was heard
     double made_s;
+    bool is_obstructed = false;
   };
 
   std::vector<PassingMember> members_of(const std::vector<PassingIntent>& intents,
                                         const Vector2& rest, const PlanningScene& scene) const;
   std::optional<GroupOrder> order_for(const std::vector<PassingMember>& members, double radius_m,
-                                      const PlanningScene& scene) const;
+                                      const PlanningScene& scene, double now_s) const;
 
   const std::string name_;
   const RobotModel robot_;
   TravelOptions travel_;
+  ToldObstacles obstacles_;
   std::optional<Order> order_;
   std::uint32_t number_ = 0;  // of the orders that it has made
 };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "planning/global/front_end.h"
+#include "planning/passing/obstacles_along.h"
 
 namespace mocha {
 namespace {
@@ -13,8 +14,9 @@ constexpr double kSayAgain_s = 0.3;
 constexpr double kGather_s = 0.5;
 constexpr double kHold_s = 1.2;
 constexpr double kHoldAgain_s = 5.0;
-constexpr double kCallAgain_s = 2.0;   // at least, after an order that it was stuck in
+constexpr double kCallAgain_s = 2.0;   // at least, after an order that it could not keep to
 constexpr double kStuck_s = 6.0;       // it may go on, and does not
+constexpr double kObstructed_s = 1.0;  // the same, with an obstacle on its way
 constexpr double kLetDown_s = 10.0;    // the robot that it waits for has left the order
 constexpr double kForgotten_s = 40.0;  // it waits, and nobody of the order gets on
 constexpr double kNoNews_s = 45.0;     // whoever still waits has given it up by then
@@ -46,6 +48,7 @@ void PassingPolicy::begin_goal() {
   offered_.reset();
   leader_.retire();
   finished_ = PassingOrderId();
+  obstacles_.clear();
   calls_ = false;
 }
 
@@ -68,7 +71,7 @@ void PassingPolicy::hear(const PassingMessage& message, double now_s) {
   const HeardIntents::Heard heard = heard_.hear(intent, now_s);
   if (heard == HeardIntents::Heard::kNoRoom) return;
   if (heard == HeardIntents::Heard::kNews || intent.calls) news_s_ = now_s;
-  leader_.hear(intent);
+  leader_.hear(intent, now_s);
   // Two have made an order at the same time.
   const bool leads = intent.follows.leader == intent.agent && is_recent(intent.follows, now_s);
   if (!leads || !outranks(intent, said_) || !leader_.competes(intent.follows, intent.agent)) return;
@@ -119,7 +122,8 @@ void PassingPolicy::note_promised(double now_s) {
 std::vector<PassingMessage> PassingPolicy::step(const PassingSituation& situation,
                                                 const SceneSource& scene) {
   const double now_s = situation.now_s;
-  progress(situation);
+  if (offered_) take_up(situation, scene);
+  if (followed_) progress(situation);
   watch(situation, scene);
   hold(now_s);
   std::vector<PassingMessage> messages;
@@ -134,23 +138,25 @@ std::vector<PassingMessage> PassingPolicy::step(const PassingSituation& situatio
   return messages;
 }
 
-/// Takes up a new order where it comes to rest at its beginning, and gets on with it.
-void PassingPolicy::progress(const PassingSituation& situation) {
+/// A new order where the robot comes to rest at its beginning, and no obstacle is on its way.
+void PassingPolicy::take_up(const PassingSituation& situation, const SceneSource& scene) {
+  const PassingInstruction instruction = *std::exchange(offered_, std::nullopt);
+  FollowedOrder order(instruction);
   const Vector2 rest = situation.committed.end_pose().position;
-  if (offered_) {
-    FollowedOrder order(*offered_);
-    const auto start = order.start();
-    if (order.is_over() || (start && (*start - rest).norm() < kAtPlace_m)) {
-      leave_order();
-      leader_.retire_for(order.id());
-      followed_ = std::move(order);
-      finished_ = PassingOrderId();
-      calls_ = false;
-      progressed_s_ = situation.now_s;
-    }
-    offered_.reset();
-  }
-  if (!followed_) return;
+  const auto start = order.start();
+  if (!order.is_over() && !(start && (*start - rest).norm() < kAtPlace_m)) return;
+  leave_order();
+  note_obstacles(instruction.part, scene({rest}));
+  if (!obstacles_.empty()) return call_again(situation.now_s);
+  leader_.retire_for(order.id());
+  followed_ = std::move(order);
+  finished_ = PassingOrderId();
+  calls_ = false;
+  progressed_s_ = situation.now_s;
+}
+
+/// Gets on with its order.
+void PassingPolicy::progress(const PassingSituation& situation) {
   note_promised(situation.now_s);
   followed_->note_promise(situation.committed);
   const MotionState soon = situation.committed.at(situation.now_s + kSoon_s);
@@ -172,6 +178,20 @@ void PassingPolicy::progress(const PassingSituation& situation) {
   leave_order();
 }
 
+/// Those that its own map has on these turns.
+void PassingPolicy::note_obstacles(const std::vector<PassingTurn>& turns,
+                                   const PlanningScene& scene) {
+  obstacles_.clear();
+  for (const PassingTurn& turn : turns) {
+    const auto found = obstacles_along(turn.path, *scene.static_map, travel_.required_clearance_m);
+    obstacles_.insert(obstacles_.end(), found.begin(), found.end());
+  }
+  if (obstacles_.size() > kMostObstacles) obstacles_.resize(kMostObstacles);
+}
+
+/// An order could not be kept to.
+void PassingPolicy::call_again(double now_s) { calls_until_s_ = now_s + kCallAgain_s; }
+
 /// A robot that it waits for says that it keeps to another order, or to none.
 bool PassingPolicy::is_let_down(double now_s) const {
   const auto names =
@@ -183,7 +203,6 @@ bool PassingPolicy::is_let_down(double now_s) const {
 }
 
 bool PassingPolicy::is_stuck(const PassingSituation& situation) const {
-  if (!follows()) return false;
   const double without_progress_s = situation.now_s - progressed_s_;
   if (stretch_) return without_progress_s > kStuck_s;
   return without_progress_s > kForgotten_s ||
@@ -192,11 +211,13 @@ bool PassingPolicy::is_stuck(const PassingSituation& situation) const {
 
 void PassingPolicy::watch(const PassingSituation& situation, const SceneSource& scene) {
   const bool called = calls_;
-  if (is_stuck(situation)) {
-    leave_order();
-    calls_until_s_ = situation.now_s + kCallAgain_s;
-  }
   const Vector2& here = situation.measured.pose.position;
+  if (stretch_ && situation.now_s > progressed_s_ + kObstructed_s)
+    note_obstacles({{stretch_->path, {}}}, scene({here}));
+  if (follows() && (!obstacles_.empty() || is_stuck(situation))) {
+    leave_order();
+    call_again(situation.now_s);
+  }
   calls_ =
       !follows() && situation.goal &&
       (situation.now_s < calls_until_s_ ||
@@ -223,6 +244,7 @@ PassingIntent PassingPolicy::intent(const PassingSituation& situation) const {
   intent.goal = situation.goal;
   intent.follows = followed_ ? followed_->id() : finished_;
   intent.moves = followed_ ? followed_->promised() : finished_moves_;
+  intent.obstacles = obstacles_;
   return intent;
 }
 

@@ -35,8 +35,9 @@ struct PassingSituation {
 /// What follows. An order that was made leads all that it is for past each other, whatever their
 /// timing, as long as they keep to it (PassingOrder) and the map holds; then the way to each goal
 /// is free. Where not all can get to their goals, the highest ranks do. A robot that strays, gets
-/// stuck for long, or takes another goal leaves the order, and calls anew if need be. Orders bind
-/// nobody: what may be driven is settled by promises alone.
+/// stuck for long, or takes another goal leaves the order, and calls anew if need be; one that has
+/// obstacles on its way, by its own map, tells of them, for the next order to lead round. Orders
+/// bind nobody: what may be driven is settled by promises alone.
 class PassingPolicy {
  public:
   PassingPolicy(std::string name, int priority, RobotModel robot, const PlannerOptions& options);
@@ -65,11 +66,14 @@ class PassingPolicy {
  private:
   void follow(const PassingInstruction& instruction);
   void leave_order();
+  void take_up(const PassingSituation& situation, const SceneSource& scene);
   void progress(const PassingSituation& situation);
   void hold(double now_s);
   void watch(const PassingSituation& situation, const SceneSource& scene);
   bool is_let_down(double now_s) const;
   bool is_stuck(const PassingSituation& situation) const;
+  void note_obstacles(const std::vector<PassingTurn>& turns, const PlanningScene& scene);
+  void call_again(double now_s);
   bool leads(double now_s) const;
   void lead(const PassingSituation& situation, const SceneSource& scene);
   PassingIntent intent(const PassingSituation& situation) const;
@@ -88,7 +92,7 @@ class PassingPolicy {
   bool holds_ = false;
   double called_s_ = -std::numeric_limits<double>::infinity();  // the first call, after silence
   double calls_since_s_ = 0.0;
-  double calls_until_s_ = 0.0;  // at least, after an order that it was stuck in
+  double calls_until_s_ = 0.0;  // at least, after an order that it could not keep to
   std::optional<FollowedOrder> followed_;
   std::map<std::string, std::uint32_t> promised_;  // moves of it, by others
   PassingOrderId finished_;  // all its moves are made; others may wait for that
@@ -96,6 +100,7 @@ class PassingPolicy {
   PassingOrderId newest_;                      // heard of
   PassingOrderId void_;                        // was made for another goal
   std::optional<PassingInstruction> offered_;  // not taken up yet
+  std::vector<Vector2> obstacles_;             // for which it has left, or not taken up, the newest
   std::optional<PassingStretch> stretch_;
   double news_s_ = 0.0;        // of anybody
   double progressed_s_ = 0.0;  // it, or who it waits for, got on last

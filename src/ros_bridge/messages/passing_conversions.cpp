@@ -52,6 +52,7 @@ mocha_ugv::PassingIntent to_message(const PassingIntent& intent, const std::stri
   message.leader = intent.follows.leader;
   message.number = intent.follows.number;
   message.turns = intent.moves;
+  for (const Vector2& place : intent.obstacles) message.obstacles.push_back(point(place));
   return message;
 }
 
@@ -85,6 +86,7 @@ PassingIntent passing_from_message(const mocha_ugv::PassingIntent& message,
   intent.follows.leader = message.leader;
   intent.follows.number = message.number;
   intent.moves = message.turns;
+  for (const auto& point : message.obstacles) intent.obstacles.emplace_back(point.x, point.y);
   validate(intent);
   return intent;
 }

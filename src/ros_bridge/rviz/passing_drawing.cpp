@@ -11,6 +11,7 @@ constexpr double kThin_m = 0.03;
 constexpr double kPlace_m = 0.15;
 constexpr double kTextHeight_m = 0.25;
 const std_msgs::ColorRGBA kColor = color(0.9, 0.45, 0.0, 0.7);
+const std_msgs::ColorRGBA kObstacleColor = color(0.9, 0.0, 0.0, 0.9);
 
 }  // namespace
 
@@ -21,6 +22,7 @@ void PassingDrawing::note(const PassingMessage& message) {
 }
 
 void PassingDrawing::note(const PassingIntent& intent) {
+  if (intent.agent == robot_) obstacles_ = intent.obstacles;
   if (intent.agent == robot_ && intent.follows != followed_.id) {
     followed_ = intent.follows == offered_.id ? std::exchange(offered_, {}) : Order();
     promised_.clear();
@@ -48,6 +50,8 @@ bool PassingDrawing::may_make(const PassingTurn& turn) const {
 }
 
 void PassingDrawing::draw(Drawing& drawing) const {
+  for (const Vector2& obstacle : obstacles_)
+    drawing.add_square("obstacles", obstacle, kPlace_m, kObstacleColor);
   const auto own = promised_.find(robot_);
   const std::uint32_t promised = own != promised_.end() ? own->second : 0;
   bool permitted = true;

@@ -21,7 +21,8 @@ class PassingDrawing {
   void note(const PassingMessage& message);
 
   /// Its turns, from the last one that it has promised on: the paths of those that it may make
-  /// broad, those of the rest thin, and their ends as squares. Nothing where it keeps to no order.
+  /// broad, those of the rest thin, and their ends as squares. Where it does not keep to the newest
+  /// order: the obstacles that it tells of.
   void draw(Drawing& drawing) const;
 
  private:
@@ -34,6 +35,7 @@ class PassingDrawing {
   bool may_make(const PassingTurn& turn) const;
 
   const std::string robot_;
+  std::vector<Vector2> obstacles_;
   Order offered_;                                  // the newest that it does not keep to
   Order followed_;                                 // number 0: none
   std::map<std::string, std::uint32_t> promised_;  // turns of the order, by robot

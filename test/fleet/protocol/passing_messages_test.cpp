@@ -76,6 +76,12 @@ TEST(PassingMessages, RefuseIntentsThatNoRobotCanHave) {
   expect_refused(with(intent(), [](Intent& i) { i.goal->x() = std::nan(""); }), "not finite");
   expect_refused(with(intent(), [](Intent& i) { i.follows.leader.clear(); }), "nobody's order");
   expect_refused(with(intent(), [](Intent& i) { i.moves = kMostTurns + 1; }), "moves");
+  const auto obstructed_by = [](std::size_t count, const Vector2& place) {
+    return with(intent(), [&](Intent& i) { i.obstacles.assign(count, place); });
+  };
+  EXPECT_NO_THROW(validate(obstructed_by(kMostObstacles, {1.0, 2.0})));
+  expect_refused(obstructed_by(kMostObstacles + 1, {1.0, 2.0}), "17 obstacles");
+  expect_refused(obstructed_by(1, {1.0, std::nan("")}), "an obstacle is not finite");
 }
 
 TEST(PassingMessages, RefuseInstructionsThatAreNotOfTheirOrder) {

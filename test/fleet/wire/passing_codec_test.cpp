@@ -83,6 +83,16 @@ TEST(PassingCodec, GivesBackThatARobotIsParkedAndFollowsNobody) {
   EXPECT_EQ(heard.follows, PassingOrderId());
 }
 
+TEST(PassingCodec, GivesBackObstacles) {
+  PassingIntent obstructed = intent();
+  for (std::size_t i = 0; i < kMostObstacles; ++i)
+    obstructed.obstacles.emplace_back(12.0 + 0.1 * static_cast<double>(i), -4.5);
+  EXPECT_EQ(told(obstructed).obstacles, obstructed.obstacles);
+  EXPECT_LE(encoded(obstructed).size(), 160U);
+  obstructed.goal.reset();
+  EXPECT_EQ(told(obstructed).obstacles, obstructed.obstacles);
+}
+
 TEST(PassingCodec, ARobotIsNotToldToBeSmallerThanItIs) {
   PassingIntent wide = intent();
   wide.radius_m = 0.33301;
@@ -176,6 +186,9 @@ TEST(PassingCodec, RefusesWhatCannotBeSaid) {
   wide = intent();
   wide.goal->y() = -1e12;
   EXPECT_THROW(encoded(wide), std::invalid_argument);
+  PassingIntent obstructed = intent();
+  obstructed.obstacles = {Vector2(0.0, 1e12)};
+  EXPECT_THROW(encoded(obstructed), std::invalid_argument);
 }
 
 }  // namespace

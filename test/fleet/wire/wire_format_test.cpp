@@ -77,7 +77,9 @@ Heartbeat heartbeat() {
 }
 
 PassingIntent passing_intent() {
-  return {"ugv1", 3, -7, true, 0.333, Vector2(-20000.0, 12.34567), {"ugv2", 1, 5}, 4};
+  return {"ugv1",         3,     -7,
+          true,           0.333, Vector2(-20000.0, 12.34567),
+          {"ugv2", 1, 5}, 4,     {{1.0, 2.0}, {3.0, 4.0}}};
 }
 
 PassingInstruction passing_instruction() {

@@ -46,7 +46,7 @@ TEST(HeardIntents, WhatIsNotSaidAgainLapses) {
   EXPECT_EQ(heard.of("b", 13.5), nullptr);
 }
 
-TEST(HeardIntents, IsNewsWhereCallsTheOrderOrTheMovesChange) {
+TEST(HeardIntents, IsNewsWhereCallsTheOrderTheMovesOrTheObstaclesChange) {
   HeardIntents heard;
   PassingIntent intent = intent_of("a");
   EXPECT_EQ(heard.hear(intent, 0.0), Heard::kNothingNew);
@@ -58,10 +58,12 @@ TEST(HeardIntents, IsNewsWhereCallsTheOrderOrTheMovesChange) {
   EXPECT_EQ(heard.hear(intent, 0.4), Heard::kNews);
   intent.moves = 1;
   EXPECT_EQ(heard.hear(intent, 0.5), Heard::kNews);
+  intent.obstacles = {Vector2(1.0, 2.0)};
+  EXPECT_EQ(heard.hear(intent, 0.6), Heard::kNews);
   intent.goal = Vector2(1.0, 2.0);
   intent.priority = 1;
   intent.follows.epoch = 7;
-  EXPECT_EQ(heard.hear(intent, 0.6), Heard::kNothingNew);
+  EXPECT_EQ(heard.hear(intent, 0.7), Heard::kNothingNew);
 }
 
 TEST(HeardIntents, IsNoNewsFromAnotherNorAfterItHasLapsed) {

@@ -66,6 +66,7 @@ class PassingFleet : public ::testing::Test {
     bool drives = true;  ///< what its order lets it
     bool keeps = false;  ///< says that it keeps to an order, or is through
     std::vector<PassingMessage> said;
+    std::shared_ptr<const StaticMap> own_map = nullptr;  ///< null: it knows what all know
 
     Vector2 place(double now_s) const { return committed.at(now_s).pose.position; }
     bool is_there(double now_s) const { return goal && (place(now_s) - *goal).norm() < 0.15; }
@@ -80,12 +81,13 @@ class PassingFleet : public ::testing::Test {
                        true,
                        true,
                        false,
-                       {}});
+                       {},
+                       nullptr});
     return robots_.back();
   }
 
   PlanningScene scene_of(const Robot& self) const {
-    PlanningScene scene{static_map_, {}};
+    PlanningScene scene{self.own_map ? self.own_map : static_map_, {}};
     for (const Robot& robot : robots_) {
       if (robot.name == self.name) continue;
       scene.peers.push_back(std::make_shared<PeerObstacle>(

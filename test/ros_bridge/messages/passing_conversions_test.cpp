@@ -33,6 +33,11 @@ TEST(PassingConversions, GiveBackIntents) {
   EXPECT_EQ(heard.goal.value(), Vector2(1.5, -2.25));
   EXPECT_EQ(heard.follows, intent().follows);
   EXPECT_EQ(heard.moves, 4U);
+  EXPECT_TRUE(heard.obstacles.empty());
+  PassingIntent obstructed = intent();
+  obstructed.obstacles = {{1.0, 2.0}, {-3.0, 0.5}};
+  EXPECT_EQ(passing_from_message(to_message(obstructed, "map", kStamp), "map").obstacles,
+            obstructed.obstacles);
   PassingIntent parked = intent();
   parked.goal.reset();
   EXPECT_FALSE(passing_from_message(to_message(parked, "map", kStamp), "map").goal);

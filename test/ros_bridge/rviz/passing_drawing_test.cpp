@@ -65,6 +65,25 @@ TEST(PassingDrawing, TurnsThatMayBeMadeAreBroadAndThoseThatHaveToWaitAreThin) {
   EXPECT_EQ(told(passing), "2=3=");
 }
 
+TEST(PassingDrawing, TheObstaclesThatTheRobotItselfTellsOfAreDrawn) {
+  PassingDrawing passing("ugv1");
+  const auto drawn = [&] {
+    Drawing drawing("map", ros::Time(1.0));
+    passing.draw(drawing);
+    return drawing.markers().markers;
+  };
+  PassingIntent obstructed = intent("ugv2", 7, 0);
+  obstructed.obstacles = {{1.0, 2.0}, {3.0, 4.0}};
+  passing.note(obstructed);
+  EXPECT_TRUE(drawn().empty());
+  obstructed.agent = "ugv1";
+  passing.note(obstructed);
+  ASSERT_EQ(drawn().size(), 2u);
+  EXPECT_EQ(drawn().front().ns, "obstacles");
+  passing.note(intent("ugv1", 7, 0));
+  EXPECT_TRUE(drawn().empty());
+}
+
 TEST(PassingDrawing, OnlyWhatTheRobotKeepsToIsDrawn) {
   PassingDrawing passing("ugv1");
   PassingInstruction others = instruction(7);
