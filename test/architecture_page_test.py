@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Checks docs/architecture.md and its picture against the sources: topics, paths, the rows of the ladder, the states of the executive, the
-named requirements; README's table of nodes, too. Each rule is also tried on a planted fault."""
+named requirements; docs/nodes.md, too. Each rule is also tried on a planted fault."""
 import pathlib
 import re
 import sys
@@ -122,9 +122,9 @@ def requirement_faults(page, header):
     return [f"{name}: is not there" for name in names if name not in listed] + [f"{name}: is none" for name in listed if name not in names]
 
 
-def node_table_faults(readme, topics):
-    """What README's table says of a node that the node does not have."""
-    nodes = {cells[0].split("`")[1]: cells for cells in tables(section(readme, "Nodes")) if cells[0].startswith("`")}
+def node_table_faults(page, topics):
+    """What the table of docs/nodes.md says of a node that the node does not have."""
+    nodes = {cells[0].split("`")[1]: cells for cells in tables(section(page, "Topics and services")) if cells[0].startswith("`")}
     for node, each in topics.items():
         if node not in nodes:
             yield f"{node}: is not there"
@@ -143,7 +143,7 @@ class ArchitecturePage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.page = read("docs/architecture.md")
-        cls.readme = read("README.md")
+        cls.nodes = read("docs/nodes.md")
         cls.sources = code()
         cls.topics = node_topics.read_topics(ROOT)
 
@@ -183,9 +183,9 @@ class ArchitecturePage(unittest.TestCase):
     def test_requirements(self):
         self.check(lambda page: requirement_faults(page, read("src/safety/requirement.h")), self.page, ("| `kEscape`", "| `kFlight`"), "kEscape: is not")
 
-    def test_readme_says_what_nodes_read_and_write(self):
+    def test_nodes_page_says_what_they_read_and_write(self):
         faults = lambda page: node_table_faults(page, self.topics)  # noqa: E731
-        self.check(faults, self.readme, ("`replanner_status`", "`replanner_state`"), "local_replanner: has no replanner_state")
+        self.check(faults, self.nodes, ("`replanner_status`", "`replanner_state`"), "local_replanner: has no replanner_state")
 
 
 if __name__ == "__main__":
