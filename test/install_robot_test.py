@@ -73,13 +73,16 @@ class InstallRobot(unittest.TestCase):
 
     def test_settings_reach_the_nodes(self):
         map_file, key = self.write("flat.bt"), self.key()
+        parameters = self.write("parameters.yaml", "{local_replanner: {horizon: 5.0}}")
         lidar = self.write("lidar.launch", (ROOT / "test/rostest/vendor_lidar.launch").read_text())
         self.install("--robot", "ugv5", "--model", "rover", "--priority", "-2", "--port", "/dev/ttyUSB1", "--robot-type", "3",
-                     "--map", "flat.bt", "--key", key, "--lidar-launch", lidar, "--lidar-topic", "/scan", "--lidar-frame", "laser_link", "--lcm-url", "topics")
+                     "--map", "flat.bt", "--key", key, "--lidar-launch", lidar, "--lidar-topic", "/scan", "--lidar-frame", "laser_link", "--lcm-url", "topics",
+                     "--parameters", parameters)
         config = self.launched()
         values = {name: parameter.value for name, parameter in config.params.items()}
         self.assertEqual([values["/ugv5/base_driver/" + name] for name in ("port", "robot_model", "robot_type")], ["/dev/ttyUSB1", "rover", 3])
         self.assertEqual((values["/ugv5/scan_localizer/map_file"], values["/ugv5/trajectory_broadcaster/priority"]), (map_file, -2))
+        self.assertEqual(values["/ugv5/local_replanner/horizon"], 5.0)
         broadcaster = "/ugv5/trajectory_broadcaster/"
         self.assertEqual((values[broadcaster + "fleet_key"], values[broadcaster + "lcm_url"]), (key, ""))
         nodes = {node.name: node for node in config.nodes}
@@ -87,7 +90,7 @@ class InstallRobot(unittest.TestCase):
         self.assertIn(["/ugv5/scan", "/scan"], nodes["perception"].remap_args)
 
     def test_service_says_all_that_the_launch_file_asks(self):
-        asked = {argument.get("name") for argument in ElementTree.parse(ROOT / "launch/robot.launch").findall("arg")}
+        asked = {argument.get("name") for argument in ElementTree.parse(ROOT / "launch/robot.launch").findall("arg") if not argument.get("value")}
         self.install(*NAMED)
         self.assertEqual(set(re.findall(r'"(\w+):=', self.read(UNIT))), asked - {"rviz"})
 
@@ -194,6 +197,7 @@ class InstallRobot(unittest.TestCase):
                 (["--robot", "ugv3"], "no map to localise in"),
                 ([*NAMED, "--model", "tank"], "there is no config/robots/tank.yaml"),
                 ([*NAMED, "--model", "../robots/rover"], "there is no config/robots/"),
+                ([*NAMED, "--model", "nowhere/tank.yaml"], "nowhere/tank.yaml: there is no such file"),
                 ([*NAMED, "--priority", "high"], 'priority "high": must be a whole number'),
                 ([*NAMED, "--base", "no"], "must be true or false"),
                 ([*NAMED, "--port", "ttyS0"], "must be a device"),

@@ -3,7 +3,9 @@
 that they have."""
 import importlib.machinery
 import itertools
+import os
 import pathlib
+import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
@@ -28,9 +30,11 @@ def switches(path):
 
 
 def load(path, given=()):
-    needed = [f"{argument.get('name')}:={NEEDED[argument.get('name')]}" for argument in arguments(path) if argument.get("default") is None]
+    needed = {argument.get("name"): NEEDED[argument.get("name")] for argument in arguments(path)
+              if argument.get("default") is None and argument.get("value") is None}
+    said = {**needed, **dict(each.split(":=", 1) for each in given)}
     config = roslaunch.config.ROSLaunchConfig()
-    roslaunch.xmlloader.XmlLoader().load(str(path), config, argv=[*needed, *given], verbose=False)
+    roslaunch.xmlloader.XmlLoader().load(str(path), config, argv=[f"{name}:={value}" for name, value in said.items()], verbose=False)
     return config
 
 
@@ -70,6 +74,41 @@ class LaunchFiles(unittest.TestCase):
                         set_here = {name[len(mine):] for name in config.params if name.startswith(mine)}
                         schema = yaml.safe_load((ROOT / f"config/{node.type}.yaml").read_text())
                         self.assertLessEqual(set_here, {name for name, entry in schema.items() if "gone" not in entry})
+
+
+class OwnFiles(unittest.TestCase):
+    """Paths are those of the shell that roslaunch is started in: its nodes run elsewhere."""
+
+    def said(self, file, *given):
+        config = load(ROOT / "launch" / file, given)
+        return [str(param.value) for param in config.params.values()] + [word for node in config.nodes for word in node.args.split()]
+
+    def check(self, file, argument, path="/some/file"):
+        here = os.environ["PWD"] + "/"
+        relative = os.path.relpath(path, here)
+        for given, expected in ((path, path), (relative, here + relative)):
+            said = [word.rsplit("=", 1)[-1] for word in self.said(file, f"{argument}:={given}")]
+            self.assertEqual({word for word in said if word.endswith(relative)} or {word for word in said if word == path}, {expected}, f"{file} {argument}")
+
+    def test_are_found_from_where_roslaunch_is_started(self):
+        for file, names in {"agent": ("map_file", "keep_out_file", "fleet_key"), "robot": ("map_file", "keep_out_file", "fleet_key"),
+                            "emulated_robot": ("world",), "fleet_sim": ("world", "map_file", "fleet_key"), "replay": ("world", "bag")}.items():
+            for name in names:
+                self.check(file + ".launch", name)
+
+    def test_parameters_reach_the_nodes(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
+            file.write("{local_replanner: {horizon: 5.0}, perception: {scan_timeout: 0.4}}")
+            file.flush()
+            for launch in ("agent.launch", "robot.launch"):
+                params = load(ROOT / "launch" / launch, [f"parameters:={file.name}"]).params
+                self.assertEqual([params["/ugv3/local_replanner/horizon"].value, params["/ugv3/perception/scan_timeout"].value], [5.0, 0.4])
+        self.check("fleet_sim.launch", "parameters")
+
+    def test_models_are_named_or_given_by_their_paths(self):
+        for file in ("agent.launch", "robot.launch", "emulated_robot.launch", "replay.launch"):
+            self.check(file, "model", str(ROOT / "config/robots/rover.yaml"))
+            self.assertIn("jackal", self.said(file, "model:=jackal"))
 
 
 class OwnFootprints(unittest.TestCase):

@@ -5,6 +5,7 @@ import importlib.machinery
 import math
 import pathlib
 import subprocess
+import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
@@ -95,6 +96,17 @@ class RobotDescription(unittest.TestCase):
                 origin = ElementTree.parse(path).find("joint[@name='lidar_mount']/origin")
                 self.assertEqual(numbers(origin.get("xyz")), [values["lidar_x"], values["lidar_y"], values["lidar_z"]])
                 self.assertEqual(numbers(origin.get("rpy"))[2], values["lidar_yaw"])
+
+    def test_a_model_of_ones_own_is_described_by_what_is_beside_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            model = pathlib.Path(folder) / "mine.yaml"
+            model.write_text("{lidar_x: 0.07, footprint_radius: 0.2}")
+            bare = ElementTree.fromstring(described(str(model), "ugv7").stdout)
+            self.assertEqual(bare.get("name"), "mine")
+            self.assertEqual(numbers(bare.find("joint[@name='lidar_mount']/origin").get("xyz"))[0], 0.07)
+            model.with_suffix(".urdf").write_text((ROOT / "urdf/waveshare_rover.urdf").read_text())
+            self.assertGreater(len(ElementTree.fromstring(described(str(model), "ugv7").stdout)), len(bare))
+        self.assertIn("mine.yaml", described(str(model), "ugv7").stderr)
 
     def test_says_which_model_it_does_not_know(self):
         result = described("no_such_robot", "ugv7")

@@ -5,6 +5,7 @@
 #include <array>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 namespace mocha {
@@ -110,7 +111,14 @@ void check_lidar(const LidarModel& lidar, const std::string& path) {
 
 }  // namespace
 
+bool is_path_of_model(const std::string& model) {
+  constexpr std::string_view kEnding = ".yaml";
+  return model.size() > kEnding.size() &&
+         model.compare(model.size() - kEnding.size(), kEnding.size(), kEnding) == 0;
+}
+
 std::string robot_values_file(const std::string& config_directory, const std::string& model) {
+  if (is_path_of_model(model)) return model;
   return config_directory + "/robots/" + model + ".yaml";
 }
 

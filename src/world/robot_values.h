@@ -7,7 +7,11 @@
 
 namespace mocha {
 
-/// Where the values of a model are: `<config_directory>/robots/<model>.yaml`.
+/// Whether a model is named by the path of its file, which ends in `.yaml`, and not as one of
+/// `config/robots`.
+bool is_path_of_model(const std::string& model);
+
+/// Where the values of a model are: the path itself, or `<config_directory>/robots/<model>.yaml`.
 std::string robot_values_file(const std::string& config_directory, const std::string& model);
 
 /// What stands there, under the schema `<config_directory>/robot.yaml`. Throws ParameterError for

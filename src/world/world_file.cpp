@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "config/parameter_table.h"
+#include "world/robot_values.h"
 #include "world/yaml_reader.h"
 
 namespace mocha {
@@ -80,12 +81,14 @@ std::string read_name(const YamlReader& reader, const std::vector<WorldRobot>& o
 }
 
 RobotModel read_model(const YamlReader& reader, const std::string& config_directory) {
-  const std::string name = reader.text();
-  if (name.empty() || name.find_first_of("/.") != std::string::npos) {
-    reader.refuse("is not the name of a file in config/robots, without .yaml");
+  std::string model = reader.text();
+  if (is_path_of_model(model)) {
+    model = reader.path();
+  } else if (model.empty() || model.find_first_of("/.") != std::string::npos) {
+    reader.refuse("is neither the name of a file in config/robots, without .yaml, nor a path of one, with .yaml");
   }
   try {
-    return load_robot_model(config_directory, name);
+    return load_robot_model(config_directory, model);
   } catch (const ParameterError& error) {
     reader.refuse(error.what());
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <utility>
 
@@ -115,6 +116,10 @@ double YamlReader::not_negative() const {
 bool YamlReader::flag() const { return parse<bool>(*this, node_, "expected true or false"); }
 
 std::string YamlReader::text() const { return parse<std::string>(*this, node_, "expected a word"); }
+
+std::string YamlReader::path() const {
+  return std::filesystem::absolute(std::filesystem::path(file_).parent_path() / text());
+}
 
 Vector2 YamlReader::point() const {
   const auto values = items(2, 2);

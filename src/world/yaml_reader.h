@@ -31,6 +31,7 @@ class YamlReader {
   double not_negative() const;
   bool flag() const;
   std::string text() const;
+  std::string path() const;             ///< of a file; relative ones begin where this file is
   Vector2 point() const;                ///< [x, y]
   std::vector<Vector2> points() const;  ///< [[x, y], ...]
 

@@ -53,6 +53,21 @@ TEST_F(RobotModelTest, EveryShippedRobotLoads) {
   EXPECT_GE(count, 2);
 }
 
+TEST_F(RobotModelTest, AFileAnywhereIsNamedByItsPath) {
+  const std::string path = (directory_ / "mine.yaml").string();
+  std::ofstream(path) << "max_speed: 0.4";
+  const RobotModel mine = load_robot_model(directory_.string(), path);
+  EXPECT_EQ(mine.limits.max_speed, 0.4);
+  EXPECT_EQ(mine.name, path);
+  std::ofstream(path) << "max_speed: 40";
+  try {
+    load_robot_model(directory_.string(), path);
+    ADD_FAILURE();
+  } catch (const ParameterError& error) {
+    EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(RobotModelTest, MarginsAreNoLargerAtRestThanAtSpeed) {
   EXPECT_EQ(load("margin_tracking: 0.02\nmargin_map: 0.005\n").margins.tracking_still_m, 0.02);
   EXPECT_NE(refusal("margin_tracking: 0.015").find("margin_tracking_still = 0.02 m is above"),

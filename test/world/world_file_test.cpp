@@ -49,6 +49,22 @@ class WorldFileTest : public testing::Test {
   fs::path path_;
 };
 
+TEST_F(WorldFileTest, AModelNamedByItsPathIsLookedForBesideTheWorld) {
+  const fs::path model = fs::path(path_).replace_extension(".robot.yaml");
+  std::ofstream(model) << "max_speed: 0.4";
+  for (const std::string& name : {model.filename().string(), model.string()}) {
+    const World world =
+        load(kBounds + ("robots: [{name: a, model: " + name + ", start: [0, 0, 0]}]\n"));
+    EXPECT_EQ(world.robots[0].model.limits.max_speed, 0.4);
+    EXPECT_EQ(world.robots[0].model.name, model.string());
+  }
+  fs::remove(model);
+  expect_refused_robot("{name: a, model: absent.yaml, start: [0, 0, 0]}",
+                       {"robots[0].model = absent.yaml", "absent.yaml"});
+  expect_refused_robot("{name: a, model: robots/rover, start: [0, 0, 0]}",
+                       {"robots[0].model", "nor a path"});
+}
+
 TEST_F(WorldFileTest, ReadsEverything) {
   const World world = load(R"(
 bounds: {min: [-10, -5], max: [10, 5]}
