@@ -11,7 +11,8 @@ import rosbag
 from matplotlib.patches import Circle
 
 from benchmarks.classes_plots import COLORS, draw_world
-from mocha_scripts import drive_plots, worlds
+from mocha_scripts import bags, drive_plots, worlds
+from mocha_scripts.complaint import Complaint
 from mocha_scripts.map_topics import NewestMap
 from mocha_ugv.msg import MotionPhase, PlannerStatus
 
@@ -247,12 +248,13 @@ def table(told, circles):
 def draw_costs(bag, world_path, out):
     """Writes costs.png (Fig. 14) and time_lapse.png (Fig. 15) to the directory `out`. Returns the costs as a table."""
     world = worlds.read_world(world_path)
+    bags.check_drive(bag, world, world_path)
     radius_m = {robot["name"]: robot.get("radius", worlds.robot_values(robot["model"])["footprint_radius"]) for robot in world["robots"]}
     recording = Recording(bag, list(radius_m))
     told = {name: recording.telling_plan(name) for name in radius_m}
     told = {name: (plan, before) for name, (plan, before) in told.items() if plan}
     if not told:
-        raise ValueError(f"{bag}: no robot of {world_path} has planned")
+        raise Complaint(f"{bag}: no robot of {world_path} has planned")
     height_m = world["bounds"]["max"][1] - world["bounds"]["min"][1]
     spans_m = [np.ptp(window(plan, world)) for plan, _ in told.values()]
     heights = [min(7.0, 0.8 * WIDTH_IN * height_m / span_m) + 0.8 for span_m in spans_m]

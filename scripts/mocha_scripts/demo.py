@@ -35,16 +35,13 @@ def parse(arguments):
 
 def read_robots(world):
     """Names of the robots of a world file; one line and exit status 2 where it cannot be read."""
-    import yaml  # here, like all that the help can do without
+    from mocha_scripts import worlds  # here, like all that the help can do without
+    from mocha_scripts.complaint import Complaint
     try:
-        with open(world) as file:
-            return [robot["name"] for robot in yaml.safe_load(file)["robots"]]
-    except OSError as error:
-        why = error.strerror
-    except (yaml.YAMLError, KeyError, TypeError) as error:
-        why = f"is not a world file: {error!r}"
-    print(f"demo: {world}: {why}", file=sys.stderr)
-    sys.exit(2)
+        return [robot["name"] for robot in worlds.read_world(world)["robots"]]
+    except Complaint as complaint:
+        print(f"demo: {complaint}", file=sys.stderr)
+        sys.exit(2)
 
 
 def shown(path):

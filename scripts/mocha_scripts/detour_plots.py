@@ -8,7 +8,7 @@ import numpy as np
 import rosbag
 from matplotlib.patches import Circle
 
-from mocha_scripts import drive_plots, worlds
+from mocha_scripts import bags, drive_plots, worlds
 
 MOVER, PLAN, LOCAL, DRIVEN = "#f28e2b", "#1f77b4", "#c00000", "#222222"
 EVERY_S = 1.5  # robot and people are drawn
@@ -91,6 +91,7 @@ def draw_clearance(axes, recording, threshold_m):
 def draw_detour(bag, world_path, out):
     """Writes detour.png to the directory `out`, of the first robot of the world."""
     world = worlds.read_world(world_path)
+    bags.check_drive(bag, world, world_path)
     robot = world["robots"][0]
     values = worlds.robot_values(robot["model"])
     recording = Recording(bag, robot["name"])

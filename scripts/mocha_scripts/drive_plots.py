@@ -9,7 +9,7 @@ import numpy as np
 import rosbag
 from matplotlib.collections import LineCollection
 
-from mocha_scripts import worlds
+from mocha_scripts import bags, worlds
 from mocha_scripts.map_topics import NewestMap
 
 COLOURS = ["#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e", "#17becf", "#8c564b", "#e377c2"]
@@ -141,8 +141,9 @@ def save(figure, path):
 
 def draw_drive(bag, world_path, out):
     """Writes map.png, dynamics.png, clearance.png and, for more than one robot, separation.png to the directory `out`."""
-    tracks, separation, maps = read_bag(bag)
     world = worlds.read_world(world_path)
+    bags.check_drive(bag, world, world_path)
+    tracks, separation, maps = read_bag(bag)
     limits = {robot["name"]: worlds.robot_values(robot["model"]) for robot in world["robots"]}
     draw_map(tracks, maps, world, limits, os.path.join(out, "map.png"))
     draw_dynamics(tracks, limits, os.path.join(out, "dynamics.png"))

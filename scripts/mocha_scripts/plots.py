@@ -4,6 +4,8 @@ import argparse
 import os
 import sys
 
+from mocha_scripts.complaint import Complaint
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
@@ -185,7 +187,11 @@ def main(arguments):
         plots.add_argument("--out", default=".", metavar="DIR", help="files go there (default: here)")
     options = parser.parse_args(arguments)
     os.makedirs(options.out, exist_ok=True)
-    options.draw(options)
+    try:
+        options.draw(options)
+    except Complaint as complaint:
+        print(f"plots: {complaint}", file=sys.stderr)
+        return 1
     return 0
 
 

@@ -3,6 +3,7 @@ import os
 import signal
 import socket
 import subprocess
+import tempfile
 import time
 
 
@@ -13,7 +14,8 @@ def free_port():
 
 
 class Session:
-    """Starts roslaunch with its own master. Environment variables of this process point at it from then on."""
+    """Starts roslaunch with its own master. Environment variables of this process point at it from then on. What ROS keeps besides, unless
+    ROS_HOME says where, is gone at the end."""
 
     def __init__(self, launch_file, arguments, log_path):
         port = free_port()
@@ -21,7 +23,10 @@ class Session:
         os.environ["ROS_HOSTNAME"] = "localhost"
         os.environ.setdefault("ROSCONSOLE_STDOUT_LINE_BUFFERED", "1")
         os.environ.setdefault("ROSCONSOLE_FORMAT", "[${severity}] [${time}] ${message}")
-        os.environ.setdefault("ROS_HOME", os.path.dirname(os.path.abspath(log_path)))
+        self._home = None
+        if "ROS_HOME" not in os.environ:
+            self._home = tempfile.TemporaryDirectory(prefix="mocha_ugv_", ignore_cleanup_errors=True)
+            os.environ["ROS_HOME"] = self._home.name
         self.log_path = log_path
         self._log = open(log_path, "w")
         command = ["roslaunch", "-p", str(port), "mocha_ugv", launch_file]
@@ -59,6 +64,9 @@ class Session:
         for process in self._extra + [self._process]:
             _end(process)
         self._log.close()
+        if self._home:
+            self._home.cleanup()
+            del os.environ["ROS_HOME"]
 
     def __enter__(self):
         return self

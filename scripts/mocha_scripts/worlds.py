@@ -3,16 +3,32 @@ import os
 
 import yaml
 
+from mocha_scripts.complaint import Complaint, in_a_line
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+
+def read_yaml(path):
+    """A map."""
+    try:
+        with open(path) as file:
+            content = yaml.safe_load(file)
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise Complaint(f"{path}: cannot be read: {in_a_line(error)}") from error
+    if not isinstance(content, dict):
+        raise Complaint(f"{path}: is not a map in YAML")
+    return content
 
 
 def read_world(path):
     """Models that are named by their paths are so relative to the world file; here, absolute."""
-    with open(path) as file:
-        world = yaml.safe_load(file)
-    for robot in world.get("robots", ()):
-        if robot["model"].endswith(".yaml"):
-            robot["model"] = os.path.abspath(os.path.join(os.path.dirname(path), robot["model"]))
+    world = read_yaml(path)
+    try:
+        for robot in world["robots"]:
+            if robot["name"] and robot["model"].endswith(".yaml"):
+                robot["model"] = os.path.abspath(os.path.join(os.path.dirname(path), robot["model"]))
+    except (KeyError, TypeError, AttributeError) as error:
+        raise Complaint(f"{path}: is not a world file: its robots each need a name and a model") from error
     return world
 
 

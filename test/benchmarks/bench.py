@@ -6,6 +6,7 @@ from benchmarks import (bench_barn, bench_crossing, bench_crowds, bench_deadlock
                         bench_fleet_delay, bench_fleet_scale, bench_footprint, bench_leaving, bench_localization, bench_maps,
                         bench_prediction, bench_protocol, bench_replan, bench_soak, bench_table1, bench_table2, bench_table3,
                         bench_tracking)
+from mocha_scripts.complaint import Complaint
 
 BENCHES = {"barn": bench_barn, "crossing": bench_crossing, "crowds": bench_crowds, "deadlock": bench_deadlock,
            "dynabarn": bench_dynabarn, "evaluation": bench_evaluation, "faults": bench_faults, "fleet_delay": bench_fleet_delay,
@@ -22,7 +23,11 @@ def main(arguments):
         module.add_arguments(names.add_parser(name, help=module.__doc__.strip().split("\n")[0],
                                               description=module.__doc__))
     options = parser.parse_args(arguments)
-    return BENCHES[options.name].run(options)
+    try:
+        return BENCHES[options.name].run(options)
+    except Complaint as complaint:
+        print(f"bench: {complaint}", file=sys.stderr)
+        return 1
 
 
 if __name__ == "__main__":

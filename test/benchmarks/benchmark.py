@@ -2,6 +2,9 @@
 import json
 import os
 import subprocess
+import sys
+
+from mocha_scripts.complaint import Complaint
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
@@ -15,8 +18,12 @@ def build(name):
 
 def call(program, *arguments):
     """What the program printed as JSON."""
-    printed = subprocess.run([program, *map(str, arguments)], check=True, stdout=subprocess.PIPE, cwd=ROOT).stdout
-    return json.loads(printed)
+    ran = subprocess.run([program, *map(str, arguments)], check=False, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT, text=True)
+    sys.stderr.write(ran.stderr if ran.returncode == 0 else "")
+    if ran.returncode != 0:
+        words = ran.stderr.strip().splitlines()
+        raise Complaint(words[-1] if words else f"{os.path.basename(program)} ended with {ran.returncode}")
+    return json.loads(ran.stdout)
 
 
 def run(name, *arguments):

@@ -5,10 +5,11 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-import yaml
 from matplotlib.patches import Circle, Polygon
 
 from benchmarks import benchmark
+from mocha_scripts import worlds
+from mocha_scripts.complaint import Complaint
 
 COLORS = ("#d6247f", "#1f77b4", "#2ca02c", "#ff7f0e", "#7b3fb5", "#00a6a6", "#8c564b", "#8a8a12")
 
@@ -59,8 +60,11 @@ def draw_candidates(axes, candidates):
 
 def draw_classes(path, classes, drive, out):
     path = os.path.abspath(path)
-    with open(path) as file:
-        description = yaml.safe_load(file)
+    description = worlds.read_yaml(path)
+    if "image" not in description and "bounds" not in description:
+        raise Complaint(f"{path}: is neither a world file nor the map.yaml of a saved map; save_map writes those of a name that ends on .yaml")
+    if "image" in description and not drive:
+        raise Complaint(f"{path}: is a map: say from where to where, with --drive X0 Y0 X1 Y1")
     result = benchmark.run("classes", os.path.join(benchmark.ROOT, "config"), classes, path, *(drive or []))
     figure, axes = plt.subplots(figsize=(11, 8))
     if "image" in description:

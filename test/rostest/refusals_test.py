@@ -121,8 +121,8 @@ class RefusalsTest(unittest.TestCase):
         self.assertLess(time.monotonic() - begun, PATIENCE_S)
 
     def test_demo_in_worlds_that_are_none(self):
-        self.check_demo(["/no/such/world.yaml", "No such file"], "/no/such/world.yaml")
-        for text, words in (("robots: [", ["world file"]),
+        self.check_demo(["/no/such/world.yaml: cannot be read: No such file"], "/no/such/world.yaml")
+        for text, words in (("robots: [", ["cannot be read"]),
                             (NOT_A_NUMBER, ["circles[0]", ".nan"]),
                             (WALLED_IN, ["ugv1", "start"]),
                             (MISSPELT, ["circels"])):

@@ -1,0 +1,63 @@
+#!/usr/bin/python3
+"""What scripts/plots says of files that it cannot draw: a line, and no traceback."""
+import contextlib
+import io
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import rosbag
+from std_msgs.msg import String
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "test")]
+from mocha_scripts import plots, worlds  # noqa: E402
+from mocha_scripts.complaint import Complaint  # noqa: E402
+
+WORLD = ROOT / "config/worlds/corridor.yaml"
+
+
+class Plots(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def write(self, name, text):
+        path = pathlib.Path(self.folder.name) / name
+        path.write_text(text)
+        return path
+
+    def check(self, *arguments, says):
+        words = io.StringIO()
+        with contextlib.redirect_stderr(words):
+            status = plots.main([*map(str, arguments), "--out", self.folder.name])
+        self.assertEqual(status, 1)
+        self.assertRegex(words.getvalue(), rf"^plots: [^\n]*{says}[^\n]*\n$")
+
+    def test_bags(self):
+        for drawn in ("drive", "detour"):
+            self.check(drawn, "/no/such.bag", "--world", WORLD, says="/no/such.bag: cannot be read: No such file")
+            self.check(drawn, self.write("text.bag", "nothing"), "--world", WORLD, says="text.bag: cannot be read")
+            other = pathlib.Path(self.folder.name) / "other.bag"
+            with rosbag.Bag(str(other), "w") as bag:
+                bag.write("/chatter", String("hello"))
+            self.check(drawn, other, "--world", WORLD, says="other.bag: is no drive of the simulator")
+
+    def test_worlds_and_maps(self):
+        for text, says in (("[1, 2]", "is not a map in YAML"), ("{a: [", "cannot be read"), ("{robots: [{name: a}]}", "each need a name and a model")):
+            self.check("drive", "/no/such.bag", "--world", self.write("world.yaml", text), says=says)
+        self.check("classes", ROOT / "config/maps/corridor.bt", says="corridor.bt: cannot be read")
+        self.check("classes", ROOT / "config/robots/rover.yaml", says="neither a world file nor")
+        self.check("classes", self.write("map.yaml", "{image: map.pgm, resolution: 0.05, origin: [0, 0, 0]}"), says="--drive X0 Y0 X1 Y1")
+
+    def test_models_of_a_world_are_beside_it(self):
+        world = self.write("world.yaml", "{robots: [{name: a, model: mine.yaml}, {name: b, model: rover}]}")
+        self.write("mine.yaml", "max_speed: 0.4")
+        mine, other = [robot["model"] for robot in worlds.read_world(world)["robots"]]
+        self.assertEqual((worlds.robot_values(mine)["max_speed"], other), (0.4, "rover"))
+        self.assertRaises(Complaint, worlds.read_world, "/no/such.yaml")
+
+
+if __name__ == "__main__":
+    unittest.main()
