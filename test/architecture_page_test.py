@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Checks docs/architecture.md and its picture against the sources: topics, paths, the rows of the ladder, the states of the executive, the
-named requirements; docs/nodes.md, too. Each rule is also tried on a planted fault."""
+named requirements; docs/nodes.md and docs/troubleshooting.md, too. Each rule is also tried on a planted fault."""
 import pathlib
 import re
 import sys
@@ -139,6 +139,20 @@ def node_table_faults(page, topics):
                 yield f"{node}: has no {name}"
 
 
+# What docs/troubleshooting.md explains: the words of an enumeration, and where they are.
+EXPLAINED = (("PlanReason", "src/ros_bridge/messages/status_conversions.cpp"), ("Row", LADDER + ".cpp"), ("M", "src/control/tracker_mode.cpp"),
+             ("Refusal", "src/fleet/protocol/commitment_event.cpp"))
+
+
+def unexplained_words(page):
+    """Words that status and diagnostics say, and the page has no row for."""
+    rows = {cells[0] for cells in tables(page)}
+    for enumeration, file in EXPLAINED:
+        for word in words(read(file), enumeration).values():
+            if word != "none" and f"`{word}`" not in rows:
+                yield f"{enumeration}: {word}"
+
+
 class ArchitecturePage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -155,6 +169,8 @@ class ArchitecturePage(unittest.TestCase):
 
     def test_names_exist(self):
         self.check(lambda page: absent_names(page, self.sources), self.page, ("`proposed_trajectory`", "`wished_trajectory`"), "wished_trajectory")
+        for page in ("fleet_network", "nodes", "on_a_robot", "own_robot", "safety", "tuning"):
+            self.assertEqual(absent_names(read(f"docs/{page}.md"), self.sources), [], page)
 
     def test_paths_exist(self):
         for path in sorted((ROOT / "docs").glob("*.md")):
@@ -182,6 +198,11 @@ class ArchitecturePage(unittest.TestCase):
 
     def test_requirements(self):
         self.check(lambda page: requirement_faults(page, read("src/safety/requirement.h")), self.page, ("| `kEscape`", "| `kFlight`"), "kEscape: is not")
+
+    def test_troubleshooting_explains_what_is_said(self):
+        for enumeration, file in EXPLAINED:
+            self.assertGreater(len(words(read(file), enumeration)), 6, enumeration)
+        self.check(unexplained_words, read("docs/troubleshooting.md"), ("| `sidestep` |", "| `side step` |"), "Row: sidestep")
 
     def test_nodes_page_says_what_they_read_and_write(self):
         faults = lambda page: node_table_faults(page, self.topics)  # noqa: E731
