@@ -10,6 +10,7 @@
 #include <string>
 
 #include "ros_bridge/messages/conversions.h"
+#include "ros_bridge/runtime/node_help.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/robot_identity.h"
 #include "ros_bridge/runtime/step_loop.h"
@@ -202,6 +203,7 @@ class BaseEmulatorNode {
 }  // namespace mocha
 
 int main(int argc, char** argv) {
+  if (mocha::prints_help(argc, argv, "base_emulator")) return 0;
   ros::init(argc, argv, "base_emulator");
   ros::NodeHandle node;
   try {

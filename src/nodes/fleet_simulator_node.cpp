@@ -15,6 +15,7 @@
 #include "ros_bridge/runtime/footprint_check.h"
 #include "ros_bridge/runtime/live_parameters.h"
 #include "ros_bridge/runtime/lockstep.h"
+#include "ros_bridge/runtime/node_help.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/transport.h"
 #include "ros_bridge/rviz/world_markers.h"
@@ -282,6 +283,7 @@ class FleetSimulatorNode {
 }  // namespace mocha
 
 int main(int argc, char** argv) {
+  if (mocha::prints_help(argc, argv, "fleet_simulator")) return 0;
   ros::init(argc, argv, "fleet_simulator");
   ros::NodeHandle node;
   try {

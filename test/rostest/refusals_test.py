@@ -41,6 +41,26 @@ class RefusalsTest(unittest.TestCase):
         for word in words:
             self.assertIn(word, result.stdout)
 
+    def test_help_needs_no_master(self):
+        for node in NODES + ("base_driver", "base_emulator", "scan_localizer"):
+            with self.subTest(node):
+                result = subprocess.run(["rosrun", "mocha_ugv", node, "--help"], env=dict(os.environ, ROS_MASTER_URI="http://localhost:1"),
+                                        stdout=subprocess.PIPE, text=True, timeout=PATIENCE_S)
+                self.assertEqual(result.returncode, 0)
+                self.assertTrue(result.stdout.startswith("usage: rosrun mocha_ugv " + node), result.stdout)
+                self.assertIn("\n  robot_model: " if node != "fleet_simulator" else "\n  world: ", result.stdout)
+
+    def test_a_clock_that_nobody_publishes_is_missed(self):
+        rospy.set_param("/use_sim_time", True)
+        node = subprocess.Popen(["rosrun", "mocha_ugv", "perception", "__name:=waiting"], env=dict(os.environ, ROS_NAMESPACE="ugv9"),
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        try:
+            self.assertTrue(any("waits for /clock" in line for line in node.stdout))
+        finally:
+            rospy.delete_param("/use_sim_time")
+            node.terminate()
+            node.communicate(timeout=PATIENCE_S)
+
     def test_misspelt_parameters(self):
         for node in NODES:
             with self.subTest(node):

@@ -5,6 +5,8 @@
 #include <exception>
 #include <string>
 
+#include "ros_bridge/runtime/clock_watch.h"
+#include "ros_bridge/runtime/node_help.h"
 #include "ros_bridge/runtime/parameters.h"
 
 namespace mocha {
@@ -15,8 +17,10 @@ namespace mocha {
 /// handle and its ParameterTable.
 template <typename Node>
 int run_node(int argc, char** argv, const std::string& name) {
+  if (prints_help(argc, argv, name)) return 0;
   ros::init(argc, argv, name);
   ros::NodeHandle node;  // outside: the console closes with the last handle
+  ClockWatch clock(node);
   try {
     Node instance(node, checked_parameters(name));
     ros::spin();

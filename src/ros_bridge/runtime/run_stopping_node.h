@@ -6,6 +6,8 @@
 #include <exception>
 #include <string>
 
+#include "ros_bridge/runtime/clock_watch.h"
+#include "ros_bridge/runtime/node_help.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/stop_signals.h"
 
@@ -17,9 +19,11 @@ namespace mocha {
 template <typename Node, typename Between>
 int run_stopping_node(int argc, char** argv, const std::string& name, ros::WallDuration period,
                       Between between) {
+  if (prints_help(argc, argv, name)) return 0;
   const StopSignals stop;
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   ros::NodeHandle node;  // outside: the console closes with the last handle
+  ClockWatch clock(node);
   try {
     Node instance(node, checked_parameters(name));
     while (ros::ok() && !stop.came()) {
