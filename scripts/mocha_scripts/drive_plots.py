@@ -46,15 +46,20 @@ def read_bag(path):
     return {name: track.columns() for name, track in tracks.items()}, np.array(separation), maps
 
 
-def draw_grid(axes, grid):
+def draw_known(axes, grid):
+    """Free cells white, occupied ones black; nothing where nothing is known."""
     width, height, cell = grid.info.width, grid.info.height, grid.info.resolution
     cells = np.array(grid.data, dtype=np.int8).reshape(height, width)
-    picture = np.full((height, width), 0.80)
+    picture = np.zeros((height, width, 4))
     picture[(cells >= 0) & (cells < 50)] = 1.0
-    picture[cells >= 50] = 0.0
+    picture[cells >= 50] = (0.0, 0.0, 0.0, 1.0)
     x, y = grid.info.origin.position.x, grid.info.origin.position.y
-    axes.imshow(picture, origin="lower", cmap="gray", vmin=0, vmax=1, interpolation="nearest",
-                extent=(x, x + width * cell, y, y + height * cell))
+    axes.imshow(picture, origin="lower", interpolation="nearest", extent=(x, x + width * cell, y, y + height * cell))
+
+
+def draw_grid(axes, grid):
+    axes.set_facecolor("0.8")
+    draw_known(axes, grid)
 
 
 def draw_obstacles(axes, world):

@@ -116,6 +116,17 @@ def add_costs(what):
     return costs
 
 
+def add_animation(what):
+    animation = what.add_parser("animation", help="a recorded drive as an animated picture",
+                                description="Writes drive.gif: what the robots know of the world, where they are, and (broad) what they have promised.")
+    animation.add_argument("bag", help="drive.bag of a demo")
+    animation.add_argument("--world", default=os.path.join(ROOT, "config/worlds/corridor.yaml"), metavar="FILE",
+                           help="world file that was driven (default: the corridor)")
+    animation.add_argument("--speed", type=float, default=2.0, metavar="N", help="so many times as fast as it was driven (default 2)")
+    animation.set_defaults(draw=draw_animation)
+    return animation
+
+
 def add_architecture(what):
     architecture = what.add_parser("architecture", help="the nodes and their topics, read from the sources",
                                    description="Writes architecture.svg, which docs/ holds.")
@@ -174,6 +185,11 @@ def draw_costs(options):
     print(costs_plots.draw_costs(options.bag, options.world, options.out))
 
 
+def draw_animation(options):
+    from mocha_scripts import animation
+    print(animation.draw_animation(options.bag, options.world, options.out, options.speed))
+
+
 def draw_architecture(options):
     from mocha_scripts import architecture_plot
     architecture_plot.draw_architecture(ROOT, options.out)
@@ -183,7 +199,7 @@ def main(arguments):
     parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
     what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
     for plots in (add_drive(what), add_table1(what), add_table2(what), add_table3(what), add_classes(what), add_tracks(what), add_contacts(what),
-                  add_replan(what), add_detour(what), add_costs(what), add_architecture(what)):
+                  add_replan(what), add_detour(what), add_costs(what), add_animation(what), add_architecture(what)):
         plots.add_argument("--out", default=".", metavar="DIR", help="files go there (default: here)")
     options = parser.parse_args(arguments)
     os.makedirs(options.out, exist_ok=True)

@@ -20,6 +20,7 @@ std::string text_of(const ParameterValue& value) {
 
 std::string line_of(const std::string& name, const Parameter& parameter) {
   std::ostringstream line;
+  line.precision(10);
   line << "  " << name << ": " << text_of(parameter.default_value);
   if (parameter.unit != "-") line << " " << parameter.unit;
   if (std::isfinite(parameter.min)) line << " (" << parameter.min << " to " << parameter.max << ")";

@@ -31,12 +31,12 @@ PassingIntent intent(const std::string& agent, std::uint32_t number, std::uint32
   return intent;
 }
 
-std::vector<Marker> turns(const PassingDrawing& passing) {
+std::vector<Marker> drawn(const PassingDrawing& passing, const std::string& name) {
   Drawing drawing("map", ros::Time(1.0));
   passing.draw(drawing);
   std::vector<Marker> found;
   for (const Marker& marker : drawing.markers().markers) {
-    if (marker.ns == "turns") found.push_back(marker);
+    if (marker.ns == name) found.push_back(marker);
   }
   return found;
 }
@@ -44,7 +44,7 @@ std::vector<Marker> turns(const PassingDrawing& passing) {
 /// From where to where, and whether broad ("=") or thin ("-").
 std::string told(const PassingDrawing& passing) {
   std::string text;
-  for (const Marker& turn : turns(passing)) {
+  for (const Marker& turn : drawn(passing, "turns")) {
     text += std::to_string(static_cast<int>(turn.points.front().x));
     text += turn.scale.x > 0.1 ? "=" : "-";
   }
@@ -67,21 +67,15 @@ TEST(PassingDrawing, TurnsThatMayBeMadeAreBroadAndThoseThatHaveToWaitAreThin) {
 
 TEST(PassingDrawing, TheObstaclesThatTheRobotItselfTellsOfAreDrawn) {
   PassingDrawing passing("ugv1");
-  const auto drawn = [&] {
-    Drawing drawing("map", ros::Time(1.0));
-    passing.draw(drawing);
-    return drawing.markers().markers;
-  };
   PassingIntent obstructed = intent("ugv2", 7, 0);
   obstructed.obstacles = {{1.0, 2.0}, {3.0, 4.0}};
   passing.note(obstructed);
-  EXPECT_TRUE(drawn().empty());
+  EXPECT_TRUE(drawn(passing, "obstacles").empty());
   obstructed.agent = "ugv1";
   passing.note(obstructed);
-  ASSERT_EQ(drawn().size(), 2u);
-  EXPECT_EQ(drawn().front().ns, "obstacles");
+  EXPECT_EQ(drawn(passing, "obstacles").size(), 2u);
   passing.note(intent("ugv1", 7, 0));
-  EXPECT_TRUE(drawn().empty());
+  EXPECT_TRUE(drawn(passing, "obstacles").empty());
 }
 
 TEST(PassingDrawing, OnlyWhatTheRobotKeepsToIsDrawn) {
