@@ -138,7 +138,8 @@ std::vector<PassingMessage> PassingPolicy::step(const PassingSituation& situatio
   return messages;
 }
 
-/// A new order where the robot comes to rest at its beginning, and no obstacle is on its way.
+/// A new order where the robot comes to rest at its beginning. Where obstacles are on its way,
+/// watch() leaves it at once.
 void PassingPolicy::take_up(const PassingSituation& situation, const SceneSource& scene) {
   const PassingInstruction instruction = *std::exchange(offered_, std::nullopt);
   FollowedOrder order(instruction);
@@ -147,7 +148,6 @@ void PassingPolicy::take_up(const PassingSituation& situation, const SceneSource
   if (!order.is_over() && !(start && (*start - rest).norm() < kAtPlace_m)) return;
   leave_order();
   note_obstacles(instruction.part, scene({rest}));
-  if (!obstacles_.empty()) return call_again(situation.now_s);
   leader_.retire_for(order.id());
   followed_ = std::move(order);
   finished_ = PassingOrderId();
@@ -189,9 +189,6 @@ void PassingPolicy::note_obstacles(const std::vector<PassingTurn>& turns,
   if (obstacles_.size() > kMostObstacles) obstacles_.resize(kMostObstacles);
 }
 
-/// An order could not be kept to.
-void PassingPolicy::call_again(double now_s) { calls_until_s_ = now_s + kCallAgain_s; }
-
 /// A robot that it waits for says that it keeps to another order, or to none.
 bool PassingPolicy::is_let_down(double now_s) const {
   const auto names =
@@ -216,7 +213,7 @@ void PassingPolicy::watch(const PassingSituation& situation, const SceneSource& 
     note_obstacles({{stretch_->path, {}}}, scene({here}));
   if (follows() && (!obstacles_.empty() || is_stuck(situation))) {
     leave_order();
-    call_again(situation.now_s);
+    calls_until_s_ = situation.now_s + kCallAgain_s;
   }
   calls_ =
       !follows() && situation.goal &&

@@ -73,7 +73,6 @@ class PassingPolicy {
   bool is_let_down(double now_s) const;
   bool is_stuck(const PassingSituation& situation) const;
   void note_obstacles(const std::vector<PassingTurn>& turns, const PlanningScene& scene);
-  void call_again(double now_s);
   bool leads(double now_s) const;
   void lead(const PassingSituation& situation, const SceneSource& scene);
   PassingIntent intent(const PassingSituation& situation) const;
