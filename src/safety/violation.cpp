@@ -54,9 +54,8 @@ std::string in_words(const BasicViolation<D>& violation) {
   if (std::isinf(violation.value)) quantity = words.jump + quantity;
   const int digits = decimals(violation.value, violation.limit);
   char text[256];
-  std::snprintf(text, sizeof(text), " %.*f %s, %s %.*f, from t = %.3f s at ", digits,
-                violation.value, words.unit, words.is_minimum ? "needs" : "limit", digits,
-                violation.limit, violation.time_s);
+  std::snprintf(text, sizeof(text), " %.*f %s, %s %.*f, at ", digits, violation.value, words.unit,
+                words.is_minimum ? "needs" : "limit", digits, violation.limit);
   std::string sentence = quantity + text;
   for (int axis = 0; axis < D; ++axis) {
     std::snprintf(text, sizeof(text), "%s%.2f", axis == 0 ? "(" : ", ", violation.place[axis]);

@@ -38,7 +38,7 @@ struct BasicViolation {
 
 using Violation = BasicViolation<2>;
 
-/// In words: what is violated, where, when and by how much. "no violation" if there is none.
+/// In words: what is violated, by how much and where. "no violation" if there is none.
 std::string describe(const BasicViolation<2>& violation);
 std::string describe(const BasicViolation<3>& violation);
 

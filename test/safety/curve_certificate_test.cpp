@@ -264,8 +264,7 @@ TYPED_TEST(CurveCertificates, NotANumberIsNoProof) {
 
 TEST(CurveCertificate, SaysWhereInSpace) {
   const BasicViolation<3> violation{ViolatedTerm::kSpeed, 12.5, {1.0, -2.0, 3.5}, 1.25, 1.0, ""};
-  EXPECT_EQ(describe(violation),
-            "speed 1.250 m/s, limit 1.000, from t = 12.500 s at (1.00, -2.00, 3.50)");
+  EXPECT_EQ(describe(violation), "speed 1.250 m/s, limit 1.000, at (1.00, -2.00, 3.50)");
 }
 
 }  // namespace
