@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Two robots that would pass a cylinder on the same side: the first one's promise makes that dearer for the second one, which takes another
-way, as in the paper's Fig. 14; and scripts/plots costs draws it from the recording."""
+way, as in the paper's Fig. 14; and scripts/plots costs draws it from the recording, and scripts/plots animation the drive."""
 
 import os
 import shutil
@@ -12,6 +12,7 @@ import unittest
 import numpy as np
 import rospkg
 import rostest
+from PIL import Image, ImageSequence
 from mocha_ugv.msg import MotionPhase
 
 ROOT = rospkg.RosPack().get_path("mocha_ugv")
@@ -71,6 +72,14 @@ class CostsTest(unittest.TestCase):
 
     def setUp(self):
         self.assertTrue(os.path.exists(self.bag), self.demo.stdout)
+
+    def test_the_drive_is_drawn_as_an_animated_picture(self):
+        drawn = run("plots", "animation", self.bag, "--world", WORLD, "--speed", "5", out=self.out)
+        self.assertEqual(drawn.returncode, 0, drawn.stdout)
+        with Image.open(os.path.join(self.out, "drive.gif")) as picture:
+            self.assertGreater(picture.n_frames, 5)
+            frames = [np.asarray(picture.convert("RGB"), dtype=int) for picture in ImageSequence.Iterator(picture)]
+        self.assertGreater((np.abs(frames[-1] - frames[0]).max(axis=2) > 50).mean(), 1e-3, "nothing moves in it")
 
     def test_the_promise_makes_the_way_dearer_and_another_is_taken(self):
         recording = costs_plots.Recording(self.bag, ["ugv1", "ugv2"])
