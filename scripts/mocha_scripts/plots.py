@@ -9,12 +9,17 @@ from mocha_scripts.complaint import Complaint
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
+def add_recording(plots, world, words):
+    """What is drawn: a bag, and the world file that was driven."""
+    plots.add_argument("bag", help="drive.bag of a demo")
+    plots.add_argument("--world", default=os.path.join(ROOT, f"config/worlds/{world}.yaml"), metavar="FILE",
+                       help=f"world file that was driven (default: {words})")
+
+
 def add_drive(what):
     drive = what.add_parser("drive", help="the plots of scripts/demo, from its rosbag",
                             description="Writes map.png, dynamics.png, clearance.png and, for more than one robot, separation.png.")
-    drive.add_argument("bag", help="drive.bag of a demo")
-    drive.add_argument("--world", default=os.path.join(ROOT, "config/worlds/corridor.yaml"), metavar="FILE",
-                       help="world file that was driven (default: the corridor)")
+    add_recording(drive, "corridor", "the corridor")
     drive.set_defaults(draw=draw_drive)
     return drive
 
@@ -96,9 +101,7 @@ def add_detour(what):
     detour = what.add_parser("detour", help="a recorded drive around what moves, as in the paper's Figs. 10 and 11",
                              description="Writes detour.png: the global plan, the local trajectories with their rejoin points, what was seen to move, "
                              "and below the clearance over time.")
-    detour.add_argument("bag", help="drive.bag of a demo")
-    detour.add_argument("--world", default=os.path.join(ROOT, "config/worlds/detour.yaml"), metavar="FILE",
-                        help="world file that was driven (default: the scene of Fig. 10)")
+    add_recording(detour, "detour", "the scene of Fig. 10")
     detour.set_defaults(draw=draw_detour)
     return detour
 
@@ -109,9 +112,7 @@ def add_costs(what):
                             "add to them: for the robot that promised first its first plan, for the others their first that knew a promise) and "
                             "time_lapse.png (the drives), and prints the costs, beside those of the same paths in the plan before. A path is optimised with "
                             "(33), so where it makes room for a promise its duration rises rather than (33) itself.")
-    costs.add_argument("bag", help="drive.bag of a demo")
-    costs.add_argument("--world", default=os.path.join(ROOT, "config/worlds/corridor_meet.yaml"), metavar="FILE",
-                       help="world file that was driven (default: two robots that meet in the corridor)")
+    add_recording(costs, "corridor_meet", "two robots that meet in the corridor")
     costs.set_defaults(draw=draw_costs)
     return costs
 
@@ -119,9 +120,7 @@ def add_costs(what):
 def add_animation(what):
     animation = what.add_parser("animation", help="a recorded drive as an animated picture",
                                 description="Writes drive.gif: what the robots know of the world, where they are, and (broad) what they have promised.")
-    animation.add_argument("bag", help="drive.bag of a demo")
-    animation.add_argument("--world", default=os.path.join(ROOT, "config/worlds/corridor.yaml"), metavar="FILE",
-                           help="world file that was driven (default: the corridor)")
+    add_recording(animation, "corridor", "the corridor")
     animation.add_argument("--speed", type=float, default=2.0, metavar="N", help="so many times as fast as it was driven (default 2)")
     animation.set_defaults(draw=draw_animation)
     return animation
