@@ -1,6 +1,7 @@
 #include "perception/mapping/octree_file.h"
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <sstream>
 #include <utility>
