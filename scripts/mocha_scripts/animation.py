@@ -6,6 +6,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import rosbag
+import yaml
 from matplotlib.patches import Polygon
 from PIL import Image
 
@@ -63,21 +64,38 @@ class Recording:
         return next((what for stamp, what in reversed(rows) if stamp <= time_s), None)
 
 
-def outline(values, pose):
-    """Of a footprint, map frame; and the line that says where its front is."""
-    x, y, yaw = pose
+def rectangle(length, width):
+    return np.array([(length, width), (-length, width), (-length, -width), (length, -width)]) / 2.0
+
+
+def disc(radius):
+    angles = np.linspace(0.0, 2.0 * np.pi, 32, endpoint=False)
+    return radius * np.column_stack((np.cos(angles), np.sin(angles)))
+
+
+def footprint(robot):
+    """The corners of a robot of a world file, in base_link: its own, else those of its model."""
+    if "radius" in robot:
+        return disc(robot["radius"])
+    if "footprint" in robot:
+        return np.array(robot["footprint"]) if isinstance(robot["footprint"][0], list) else rectangle(*robot["footprint"])
+    values = worlds.robot_values(robot["model"])
+    if values["footprint"] == "polygon":
+        return np.array(yaml.safe_load(values["footprint_corners"]))
     if values["footprint"] == "rectangle":
-        length, width = 0.5 * values["footprint_length"], 0.5 * values["footprint_width"]
-        corners = np.array([(length, width), (-length, width), (-length, -width), (length, -width)])
-    else:
-        angles = np.linspace(0.0, 2.0 * np.pi, 32, endpoint=False)
-        corners = values["footprint_radius"] * np.column_stack((np.cos(angles), np.sin(angles)))
+        return rectangle(values["footprint_length"], values["footprint_width"])
+    return disc(values["footprint_radius"])
+
+
+def placed(corners, pose):
+    """A footprint in the map frame, and the line that says where its front is."""
+    x, y, yaw = pose
     turn = np.array([(np.cos(yaw), np.sin(yaw)), (-np.sin(yaw), np.cos(yaw))])
     front = np.array([(0.0, 0.0), (corners[:, 0].max(), 0.0)])
     return corners @ turn + (x, y), front @ turn + (x, y)
 
 
-def draw_frame(axes, recording, world, values, time_s):
+def draw_frame(axes, recording, world, footprints, time_s):
     axes.clear()
     axes.set_facecolor("#b8b8b8")
     for maps in recording.maps.values():
@@ -93,7 +111,7 @@ def draw_frame(axes, recording, world, values, time_s):
         if promise is not None:
             axes.plot(*promise.T, color=colour, lw=5, alpha=0.45, solid_capstyle="round", zorder=4)
         axes.plot(*recording.trail(name, time_s).T, color=colour, lw=1.2, zorder=4)
-        body, front = outline(values[name], recording.pose_at(name, time_s))
+        body, front = placed(footprints[name], recording.pose_at(name, time_s))
         axes.add_patch(Polygon(body, fc=colour, ec="k", lw=1.0, zorder=5))
         axes.plot(*front.T, color="w", lw=2, zorder=6)
     low, high = world["bounds"]["min"], world["bounds"]["max"]
@@ -102,12 +120,12 @@ def draw_frame(axes, recording, world, values, time_s):
                   bbox={"boxstyle": "round,pad=0.2", "fc": "w", "ec": "none", "alpha": 0.8}, zorder=7)
 
 
-def frames(recording, world, values, speed):
+def frames(recording, world, footprints, speed):
     low, high = (np.array(world["bounds"][end]) for end in ("min", "max"))
     figure = plt.figure(figsize=LONGER_SIDE_PX / DPI * (high - low) / max(high - low), dpi=DPI)
     axes = figure.add_axes((0, 0, 1, 1))
     for time_s in np.arange(recording.begin_s(), recording.end_s() + 1.0, speed / FRAMES_PER_S):
-        draw_frame(axes, recording, world, values, time_s)
+        draw_frame(axes, recording, world, footprints, time_s)
         figure.canvas.draw()
         yield Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[:, :, :3])
     plt.close(figure)
@@ -117,9 +135,9 @@ def draw_animation(bag, world_path, out, speed):
     """Writes drive.gif to the directory `out`, `speed` times as fast as it was driven."""
     world = worlds.read_world(world_path)
     bags.check_drive(bag, world, world_path)
-    values = {robot["name"]: worlds.robot_values(robot["model"]) for robot in world["robots"]}
-    recording = Recording(bag, list(values))
-    pictures = list(frames(recording, world, values, speed))
+    footprints = {robot["name"]: footprint(robot) for robot in world["robots"]}
+    recording = Recording(bag, list(footprints))
+    pictures = list(frames(recording, world, footprints, speed))
     palette = pictures[len(pictures) // 2].quantize(COLOURS)  # one for all: only what moves changes from frame to frame
     pictures = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
     durations = [int(1000 / FRAMES_PER_S)] * (len(pictures) - 1) + [int(1000 * LAST_S)]

@@ -85,7 +85,9 @@ RobotModel read_model(const YamlReader& reader, const std::string& config_direct
   if (is_path_of_model(model)) {
     model = reader.path();
   } else if (model.empty() || model.find_first_of("/.") != std::string::npos) {
-    reader.refuse("is neither the name of a file in config/robots, without .yaml, nor a path of one, with .yaml");
+    reader.refuse(
+        "is neither the name of a file in config/robots, without .yaml, nor a path of one, with "
+        ".yaml");
   }
   try {
     return load_robot_model(config_directory, model);

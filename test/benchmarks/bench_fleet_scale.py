@@ -4,9 +4,9 @@ Every robot has 40 m^2 and a pillar to itself and drives 8 m. Messages go as far
 --reach says how far instead (inf: all hear all, which takes long beyond some hundred).
 All planners run in one process, in simulated time, each on one thread. Where fleets are smaller, as many of them run side by side as make up
 the same number of robots, each by itself: so many robots find little of what they need in the processor's caches, which no robot of a real
-fleet shares with others. replan_s is the processor time of a global plan, step_s that of a
-step of the local replanner, both in the median; bytes_per_s is what one robot sends; memory_bytes is what is held at the end, by the number
-of robots; protocol is the share of one core that one robot's part in the protocol takes, news that of taking over what others promise.
+fleet shares with others. replan_s is the processor time of a global plan, step_s that of a step of the local replanner, both in the median;
+bytes_per_s is what one robot sends; memory_bytes is what is held at the end, by the number of robots; protocol is the share of one core that
+one robot's part in the protocol takes, news that of taking over what others promise.
 """
 from benchmarks import benchmark
 

@@ -2,7 +2,6 @@
 import json
 import os
 import subprocess
-import sys
 
 from mocha_scripts.complaint import Complaint
 
@@ -17,12 +16,10 @@ def build(name):
 
 
 def call(program, *arguments):
-    """What the program printed as JSON."""
-    ran = subprocess.run([program, *map(str, arguments)], check=False, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT, text=True)
-    sys.stderr.write(ran.stderr if ran.returncode == 0 else "")
+    """What the program printed as JSON. What it says besides, its progress or what is wrong, is seen at once."""
+    ran = subprocess.run([program, *map(str, arguments)], check=False, stdout=subprocess.PIPE, cwd=ROOT)
     if ran.returncode != 0:
-        words = ran.stderr.strip().splitlines()
-        raise Complaint(words[-1] if words else f"{os.path.basename(program)} ended with {ran.returncode}")
+        raise Complaint(f"{os.path.basename(program)} ended with {ran.returncode}")
     return json.loads(ran.stdout)
 
 

@@ -6,8 +6,8 @@
 
 namespace mocha {
 
-/// Obstacles on orders that team-mates could not keep to, as they told. They lapse: what stands
-/// there may go away, and who is sent there once more tells again.
+/// The obstacles that team-mates have told of, on orders that they could not keep to. Each lapses
+/// after a while, as it may have gone; a robot that is sent there again tells of it anew.
 class ToldObstacles {
  public:
   /// Returns whether one of them is new; those that there is no room for are not heeded.

@@ -6,9 +6,9 @@
 
 namespace mocha {
 
-/// The obstacles of a map that come clearly closer to a path, straight between its places, than
-/// `clearance_m`, and closer than where it begins: of each, places at least a tenth of a metre
-/// apart. Map frame [m].
+/// Returns where obstacles of a map are clearly closer to a path than `clearance_m`, and closer than
+/// where it begins: places on them at least a tenth of a metre apart. The path has a place, and is
+/// straight between its places. Map frame [m].
 std::vector<Vector2> obstacles_along(const std::vector<Vector2>& path, const StaticMap& static_map,
                                      double clearance_m);
 
