@@ -7,7 +7,7 @@
 namespace mocha {
 namespace {
 
-constexpr double kRestSpeed = 1e-4;  // [m/s] below, there is no direction to drive in
+constexpr double kNoDirection = 1e-4;  // [m/s] below, there is no direction to drive in
 
 Vector2 in_frame(const Pose& frame, const Vector2& point) {
   return Eigen::Rotation2Dd(-frame.yaw_rad) * (point - frame.position);
@@ -43,7 +43,7 @@ UnicycleState feedback(const Pose& pose, const Pose& reference, const UnicycleSt
   const double heading = wrap_angle(reference.yaw_rad - pose.yaw_rad);
   const double v = feedforward.speed;
   UnicycleState command = {0.0, feedforward.yaw_rate + gains.heading * heading};
-  if (std::abs(v) < kRestSpeed) return command;
+  if (std::abs(v) < kNoDirection) return command;
 
   const Vector2 offset = in_frame(pose, reference.position);
   const double bandwidth = std::min(gains.across * std::abs(v), gains.max_bandwidth);

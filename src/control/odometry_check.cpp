@@ -8,7 +8,7 @@ namespace mocha {
 namespace {
 
 constexpr double kArm_m = 0.5;
-constexpr double kLongestStep_s = 0.1;  // a command holds no longer
+constexpr double kLongestHold_s = 0.1;  // a command holds no longer
 
 }  // namespace
 
@@ -21,7 +21,7 @@ void OdometryCheck::add(double time_s, const Pose& odometry, const UnicycleState
     travel_m_ = 0.0;
     frozen_until_s_.reset();
   } else {
-    const double dt_s = std::min(time_s - *time_s_, kLongestStep_s);
+    const double dt_s = std::min(time_s - *time_s_, kLongestHold_s);
     travel_m_ += dt_s * (std::abs(command.speed) + kArm_m * std::abs(command.yaw_rate));
   }
   time_s_ = time_s;

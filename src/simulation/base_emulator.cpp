@@ -4,12 +4,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "simulation/time_slack.h"
+
 namespace mocha {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kTimeSlack_s = 1e-9;    // sums of steps are not exact
 constexpr double kMostWheelSpeed = 2.0;  // [m/s]
 constexpr std::size_t kLongestLine = 4096;
 constexpr double kAccelerometer = 8192.0 / 9.80665;     // counts per m/s^2, range of 4 g

@@ -8,7 +8,7 @@
 namespace mocha {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoHit_m = std::numeric_limits<double>::infinity();
 constexpr double kSmallestCell_m = 0.5;
 constexpr double kMostCells = 500.0;  // along one axis: wider worlds get larger cells
 constexpr double kRounding_m = 1e-9;
@@ -23,8 +23,8 @@ struct Axis {
   Axis(double from, double direction, int start, double cell_m)
       : cell(start), step(direction > 0.0 ? 1 : -1) {
     const double edge = (start + (step > 0 ? 1 : 0)) * cell_m;
-    next = direction == 0.0 ? kInfinity : (edge - from) / direction;
-    width = direction == 0.0 ? kInfinity : cell_m / std::abs(direction);
+    next = direction == 0.0 ? kNoHit_m : (edge - from) / direction;
+    width = direction == 0.0 ? kNoHit_m : cell_m / std::abs(direction);
   }
 };
 
@@ -108,7 +108,7 @@ void RayGrid::add(const Segment& segment) {
 }
 
 double RayGrid::nearest_in(const Cell& cell, const Vector2& origin, const Vector2& direction) {
-  double length = kInfinity;
+  double length = kNoHit_m;
   for (const Circle& circle : cell.circles) {
     length = std::min(length, mocha::ray_length(origin, direction, circle));
   }
@@ -124,12 +124,12 @@ double RayGrid::ray_length(const Vector2& origin, const Vector2& direction,
   double begin = 0.0;
   double end = max_length_m;
   if (cells_.empty() || !clip(from, direction, cell_m_ * Vector2(columns_, rows_), begin, end)) {
-    return kInfinity;
+    return kNoHit_m;
   }
   const Vector2 entry = from + begin * direction;
   Axis x(from.x(), direction.x(), index(entry.x(), columns_), cell_m_);
   Axis y(from.y(), direction.y(), index(entry.y(), rows_), cell_m_);
-  double nearest = kInfinity;
+  double nearest = kNoHit_m;
   while (x.cell >= 0 && x.cell < columns_ && y.cell >= 0 && y.cell < rows_) {
     nearest = std::min(nearest, nearest_in(cell(x.cell, y.cell), origin, direction));
     const double leaves = std::min(x.next, y.next);
@@ -138,7 +138,7 @@ double RayGrid::ray_length(const Vector2& origin, const Vector2& direction,
     crossed.cell += crossed.step;
     crossed.next += crossed.width;
   }
-  return nearest <= max_length_m ? nearest : kInfinity;
+  return nearest <= max_length_m ? nearest : kNoHit_m;
 }
 
 }  // namespace mocha

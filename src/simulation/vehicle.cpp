@@ -5,10 +5,11 @@
 #include <limits>
 #include <stdexcept>
 
+#include "simulation/time_slack.h"
+
 namespace mocha {
 namespace {
 
-constexpr double kTimeSlack_s = 1e-9;   // sums of steps are not exact
 constexpr double kSettledSpeed = 1e-6;  // [m/s] from here on a wheel turns exactly as wanted
 
 }  // namespace

@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "simulation/mover_path.h"
+#include "simulation/time_slack.h"
 
 namespace mocha {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTimeSlack_s = 1e-9;    // sums of steps are not exact
 constexpr double kMovingSpeed = 1e-3;    // [m/s] and [rad/s]; less is standing
 constexpr double kSpareHistory_s = 1.0;  // beyond the longest sweep and delay; more than any step
 

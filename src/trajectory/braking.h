@@ -4,6 +4,11 @@
 
 namespace mocha {
 
+/// [m/s] Slower is rest.
+constexpr double kRest_mps = 1e-3;
+/// Longest time from the present acceleration to the deceleration.
+constexpr double kBrakingRamp_s = 0.2;
+
 /// How hard a robot brakes: at a deceleration, and in a bend at what the friction circle leaves.
 class Braking {
  public:

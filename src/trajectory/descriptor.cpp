@@ -13,7 +13,7 @@ namespace {
 // would be up to 6 cm off; from 50 ms, 0.2 mm. Without such a knot it is the same to a micrometre.
 constexpr double kLever_s = 0.05;
 
-void require(bool condition, const char* what) {
+void require_of_descriptor(bool condition, const char* what) {
   if (!condition) throw std::invalid_argument(std::string("rebuild: ") + what);
 }
 
@@ -73,13 +73,15 @@ PhaseDescriptor describe_phase(const DrivePhase& drive) {
 
 DrivePhase rebuild_drive(const PhaseDescriptor& phase) {
   const int pieces = static_cast<int>(phase.durations_s.size());
-  require(phase.direction == 1 || phase.direction == -1, "a drive's direction is not +1 or -1");
-  require(pieces >= 1 && phase.points.size() == phase.durations_s.size() + 1,
-          "a drive needs one duration a piece and one point more");
+  require_of_descriptor(phase.direction == 1 || phase.direction == -1,
+                        "a drive's direction is not +1 or -1");
+  require_of_descriptor(pieces >= 1 && phase.points.size() == phase.durations_s.size() + 1,
+                        "a drive needs one duration a piece and one point more");
   Eigen::VectorXd durations(pieces);
   for (int i = 0; i < pieces; ++i) {
     durations[i] = phase.durations_s[i];
-    require(std::isfinite(durations[i]) && durations[i] > 0.0, "a duration is not positive");
+    require_of_descriptor(std::isfinite(durations[i]) && durations[i] > 0.0,
+                          "a duration is not positive");
   }
   PlanarMinco::Knots knots(2, pieces - 1);
   for (int k = 0; k + 1 < pieces; ++k) knots.col(k) = phase.points[k + 1];
@@ -87,7 +89,8 @@ DrivePhase rebuild_drive(const PhaseDescriptor& phase) {
   PlanarMinco::State end;
   start << phase.points.front(), phase.start_derivatives;
   end << phase.points.back(), phase.end_derivatives;
-  require(start.allFinite() && end.allFinite() && knots.allFinite(), "a drive is not finite");
+  require_of_descriptor(start.allFinite() && end.allFinite() && knots.allFinite(),
+                        "a drive is not finite");
   PlanarMinco minco;
   minco.resize(pieces);
   minco.solve(start, end, knots, durations);
@@ -96,14 +99,15 @@ DrivePhase rebuild_drive(const PhaseDescriptor& phase) {
 
 Phase rebuild_phase(const PhaseDescriptor& phase) {
   if (phase.kind == PhaseDescriptor::Kind::kDrive) return rebuild_drive(phase);
-  require(phase.kind == PhaseDescriptor::Kind::kTurn || phase.kind == PhaseDescriptor::Kind::kStand,
-          "a phase is of no known kind");
-  require(phase.points.size() == 1 && phase.durations_s.size() == 1,
-          "a turn or a stand needs exactly one point and one duration");
-  require(phase.durations_s[0] >= 0.0, "a duration is negative");
+  require_of_descriptor(
+      phase.kind == PhaseDescriptor::Kind::kTurn || phase.kind == PhaseDescriptor::Kind::kStand,
+      "a phase is of no known kind");
+  require_of_descriptor(phase.points.size() == 1 && phase.durations_s.size() == 1,
+                        "a turn or a stand needs exactly one point and one duration");
+  require_of_descriptor(phase.durations_s[0] >= 0.0, "a duration is negative");
   const Pose pose{phase.points[0], phase.yaw_start_rad};
   if (phase.kind == PhaseDescriptor::Kind::kTurn) {
-    require(phase.durations_s[0] > 0.0, "a turn takes no time");
+    require_of_descriptor(phase.durations_s[0] > 0.0, "a turn takes no time");
     return TurnPhase{pose, phase.yaw_change_rad, phase.durations_s[0], phase.start_rates,
                      phase.end_rates};
   }

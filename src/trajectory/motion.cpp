@@ -21,7 +21,7 @@ constexpr double kRestAcceleration = 1e-3;  // [m/s^2] likewise
 constexpr double kRestJerk = 1e-3;          // [m/s^3] likewise
 constexpr double kLargest = 1e12;           // [m], [m/s^2] beyond, squares soon overflow
 constexpr double kSameYawRate = 0.01;       // [rad/s]
-constexpr double kSliver_s = 2e-3;
+constexpr double kSliverOfMotion_s = 2e-3;
 constexpr double kShortestPhase_s = 1e-5;  // shorter parts of a phase are dropped when cutting
 
 MotionState state_in(const TurnPhase& turn, double t) {
@@ -266,7 +266,7 @@ double Motion::switch_time(double t) const {
 
 double Motion::clean_cut(double t) const {
   for (const double boundary : phase_starts_) {
-    if (std::abs(t - boundary) < kSliver_s) return boundary;
+    if (std::abs(t - boundary) < kSliverOfMotion_s) return boundary;
   }
   return t;
 }

@@ -11,7 +11,7 @@ namespace {
 
 // Knots are told in hundredths of a millimetre: of two that are nearer to each other in time, this
 // would make jerks. A polynomial of a smooth curve goes on for so long as its neighbour does.
-constexpr double kSliver_s = 0.002;
+constexpr double kShortestPiece_s = 0.002;
 
 /// [order][k]: the factor that u^k gets by deriving it so often.
 template <int Coefficients>
@@ -83,8 +83,8 @@ PiecewisePolynomial<D, S> PiecewisePolynomial<D, S>::slice(double t0, double t1)
   t1 = std::min(t1, duration());
   int first = locate(t0).piece;
   int last = locate(t1).piece;
-  if (first < last && piece_start(first + 1) - t0 < kSliver_s) ++first;
-  if (first < last && t1 - piece_start(last) < kSliver_s) --last;
+  if (first < last && piece_start(first + 1) - t0 < kShortestPiece_s) ++first;
+  if (first < last && t1 - piece_start(last) < kShortestPiece_s) --last;
   std::vector<Piece> pieces;
   std::vector<double> durations;
   for (int i = first; i <= last; ++i) {

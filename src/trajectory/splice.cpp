@@ -6,7 +6,7 @@
 namespace mocha {
 namespace {
 
-constexpr double kStand_s = 0.1;
+constexpr double kStandAtJoint_s = 0.1;
 constexpr double kShortest_s = 1e-5;  // shorter waits are rounding of absolute times
 
 /// The phases of a motion between two times, with its standing before and after.
@@ -28,7 +28,7 @@ MotionOrFault splice(double start_time_s, std::vector<Phase> head, const Motion&
   const double until_s = std::max(tail_from_s, tail.end_time());
   std::vector<Phase> rest = phases_with_stands(tail, tail_from_s, until_s);
   const bool over = rest.empty();
-  if (over) rest.emplace_back(StandPhase{tail.end_pose(), head.empty() ? kStand_s : 0.0});
+  if (over) rest.emplace_back(StandPhase{tail.end_pose(), head.empty() ? kStandAtJoint_s : 0.0});
   for (Phase& phase : rest) head.push_back(std::move(phase));
   MotionOrFault whole = Motion::make(start_time_s, head);
   if (!whole || !over || head.size() == 1) return whole;
@@ -44,7 +44,7 @@ MotionOrFault splice(const Motion& first, double from_s, double join_s, const Mo
 Motion rest_of(const Motion& motion, double from_s) {
   from_s = std::max(from_s, motion.start_time());
   std::vector<Phase> phases = motion.phases_between(from_s, motion.end_time());
-  if (phases.empty()) phases.emplace_back(StandPhase{motion.end_pose(), kStand_s});
+  if (phases.empty()) phases.emplace_back(StandPhase{motion.end_pose(), kStandAtJoint_s});
   return Motion(from_s, std::move(phases));
 }
 

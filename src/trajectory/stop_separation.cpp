@@ -13,9 +13,7 @@
 namespace mocha {
 namespace {
 
-constexpr double kStep_s = 0.1;    // of all that follows; the moments are whole numbers of it
-constexpr double kRamp_s = 0.2;    // until a robot brakes fully, as in brake_along()
-constexpr double kSlowest = 1e-3;  // [m/s] slower is rest
+constexpr double kStep_s = 0.1;  // of all that follows; the moments are whole numbers of it
 constexpr double kLongestReaction_s = 10.0;
 
 /// A motion in steps, and how its robot stops from each of them.
@@ -45,7 +43,7 @@ class SteppedMotion {
   long last() const { return first_ + static_cast<long>(places_.size()) - 1; }
   /// No stop is longer [m].
   double longest_stop_m() const {
-    return max_speed_ * (0.5 * max_speed_ / braking_.beside(max_lateral_) + 2.0 * kRamp_s);
+    return max_speed_ * (0.5 * max_speed_ / braking_.beside(max_lateral_) + 2.0 * kBrakingRamp_s);
   }
 
   /// Where the robot is at step k that brakes from step i on; k is not before i.
@@ -83,9 +81,9 @@ class SteppedMotion {
     double speed = speeds_[start];
     double at = static_cast<double>(start);
     stop.push_back(places_[start]);
-    for (int i = 0; speed > kSlowest; ++i) {
-      const double ramped = std::min(1.0, (i + 0.5) * kStep_s / kRamp_s);
-      const double bend = between(yaw_rates_, at) / std::max(between(speeds_, at), kSlowest);
+    for (int i = 0; speed > kRest_mps; ++i) {
+      const double ramped = std::min(1.0, (i + 0.5) * kStep_s / kBrakingRamp_s);
+      const double bend = between(yaw_rates_, at) / std::max(between(speeds_, at), kRest_mps);
       const double rate = braking_.rate(acceleration, ramped, bend * speed * speed);
       const double later = std::max(0.0, speed + rate * kStep_s);
       const double brakes_s = rate < 0.0 ? std::min(kStep_s, speed / -rate) : kStep_s;

@@ -13,17 +13,15 @@
 namespace mocha {
 namespace {
 
-constexpr double kSlowest = 1e-3;   // [m/s] slower is rest
 constexpr double kRestTurn = 1e-4;  // [rad/s] the same of a turn in place
 constexpr double kNoTurn = 0.05;    // [rad/s] of a robot that stands, as it is measured
-constexpr double kRamp_s = 0.2;  // longest time from the present acceleration to the deceleration
 constexpr double kKnotSpacing_s = 0.2;
 constexpr double kStand_s = 0.1;
 constexpr double kSliver_s = 2e-3;  // of a drive, before the braking: of no use
 
 /// What a braking robot follows: states by the time at which the original motion has them, up to
 /// where that ends.
-struct Track {
+struct BrakedTrack {
   std::function<MotionState(double)> at;
   std::function<double(double)> speed;  ///< never negative
   double start_s;
@@ -47,21 +45,21 @@ struct Schedule {
 };
 
 /// The acceleration across the track where it is driven at `speed`, not faster than the track is.
-double lateral(const Track& track, double t, double speed) {
+double lateral(const BrakedTrack& track, double t, double speed) {
   const MotionState state = track.at(t);
   return std::abs(state.yaw_rate / state.speed) * speed * speed;
 }
 
 /// Slows down from the track's state at its start: a ramp to the deceleration, then that, but never
 /// faster than the track at the same place (which may be slowing down for a bend).
-Schedule slow_down(const Track& track, const Braking& braking) {
+Schedule slow_down(const BrakedTrack& track, const Braking& braking) {
   const double deceleration = braking.deceleration();
   const MotionState start = track.at(track.start_s);
   double speed = start.velocity.norm();
   const double acceleration = start.acceleration.dot(start.velocity) / speed;
   // The ramp leaves at least half of the speed to brake with.
   const double drop = std::max(deceleration - acceleration, 1e-3 * deceleration);
-  const double ramp_s = std::min(kRamp_s, speed / drop);
+  const double ramp_s = std::min(kBrakingRamp_s, speed / drop);
   const double expected_s = ramp_s + speed / deceleration;
   Schedule schedule{{track.start_s}, std::min(0.01, expected_s / 64.0), 0.0, false};
   double t = track.start_s;
@@ -77,7 +75,7 @@ Schedule slow_down(const Track& track, const Braking& braking) {
     const double middle_speed = 0.5 * (speed + std::max(0.0, next_speed));
     t += step * std::min(1.0, middle_speed / track.speed(ahead));
     schedule.duration_s += step;
-    if (!(t < track.end_s) || !(track.speed(t) > kSlowest)) {
+    if (!(t < track.end_s) || !(track.speed(t) > kRest_mps)) {
       schedule.reaches_end = true;
       return schedule;
     }
@@ -87,7 +85,7 @@ Schedule slow_down(const Track& track, const Braking& braking) {
   }
 }
 
-DrivePhase drive_to_rest(const Track& track, const Schedule& schedule, double deceleration) {
+DrivePhase drive_to_rest(const BrakedTrack& track, const Schedule& schedule, double deceleration) {
   const int pieces = std::max(1, static_cast<int>(std::ceil(schedule.duration_s / kKnotSpacing_s)));
   const double spacing = schedule.duration_s / pieces;
   PlanarMinco::Knots knots(2, pieces - 1);
@@ -117,7 +115,7 @@ double path_end(const Motion& motion, double t) {
     const auto* drive = std::get_if<DrivePhase>(&motion.phases()[i]);
     if (drive == nullptr) return end;
     end = phase_end;
-    if (drive->path.derivative(drive->path.duration(), 1).norm() < kSlowest) return end;
+    if (drive->path.derivative(drive->path.duration(), 1).norm() < kRest_mps) return end;
   }
   return end;
 }
@@ -129,8 +127,8 @@ double before_crawling(const Motion& motion, double t) {
     const double begin = motion.phase_start_time(i);
     const auto* drive = std::get_if<DrivePhase>(&motion.phases()[i]);
     if (drive == nullptr || t <= begin || t - begin >= 0.5 * drive->path.duration()) continue;
-    const bool crawls = drive->path.derivative(0.0, 1).norm() < kSlowest &&
-                        drive->path.derivative(t - begin, 1).norm() < kSlowest;
+    const bool crawls = drive->path.derivative(0.0, 1).norm() < kRest_mps &&
+                        drive->path.derivative(t - begin, 1).norm() < kRest_mps;
     if (crawls) return begin;
   }
   return t;
@@ -171,10 +169,10 @@ MotionState on_circle(const Pose& pose, double speed, double yaw_rate, double t)
 std::vector<Phase> brake_along(const Motion& motion, double t, const Braking& braking) {
   const MotionState now = motion.at(t);
   if (const auto turning = end_of_turn(motion, t, braking)) return {*turning};
-  if (now.velocity.norm() < kSlowest) return {StandPhase{now.pose, kStand_s}};
-  const Track track{[&motion](double when) { return motion.at(when); },
-                    [&motion](double when) { return motion.velocity(when).norm(); }, t,
-                    path_end(motion, t)};
+  if (now.velocity.norm() < kRest_mps) return {StandPhase{now.pose, kStand_s}};
+  const BrakedTrack track{[&motion](double when) { return motion.at(when); },
+                          [&motion](double when) { return motion.velocity(when).norm(); }, t,
+                          path_end(motion, t)};
   const Schedule schedule = slow_down(track, braking);
   if (schedule.reaches_end) return motion.phases_between(t, track.end_s);
   return {drive_to_rest(track, schedule, braking.deceleration())};
@@ -182,13 +180,13 @@ std::vector<Phase> brake_along(const Motion& motion, double t, const Braking& br
 
 std::vector<Phase> brake_from(const Pose& pose, double speed, double yaw_rate,
                               const Braking& braking) {
-  if (std::abs(speed) < kSlowest) {
+  if (std::abs(speed) < kRest_mps) {
     if (std::abs(yaw_rate) < kNoTurn) return {StandPhase{pose, kStand_s}};
     return {turn_to_rest(pose, {yaw_rate, 0.0}, braking.yaw_deceleration())};
   }
-  const Track track{[&](double t) { return on_circle(pose, speed, yaw_rate, t); },
-                    [speed](double) { return std::abs(speed); }, 0.0,
-                    std::numeric_limits<double>::infinity()};
+  const BrakedTrack track{[&](double t) { return on_circle(pose, speed, yaw_rate, t); },
+                          [speed](double) { return std::abs(speed); }, 0.0,
+                          std::numeric_limits<double>::infinity()};
   return {drive_to_rest(track, slow_down(track, braking), braking.deceleration())};
 }
 

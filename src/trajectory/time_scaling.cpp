@@ -10,10 +10,10 @@
 namespace mocha {
 namespace {
 
-constexpr double kTolerance = 1e-9;  // relative
-constexpr double kRestSpeed = 1e-6;  // [m/s]
+constexpr double kScalingTolerance = 1e-9;  // relative
+constexpr double kStandstill = 1e-6;        // [m/s]
 
-void require(bool condition, const char* name, double value, const char* range) {
+void require_of_scaling(bool condition, const char* name, double value, const char* range) {
   if (condition) return;
   throw std::invalid_argument(std::string("smallest_stretch: ") + name + " = " +
                               std::to_string(value) + " is not " + range);
@@ -24,15 +24,17 @@ void require(bool condition, const char* name, double value, const char* range) 
 template <int D, int S>
 std::optional<double> smallest_stretch(const PiecewisePolynomial<D, S>& curve,
                                        const StretchLimits& limits) {
-  require(limits.speed > 0.0, "speed", limits.speed, "above 0 m/s");
-  require(limits.acceleration > 0.0, "acceleration", limits.acceleration, "above 0 m/s^2");
-  require(limits.largest_factor >= 1.0, "largest_factor", limits.largest_factor, "at least 1");
+  require_of_scaling(limits.speed > 0.0, "speed", limits.speed, "above 0 m/s");
+  require_of_scaling(limits.acceleration > 0.0, "acceleration", limits.acceleration,
+                     "above 0 m/s^2");
+  require_of_scaling(limits.largest_factor >= 1.0, "largest_factor", limits.largest_factor,
+                     "at least 1");
   // Speed falls with the factor, acceleration with its square.
   const double factor = std::max(max_speed(curve).value / limits.speed,
                                  std::sqrt(max_acceleration(curve).value / limits.acceleration));
-  if (factor <= 1.0 + kTolerance) return 1.0;
-  const bool from_rest = curve.derivative(0.0, 1).norm() <= kRestSpeed;
-  const bool to_rest = curve.derivative(curve.duration(), 1).norm() <= kRestSpeed;
+  if (factor <= 1.0 + kScalingTolerance) return 1.0;
+  const bool from_rest = curve.derivative(0.0, 1).norm() <= kStandstill;
+  const bool to_rest = curve.derivative(curve.duration(), 1).norm() <= kStandstill;
   if (!from_rest || !to_rest || factor > limits.largest_factor) return std::nullopt;
   return factor;
 }

@@ -37,7 +37,7 @@ double acceleration_bound(const PlanarPath& path) {
 constexpr double kJump_m = 1e-3;
 constexpr double kSpeedJump = 0.01;  // m/s
 
-void require(bool condition, const std::string& name, const char* what) {
+void require_of_mover(bool condition, const std::string& name, const char* what) {
   if (!condition) throw std::invalid_argument("moving obstacle " + name + ": " + what);
 }
 
@@ -55,11 +55,11 @@ PeerObstacle::PeerObstacle(std::string name, std::shared_ptr<const Motion> motio
       radius_m_(radius_m),
       braking_(braking),
       max_speed_(0.0) {
-  require(motion_ != nullptr && !motion_->empty(), name_, "has no motion");
-  require(std::isfinite(radius_m_) && radius_m_ >= 0.0, name_,
-          "the radius is not finite and >= 0 m");
-  require(std::isfinite(mistimed_s) && mistimed_s >= 0.0, name_,
-          "the time that it may be early or late is not finite and >= 0 s");
+  require_of_mover(motion_ != nullptr && !motion_->empty(), name_, "has no motion");
+  require_of_mover(std::isfinite(radius_m_) && radius_m_ >= 0.0, name_,
+                   "the radius is not finite and >= 0 m");
+  require_of_mover(std::isfinite(mistimed_s) && mistimed_s >= 0.0, name_,
+                   "the time that it may be early or late is not finite and >= 0 s");
   for (const Phase& phase : motion_->phases()) {
     const auto* drive = std::get_if<DrivePhase>(&phase);
     if (drive != nullptr) max_speed_ = std::max(max_speed_, speed_bound(drive->path));
@@ -118,13 +118,13 @@ PredictedDisc::PredictedDisc(std::string name, double t0, const Vector2& centre,
       radius_m_(radius_m),
       radius_rate_(radius_rate),
       growth_s_(growth_s) {
-  require(std::isfinite(t0_) && centre_.allFinite() && velocity_.allFinite(), name_,
-          "time, place or velocity is not finite");
-  require(std::isfinite(radius_m_) && radius_m_ >= 0.0, name_,
-          "the radius is not finite and >= 0 m");
-  require(std::isfinite(radius_rate_) && radius_rate_ >= 0.0, name_,
-          "the growth of the radius is not finite and >= 0 m/s");
-  require(growth_s_ >= 0.0, name_, "the time for which the radius grows is not >= 0 s");
+  require_of_mover(std::isfinite(t0_) && centre_.allFinite() && velocity_.allFinite(), name_,
+                   "time, place or velocity is not finite");
+  require_of_mover(std::isfinite(radius_m_) && radius_m_ >= 0.0, name_,
+                   "the radius is not finite and >= 0 m");
+  require_of_mover(std::isfinite(radius_rate_) && radius_rate_ >= 0.0, name_,
+                   "the growth of the radius is not finite and >= 0 m/s");
+  require_of_mover(growth_s_ >= 0.0, name_, "the time for which the radius grows is not >= 0 s");
 }
 
 MovingObstacle::Disc PredictedDisc::at(double t) const {

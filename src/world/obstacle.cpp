@@ -9,7 +9,7 @@
 namespace mocha {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr double kSmallestSide_m = 1e-6;
 
 const Vector2& corner(const Polygon& polygon, std::size_t i) {
@@ -83,7 +83,7 @@ Gap between(const Polygon& first, const Circle& second) {
 }
 
 Gap between(const Polygon& first, const Polygon& second) {
-  Gap nearest{kInfinity, Vector2::Zero()};
+  Gap nearest{kEndless, Vector2::Zero()};
   for (const Vector2& point : first.corners) {
     const Gap here = gap(point, second);
     if (here.distance_m < nearest.distance_m) nearest = here;
@@ -136,7 +136,7 @@ Gap gap(const Vector2& point, const Circle& circle) {
 }
 
 Gap gap(const Vector2& point, const Polygon& polygon) {
-  double nearest_squared = kInfinity;
+  double nearest_squared = kEndless;
   Vector2 nearest = point;
   bool inside = false;
   const Vector2* a = &polygon.corners.back();
@@ -156,7 +156,7 @@ Gap gap(const Vector2& point, const Polygon& polygon) {
 }
 
 Vector2 outward_normal(const Vector2& point, const Polygon& polygon) {
-  double nearest = kInfinity;
+  double nearest = kEndless;
   Vector2 side = Vector2::Zero();
   for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
     const Vector2& a = corner(polygon, i);
@@ -179,24 +179,24 @@ double ray_length(const Vector2& origin, const Vector2& direction, const Circle&
   const double along = to_centre.dot(direction);
   const double across = cross(direction, to_centre);
   const double half_chord_squared = circle.radius_m * circle.radius_m - across * across;
-  if (half_chord_squared < 0.0) return kInfinity;
+  if (half_chord_squared < 0.0) return kEndless;
   const double half_chord = std::sqrt(half_chord_squared);
   if (along - half_chord >= 0.0) return along - half_chord;
-  return along + half_chord >= 0.0 ? along + half_chord : kInfinity;
+  return along + half_chord >= 0.0 ? along + half_chord : kEndless;
 }
 
 double ray_length(const Vector2& origin, const Vector2& direction, const Vector2& a,
                   const Vector2& b) {
   const Vector2 side = b - a;
   const double turn = cross(direction, side);
-  if (turn == 0.0) return kInfinity;
+  if (turn == 0.0) return kEndless;
   const double length = cross(a - origin, side) / turn;
   const double share = cross(a - origin, direction) / turn;
-  return length >= 0.0 && share >= 0.0 && share <= 1.0 ? length : kInfinity;
+  return length >= 0.0 && share >= 0.0 && share <= 1.0 ? length : kEndless;
 }
 
 double ray_length(const Vector2& origin, const Vector2& direction, const Polygon& polygon) {
-  double length = kInfinity;
+  double length = kEndless;
   for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
     length =
         std::min(length, ray_length(origin, direction, corner(polygon, i), corner(polygon, i + 1)));

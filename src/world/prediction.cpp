@@ -35,7 +35,7 @@ double largest_sigma(const Eigen::Matrix2d& covariance) {
 /// Of a planar normal distribution, the share 1 - confidence is farther away, in deviations.
 double normal_deviations(double confidence) { return std::sqrt(-2.0 * std::log1p(-confidence)); }
 
-void require(bool condition, const char* what) {
+void require_of_spread(bool condition, const char* what) {
   if (!condition) throw std::invalid_argument(std::string("the spread of predictions: ") + what);
 }
 
@@ -123,13 +123,16 @@ PredictionSpread PredictionSpread::normal() {
 }
 
 void PredictionSpread::check() const {
-  require(ascends(ahead_s, 0.0, kMost), "its times are not ascending between 0 and 1000 s");
-  require(ascends(confidences, 0.0, 1.0), "its confidences are not ascending between 0 and 1");
+  require_of_spread(ascends(ahead_s, 0.0, kMost),
+                    "its times are not ascending between 0 and 1000 s");
+  require_of_spread(ascends(confidences, 0.0, 1.0),
+                    "its confidences are not ascending between 0 and 1");
   for (const Eigen::MatrixXd& deviations : {at, throughout}) {
-    require(deviations.rows() == static_cast<Eigen::Index>(ahead_s.size()) &&
-                deviations.cols() == static_cast<Eigen::Index>(confidences.size()),
-            "it has not one value for each time and confidence");
-    require(is_plausible(deviations), "its deviations are not ascending between 0 and 1000");
+    require_of_spread(deviations.rows() == static_cast<Eigen::Index>(ahead_s.size()) &&
+                          deviations.cols() == static_cast<Eigen::Index>(confidences.size()),
+                      "it has not one value for each time and confidence");
+    require_of_spread(is_plausible(deviations),
+                      "its deviations are not ascending between 0 and 1000");
   }
 }
 

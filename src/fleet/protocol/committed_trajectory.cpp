@@ -8,7 +8,7 @@
 namespace mocha {
 namespace {
 
-constexpr double kMaxRadius_m = 10.0;
+constexpr double kLargestFootprint_m = 10.0;
 constexpr double kMaxDuration_s = 300.0;
 constexpr double kLongestStop_s = 120.0;    // also bounds the work that a proof of stops takes
 constexpr double kMaxSpeed = 50.0;          // [m/s]
@@ -16,12 +16,12 @@ constexpr double kMaxAcceleration = 500.0;  // [m/s^2]
 constexpr double kGentlest = 0.02;          // [m/s^2] below what any robot model may have
 constexpr double kHardest = 50.0;           // [m/s^2]
 
-void require(bool condition, const std::string& what) {
+void require_of_promise(bool condition, const std::string& what) {
   if (!condition) throw std::invalid_argument("promise: " + what);
 }
 
 void require_of_braking(double value, const char* name) {
-  require(
+  require_of_promise(
       value >= kGentlest && value <= kHardest,
       std::string(name) + " = " + std::to_string(value) + " m/s^2, allowed is 0.02 up to 50 m/s^2");
 }
@@ -35,22 +35,25 @@ void validate(const Braking& braking) {
 }
 
 void validate(const CommittedTrajectory& trajectory) {
-  require(!trajectory.agent.empty(), "has no name of a robot");
-  require(trajectory.id.sequence > 0, "sequence is 0");
+  require_of_promise(!trajectory.agent.empty(), "has no name of a robot");
+  require_of_promise(trajectory.id.sequence > 0, "sequence is 0");
   if (trajectory.state == TrajectoryState::kWithdrawn) return;
   const double radius = trajectory.footprint_radius_m;
-  require(radius > 0.0 && radius <= kMaxRadius_m,
-          "footprint_radius = " + std::to_string(radius) + " m, allowed is above 0 up to 10 m");
-  require(trajectory.braking.has_value(), "does not say how its robot brakes");
+  require_of_promise(
+      radius > 0.0 && radius <= kLargestFootprint_m,
+      "footprint_radius = " + std::to_string(radius) + " m, allowed is above 0 up to 10 m");
+  require_of_promise(trajectory.braking.has_value(), "does not say how its robot brakes");
   validate(*trajectory.braking);
-  require(trajectory.motion != nullptr && !trajectory.motion->empty(), "has no motion");
-  require(trajectory.motion->end_time() - trajectory.motion->start_time() <= kMaxDuration_s,
-          "takes more than five minutes");
+  require_of_promise(trajectory.motion != nullptr && !trajectory.motion->empty(), "has no motion");
+  require_of_promise(
+      trajectory.motion->end_time() - trajectory.motion->start_time() <= kMaxDuration_s,
+      "takes more than five minutes");
   const MotionBounds bound = bounds(*trajectory.motion);
-  require(bound.speed <= kMaxSpeed, "may be faster than 50 m/s");
-  require(bound.speed <= kLongestStop_s * trajectory.braking->deceleration(),
-          "may take more than two minutes to stop");
-  require(bound.acceleration <= kMaxAcceleration, "may accelerate by more than 500 m/s^2");
+  require_of_promise(bound.speed <= kMaxSpeed, "may be faster than 50 m/s");
+  require_of_promise(bound.speed <= kLongestStop_s * trajectory.braking->deceleration(),
+                     "may take more than two minutes to stop");
+  require_of_promise(bound.acceleration <= kMaxAcceleration,
+                     "may accelerate by more than 500 m/s^2");
 }
 
 CommittedTrajectory reclocked(CommittedTrajectory trajectory, double later_s) {

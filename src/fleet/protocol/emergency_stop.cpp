@@ -16,20 +16,22 @@ constexpr double kSameTime_s = 1e-5;
 
 bool plain(char c) { return c >= ' ' && c <= '~'; }
 
-void require(bool condition, const std::string& what) {
+void require_of_stops(bool condition, const std::string& what) {
   if (!condition) throw std::invalid_argument("emergency stops: " + what);
 }
 
 }  // namespace
 
 void validate(const FleetStops& message) {
-  require(!message.agent.empty(), "have no name of a robot");
-  require(message.stops.size() <= kMostStopsSaid, "are more than 8 in one message");
+  require_of_stops(!message.agent.empty(), "have no name of a robot");
+  require_of_stops(message.stops.size() <= kMostStopsSaid, "are more than 8 in one message");
   for (const FleetStop& stop : message.stops) {
-    require(!stop.agent.empty(), "one has no name of a robot");
-    require(stop.released <= stop.ordered, "more of " + stop.agent + " are released than ordered");
-    require(std::isfinite(stop.since_s), "the time of one is not finite");
-    require(stop.reason == plain_reason(stop.reason), "a reason is too long or not plain ASCII");
+    require_of_stops(!stop.agent.empty(), "one has no name of a robot");
+    require_of_stops(stop.released <= stop.ordered,
+                     "more of " + stop.agent + " are released than ordered");
+    require_of_stops(std::isfinite(stop.since_s), "the time of one is not finite");
+    require_of_stops(stop.reason == plain_reason(stop.reason),
+                     "a reason is too long or not plain ASCII");
   }
 }
 

@@ -13,7 +13,7 @@ constexpr double kMaxRadius_m = 10.0;
   throw std::invalid_argument("passing message: " + what);
 }
 
-void require(bool condition, const char* what) {
+void require_of_passing(bool condition, const char* what) {
   if (!condition) refuse(what);
 }
 
@@ -24,14 +24,15 @@ void require_most(std::size_t count, std::size_t most, const std::string& of_wha
 }
 
 void validate_turn(const PassingTurn& turn, std::size_t self, std::size_t robots) {
-  require(turn.path.size() >= 2, "the path of a turn has less than two places");
+  require_of_passing(turn.path.size() >= 2, "the path of a turn has less than two places");
   require_most(turn.path.size(), kMostTurnPlaces, "places in a turn");
-  for (const Vector2& place : turn.path) require(place.allFinite(), "a place is not finite");
+  for (const Vector2& place : turn.path)
+    require_of_passing(place.allFinite(), "a place is not finite");
   std::set<std::uint32_t> named;
   for (const PassingProgress& progress : turn.after) {
-    require(progress.robot < robots, "a turn is to wait for a robot that is not there");
-    require(progress.robot != self, "a robot is to wait for itself");
-    require(named.insert(progress.robot).second, "a turn is to wait for a robot twice");
+    require_of_passing(progress.robot < robots, "a turn is to wait for a robot that is not there");
+    require_of_passing(progress.robot != self, "a robot is to wait for itself");
+    require_of_passing(named.insert(progress.robot).second, "a turn is to wait for a robot twice");
     require_most(progress.moves, kMostTurns, "turns to wait for");
   }
 }
@@ -39,32 +40,33 @@ void validate_turn(const PassingTurn& turn, std::size_t self, std::size_t robots
 }  // namespace
 
 void validate(const PassingIntent& intent) {
-  require(!intent.agent.empty(), "has no name of a robot");
+  require_of_passing(!intent.agent.empty(), "has no name of a robot");
   if (!(intent.radius_m > 0.0 && intent.radius_m <= kMaxRadius_m))
     refuse("radius = " + std::to_string(intent.radius_m) + " m, allowed is above 0 up to 10 m");
-  require(!intent.goal || intent.goal->allFinite(), "the goal is not finite");
-  require(intent.follows.number == 0 || !intent.follows.leader.empty(), "follows nobody's order");
+  require_of_passing(!intent.goal || intent.goal->allFinite(), "the goal is not finite");
+  require_of_passing(intent.follows.number == 0 || !intent.follows.leader.empty(),
+                     "follows nobody's order");
   require_most(intent.moves, kMostTurns, "moves");
   require_most(intent.obstacles.size(), kMostObstacles, "obstacles");
   for (const Vector2& place : intent.obstacles)
-    require(place.allFinite(), "an obstacle is not finite");
+    require_of_passing(place.allFinite(), "an obstacle is not finite");
 }
 
 void validate(const PassingInstruction& instruction) {
   const std::vector<std::string>& robots = instruction.robots;
-  require(!instruction.id.leader.empty(), "has no name of a robot");
-  require(instruction.id.number > 0, "has no number");
+  require_of_passing(!instruction.id.leader.empty(), "has no name of a robot");
+  require_of_passing(instruction.id.number > 0, "has no number");
   require_most(robots.size(), kMostPassing, "robots");
-  require(std::count(robots.begin(), robots.end(), "") == 0, "has no name of a robot");
-  require(std::set<std::string>(robots.begin(), robots.end()).size() == robots.size(),
-          "has a robot twice");
+  require_of_passing(std::count(robots.begin(), robots.end(), "") == 0, "has no name of a robot");
+  require_of_passing(std::set<std::string>(robots.begin(), robots.end()).size() == robots.size(),
+                     "has a robot twice");
   const auto self = std::find(robots.begin(), robots.end(), instruction.robot);
-  require(self != robots.end(), "is for a robot that its order is not for");
+  require_of_passing(self != robots.end(), "is for a robot that its order is not for");
   require_most(instruction.turns, kMostTurns, "turns");
-  require(instruction.alone_from <= instruction.turns, "is alone from beyond its end");
-  require(instruction.first <= instruction.turns &&
-              instruction.part.size() <= instruction.turns - instruction.first,
-          "a part goes beyond the end");
+  require_of_passing(instruction.alone_from <= instruction.turns, "is alone from beyond its end");
+  require_of_passing(instruction.first <= instruction.turns &&
+                         instruction.part.size() <= instruction.turns - instruction.first,
+                     "a part goes beyond the end");
   for (const PassingTurn& turn : instruction.part)
     validate_turn(turn, static_cast<std::size_t>(self - robots.begin()), robots.size());
 }

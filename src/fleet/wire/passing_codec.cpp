@@ -29,14 +29,14 @@ std::int64_t get_step(ByteReader& in) {
 }
 
 /// From `before`, which becomes this place.
-void put_place(ByteWriter& out, const Vector2& place, PlaceCounts& before) {
+void put_next_place(ByteWriter& out, const Vector2& place, PlaceCounts& before) {
   const PlaceCounts counts = counts_of(place);
   put_step(out, counts.x - before.x);
   put_step(out, counts.y - before.y);
   before = counts;
 }
 
-Vector2 get_place(ByteReader& in, PlaceCounts& before) {
+Vector2 get_next_place(ByteReader& in, PlaceCounts& before) {
   before.x += get_step(in);
   before.y += get_step(in);
   return place_of(before);
@@ -50,7 +50,7 @@ std::uint32_t get_count(ByteReader& in) {
 
 void put_turn(ByteWriter& out, const PassingTurn& turn, PlaceCounts& before) {
   out.put(count_of(turn.path.size(), "places"));
-  for (const Vector2& place : turn.path) put_place(out, place, before);
+  for (const Vector2& place : turn.path) put_next_place(out, place, before);
   out.put(count_of(turn.after.size(), "robots to wait for"));
   for (const PassingProgress& progress : turn.after) {
     out.put_varint(progress.robot);
@@ -61,7 +61,7 @@ void put_turn(ByteWriter& out, const PassingTurn& turn, PlaceCounts& before) {
 PassingTurn get_turn(ByteReader& in, PlaceCounts& before) {
   PassingTurn turn;
   const std::size_t places = in.get<std::uint8_t>();
-  for (std::size_t i = 0; i < places; ++i) turn.path.push_back(get_place(in, before));
+  for (std::size_t i = 0; i < places; ++i) turn.path.push_back(get_next_place(in, before));
   const std::size_t others = in.get<std::uint8_t>();
   for (std::size_t i = 0; i < others; ++i) {
     const std::uint32_t robot = get_count(in);
@@ -81,7 +81,7 @@ void put_intent(ByteWriter& out, const PassingIntent& intent) {
   // Rounded up: a robot must not be taken for smaller than it is.
   put_number<std::uint16_t>(out, std::ceil(intent.radius_m * kRadii - 1e-6), 1.0, "the radius");
   PlaceCounts before;
-  if (intent.goal) put_place(out, *intent.goal, before);
+  if (intent.goal) put_next_place(out, *intent.goal, before);
   if (follows) {
     put_name(out, intent.follows.leader);
     out.put_varint(intent.follows.number);
@@ -89,7 +89,7 @@ void put_intent(ByteWriter& out, const PassingIntent& intent) {
   out.put_varint(intent.moves);
   if (intent.obstacles.empty()) return;
   out.put(count_of(intent.obstacles.size(), "obstacles"));
-  for (const Vector2& place : intent.obstacles) put_place(out, place, before);
+  for (const Vector2& place : intent.obstacles) put_next_place(out, place, before);
 }
 
 PassingIntent get_intent(ByteReader& in, std::string agent, std::uint32_t epoch) {
@@ -103,14 +103,15 @@ PassingIntent get_intent(ByteReader& in, std::string agent, std::uint32_t epoch)
   intent.priority = in.get<std::int32_t>();
   intent.radius_m = get_number<std::uint16_t>(in, kRadii);
   PlaceCounts before;
-  if ((said & kHasGoal) != 0) intent.goal = get_place(in, before);
+  if ((said & kHasGoal) != 0) intent.goal = get_next_place(in, before);
   if ((said & kFollows) != 0) {
     intent.follows.leader = get_name(in);
     intent.follows.number = get_count(in);
   }
   intent.moves = get_count(in);
   const std::size_t obstacles = (said & kHasObstacles) != 0 ? in.get<std::uint8_t>() : 0;
-  for (std::size_t i = 0; i < obstacles; ++i) intent.obstacles.push_back(get_place(in, before));
+  for (std::size_t i = 0; i < obstacles; ++i)
+    intent.obstacles.push_back(get_next_place(in, before));
   validate(intent);
   return intent;
 }

@@ -8,18 +8,18 @@ namespace mocha {
 namespace {
 
 constexpr std::size_t kEvery = 6;  // so many beams one is looked at
-constexpr double kFarthest_m = 10.0;
+constexpr double kFarthestWall_m = 10.0;
 constexpr double kShare = 0.9;  // of a beam: at the end of its reach a wall may be lost
 constexpr double kStep_m = 0.1;
 constexpr double kWall_m = 0.06;  // about a step
-constexpr double kWide_m = 1.2;   // what is smaller may have left
+constexpr double kStays_m = 1.2;  // what is smaller may have left
 
 /// Where a beam without return passes what stands on the map.
 std::optional<Vector2> wall_passed(const Beam& beam, const OccupancyMap& map) {
   if (beam.kind != BeamEnd::kMiss || !is_usable(beam)) return std::nullopt;
   const Vector2 from = beam.origin.head<2>();
-  const Vector2 way = (beam.end - beam.origin).head<2>();
-  const double length_m = std::min(kShare * way.norm(), kFarthest_m);
+  const Vector2 way = ray(beam);
+  const double length_m = std::min(kShare * way.norm(), kFarthestWall_m);
   const Vector2 step = kStep_m * way.normalized();
   for (int i = 1; i * kStep_m < length_m; ++i) {
     if (map.is_occupied_within(from + i * step, kWall_m, false)) return Vector2(from + i * step);
@@ -34,7 +34,7 @@ struct Run {
   Vector2 last;
   Vector2 ways = Vector2::Zero();  // their sum
 
-  bool is_wide() const { return beams > 0 && (last - first).norm() > kWide_m; }
+  bool is_wide() const { return beams > 0 && (last - first).norm() > kStays_m; }
 };
 
 }  // namespace
@@ -59,7 +59,7 @@ BlindBeams blind_beams(const std::vector<Beam>& beams, double increment_rad,
     }
     if (run.beams++ == 0) run.first = *place;
     run.last = *place;
-    run.ways += (beams[i].end - beams[i].origin).head<2>().normalized();
+    run.ways += ray(beams[i]).normalized();
   }
   finish();
   if (count == 0) return {};

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kFewestReturns = 10;  // nothing in sight may stay nothing
 constexpr double kSame = 0.99;      // share of the returns
-constexpr double kArm_m = 0.5;
+constexpr double kTurnArm_m = 0.5;
 
 bool is_repeated(const std::vector<float>& before, const std::vector<float>& now) {
   if (before.size() != now.size()) return false;
@@ -29,7 +29,7 @@ void FrozenScan::add(const std::vector<float>& ranges_m, const Pose& pose) {
   if (is_repeated(ranges_m_, ranges_m)) {
     const Pose step = relative(pose_, pose);
     ++repeats_;
-    moved_m_ += step.position.norm() + kArm_m * std::abs(step.yaw_rad);
+    moved_m_ += step.position.norm() + kTurnArm_m * std::abs(step.yaw_rad);
   } else {
     repeats_ = 0;
     moved_m_ = 0.0;

@@ -7,7 +7,7 @@
 namespace mocha {
 namespace {
 
-constexpr float kFarthest_m = 6.0f;  // farther away, neighbours are too far apart
+constexpr float kFarthestRange_m = 6.0f;  // farther away, neighbours are too far apart
 constexpr std::size_t kFewest = 60;
 constexpr double kMedianOfNormal = 0.6745;  // of the absolute value, in standard deviations
 
@@ -15,7 +15,8 @@ constexpr double kMedianOfNormal = 0.6745;  // of the absolute value, in standar
 
 std::optional<double> range_noise_m(const PlanarScan& scan) {
   const auto is_near = [&](float range) {
-    return range >= scan.range_min_m && range < std::min<double>(scan.range_max_m, kFarthest_m);
+    return range >= scan.range_min_m &&
+           range < std::min<double>(scan.range_max_m, kFarthestRange_m);
   };
   std::vector<double> off_m;
   const std::vector<float>& r = scan.ranges_m;

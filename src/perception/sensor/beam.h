@@ -21,6 +21,9 @@ struct Beam {
   double time_s;  ///< when it was measured
 };
 
+/// From its origin to its end, in the plane [m].
+inline Eigen::Vector2d ray(const Beam& beam) { return (beam.end - beam.origin).head<2>(); }
+
 /// False for a point [m] that is not finite, or so far away that the index of its cell would
 /// overflow.
 template <class Point>

@@ -40,17 +40,15 @@ class Line {
   Eigen::Matrix2d squares_ = Eigen::Matrix2d::Zero();
 };
 
-Vector2 course(const Beam& beam) { return (beam.end - beam.origin).head<2>(); }
-
 /// The wall where a sweep ends, going inwards from there.
 template <class Iterator>
 std::optional<BlindWall> wall_at(Iterator beam, Iterator last) {
   if (beam == last) return std::nullopt;
-  const Vector2 outermost = course(*beam);
+  const Vector2 outermost = ray(*beam);
   while (beam != last && beam->kind != BeamEnd::kHit) ++beam;
-  if (beam == last || std::abs(angle_between(outermost, course(*beam))) > kOutermost_rad)
+  if (beam == last || std::abs(angle_between(outermost, ray(*beam))) > kOutermost_rad)
     return std::nullopt;
-  const Vector2 seen = course(*beam);
+  const Vector2 seen = ray(*beam);
   const Vector2 end = beam->end.template head<2>();
   Vector2 before = end;
   Line line;

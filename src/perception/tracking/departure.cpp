@@ -8,10 +8,10 @@
 namespace mocha {
 namespace {
 
-constexpr double kMost = 0.5;            // of the former hits
-constexpr std::size_t kMostHits = 8;     // that are looked at
-constexpr double kBesideBeam_m = 0.075;  // a beam so near to a place tells whether that is free
-constexpr double kBeyond_m = 0.15;       // it passes if it ends so much farther away
+constexpr double kMostFormer = 0.5;       // of the former hits
+constexpr std::size_t kMostLookedAt = 8;  // that are looked at
+constexpr double kBesideBeam_m = 0.075;   // a beam so near to a place tells whether that is free
+constexpr double kBeyond_m = 0.15;        // it passes if it ends so much farther away
 
 /// Returns taken where some beams end there, as at a slanted wall; free where all that lead there
 /// pass.
@@ -37,7 +37,7 @@ View view_at(const Vector2& place, const std::vector<Beam>& beams) {
 
 /// Returns free or taken where half of these places are, and unseen where neither.
 View view_of_most(const std::vector<Vector2>& places, const std::vector<Beam>& beams) {
-  const std::size_t step = (places.size() + kMostHits - 1) / kMostHits;
+  const std::size_t step = (places.size() + kMostLookedAt - 1) / kMostLookedAt;
   int looked_at = 0;
   int free = 0;
   int taken = 0;
@@ -47,8 +47,8 @@ View view_of_most(const std::vector<Vector2>& places, const std::vector<Beam>& b
     free += view == View::kFree ? 1 : 0;
     taken += view == View::kTaken ? 1 : 0;
   }
-  if (free >= kMost * looked_at) return View::kFree;
-  return taken >= kMost * looked_at ? View::kTaken : View::kUnseen;
+  if (free >= kMostFormer * looked_at) return View::kFree;
+  return taken >= kMostFormer * looked_at ? View::kTaken : View::kUnseen;
 }
 
 bool hides(const Detection& now, const Vector2& centre, const Vector2& place) {

@@ -12,8 +12,6 @@ constexpr double kBehind_m = 0.1;    // a return that much farther away is behin
 constexpr double kWidest_rad = 1.2;  // half a sector; wider ones are too near to be measured so
 constexpr double kNextBeams = 2.5;   // spacings; a hit farther away is no neighbour in the scan
 
-Vector2 ray(const Beam& beam) { return (beam.end - beam.origin).head<2>(); }
-
 /// Where one edge of a cluster is.
 struct Edge {
   int beam = 0;

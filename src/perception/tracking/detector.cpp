@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kNotch_m = 0.15;  // between two things, in the ranges of the beams that hit them
 constexpr double kGoesOn_m = 0.3;  // a hit so near is on the same surface, of the next beams
-constexpr int kNextBeams = 2;
-constexpr double kMost = 0.5;  // of the hits on a surface or thing have come: it has
+constexpr int kBeamsBeside = 2;
+constexpr double kMostHaveCome = 0.5;  // of the hits on a surface or thing have come: it has
 
 std::vector<bool> mask_of(const BeamIndices& hits, std::size_t size) {
   std::vector<bool> mask(size, false);
@@ -19,7 +19,7 @@ std::vector<bool> mask_of(const BeamIndices& hits, std::size_t size) {
 
 bool have_mostly_come(const BeamIndices& hits, const std::vector<bool>& has_come) {
   const auto came = std::count_if(hits.begin(), hits.end(), [&](int i) { return has_come[i]; });
-  return static_cast<double>(came) > kMost * static_cast<double>(hits.size());
+  return static_cast<double>(came) > kMostHaveCome * static_cast<double>(hits.size());
 }
 
 /// Whether something that has not come goes on beside a group of hits.
@@ -27,8 +27,8 @@ bool is_continued(const std::vector<Beam>& beams, const BeamIndices& group,
                   const std::vector<bool>& may_move) {
   const int size = static_cast<int>(beams.size());
   for (const int i : group) {
-    for (int step = -kNextBeams; step <= kNextBeams; ++step) {
-      const int next = (i + step + kNextBeams * size) % size;
+    for (int step = -kBeamsBeside; step <= kBeamsBeside; ++step) {
+      const int next = (i + step + kBeamsBeside * size) % size;
       if (beams[next].kind != BeamEnd::kHit || !is_usable(beams[next]) || may_move[next]) continue;
       if ((beams[next].end - beams[i].end).head<2>().norm() > kGoesOn_m) continue;
       if (!std::binary_search(group.begin(), group.end(), next)) return true;

@@ -14,7 +14,7 @@ constexpr int kPassing = 2;  // beams in a row; one alone may be without return
 
 Vector2 end_of(const Beam& beam) { return beam.end.head<2>(); }
 
-double range_m(const Beam& beam) { return (beam.end - beam.origin).head<2>().norm(); }
+double range_m(const Beam& beam) { return ray(beam).norm(); }
 
 /// The root of a group, with the paths to it shortened.
 int root_of(std::vector<int>& parents, int i) {

@@ -7,9 +7,9 @@ namespace {
 
 constexpr std::size_t kHits = 3;  // on a leg, at least
 constexpr double kNarrowest_m = 0.03;
-constexpr double kWidest_m = 0.22;   // with clothes
-constexpr double kClosest_m = 0.12;  // between the middles of two legs ...
-constexpr double kFarthest_m = 0.5;  // ... of a person that walks
+constexpr double kWidest_m = 0.22;      // with clothes
+constexpr double kClosest_m = 0.12;     // between the middles of two legs ...
+constexpr double kFarthestLeg_m = 0.5;  // ... of a person that walks
 
 bool is_leg(const ScanSegment& segment) {
   return segment.stands_free && segment.hits.size() >= kHits && segment.width_m >= kNarrowest_m &&
@@ -28,7 +28,7 @@ std::vector<Pair> pairs_of(const std::vector<Vector2>& middles) {
   for (std::size_t i = 0; i < middles.size(); ++i) {
     for (std::size_t j = i + 1; j < middles.size(); ++j) {
       const double apart_m = (middles[i] - middles[j]).norm();
-      if (apart_m >= kClosest_m && apart_m <= kFarthest_m) pairs.push_back({apart_m, i, j});
+      if (apart_m >= kClosest_m && apart_m <= kFarthestLeg_m) pairs.push_back({apart_m, i, j});
     }
   }
   std::sort(pairs.begin(), pairs.end(),

@@ -89,7 +89,7 @@ BeamIndices MovingObjectFilter::come_hits(const std::vector<Beam>& beams, const 
   for (std::size_t i = 0; i < beams.size(); ++i) {
     if (beams[i].kind != BeamEnd::kHit || !is_usable(beams[i])) continue;
     const Vector2 end = beams[i].end.head<2>();
-    const double range_m = (beams[i].end - beams[i].origin).head<2>().norm();
+    const double range_m = ray(beams[i]).norm();
     const double tolerance_m = options_.map_tolerance_m + options_.map_tolerance_rad * range_m;
     const bool on_known = std::any_of(known.begin(), known.end(), [&](const TrackedObstacle& disc) {
       return !disc.stands &&

@@ -31,7 +31,8 @@ constexpr double kMoment_s = 0.5;     // for which one place left makes a mover
 
 Eigen::Matrix2d square(double sigma_m) { return sigma_m * sigma_m * Eigen::Matrix2d::Identity(); }
 
-void require(bool holds, const std::string& name, double value, const std::string& range) {
+void require_of_tracker(bool holds, const std::string& name, double value,
+                        const std::string& range) {
   if (holds) return;
   throw std::invalid_argument("ObstacleTracker: " + name + " is " + std::to_string(value) +
                               ", but must be " + range);
@@ -41,14 +42,19 @@ void require(bool holds, const std::string& name, double value, const std::strin
 
 ObstacleTracker::ObstacleTracker(const TrackerOptions& options) : options_(options) {
   const TrackerOptions& o = options_;
-  require(o.min_radius_m > 0.0, "min_radius", o.min_radius_m, "above 0 m");
-  require(o.max_radius_m >= o.min_radius_m, "max_radius", o.max_radius_m, "at least min_radius");
-  require(o.measurement_noise_m > 0.0, "measurement_noise", o.measurement_noise_m, "above 0 m");
-  require(o.acceleration_psd > 0.0, "acceleration_psd", o.acceleration_psd, "above 0 m^2/s^3");
-  require(o.confirmation_hits >= 1, "confirmation_hits", o.confirmation_hits, "at least 1");
-  require(o.track_timeout_s > 0.0, "track_timeout", o.track_timeout_s, "above 0 s");
-  require(o.occlusion_timeout_s > 0.0, "occlusion_timeout", o.occlusion_timeout_s, "above 0 s");
-  require(o.standing_time_s > 0.0, "standing_time", o.standing_time_s, "above 0 s");
+  require_of_tracker(o.min_radius_m > 0.0, "min_radius", o.min_radius_m, "above 0 m");
+  require_of_tracker(o.max_radius_m >= o.min_radius_m, "max_radius", o.max_radius_m,
+                     "at least min_radius");
+  require_of_tracker(o.measurement_noise_m > 0.0, "measurement_noise", o.measurement_noise_m,
+                     "above 0 m");
+  require_of_tracker(o.acceleration_psd > 0.0, "acceleration_psd", o.acceleration_psd,
+                     "above 0 m^2/s^3");
+  require_of_tracker(o.confirmation_hits >= 1, "confirmation_hits", o.confirmation_hits,
+                     "at least 1");
+  require_of_tracker(o.track_timeout_s > 0.0, "track_timeout", o.track_timeout_s, "above 0 s");
+  require_of_tracker(o.occlusion_timeout_s > 0.0, "occlusion_timeout", o.occlusion_timeout_s,
+                     "above 0 s");
+  require_of_tracker(o.standing_time_s > 0.0, "standing_time", o.standing_time_s, "above 0 s");
 }
 
 std::vector<bool> ObstacleTracker::update(const std::vector<Detection>& detections,

@@ -9,20 +9,18 @@
 namespace mocha {
 namespace {
 
-constexpr double kStep_m = 0.08;      // between two hits on one surface, at least ...
-constexpr double kStepBeams = 6.0;    // ... or so many times what is between two beams there
-constexpr double kNextBeams = 3.5;    // spacings; a beam farther off is no neighbour
-constexpr double kBeside_rad = 0.15;  // the same, beside a segment: at edges many beams are lost
-constexpr double kBehind_m = 0.25;    // so much farther away is something else
-constexpr int kMixed = 1;             // beams beside a segment that may have hit both it and more
-
-Vector2 ray(const Beam& beam) { return (beam.end - beam.origin).head<2>(); }
+constexpr double kStep_m = 0.08;         // between two hits on one surface, at least ...
+constexpr double kStepBeams = 6.0;       // ... or so many times what is between two beams there
+constexpr double kBeamsInSegment = 3.5;  // spacings; a beam farther off is no neighbour
+constexpr double kBeside_rad = 0.15;     // the same, beside a segment: at edges many beams are lost
+constexpr double kStepBehind_m = 0.25;   // so much farther away is something else
+constexpr int kMixed = 1;  // beams beside a segment that may have hit both it and more
 
 /// Between the directions of two beams, without sign.
 double between_rad(const Beam& a, const Beam& b) { return std::abs(angle_between(ray(a), ray(b))); }
 
 bool is_one_surface(const Beam& a, const Beam& b, double spacing_rad) {
-  if (between_rad(a, b) > kNextBeams * spacing_rad) return false;
+  if (between_rad(a, b) > kBeamsInSegment * spacing_rad) return false;
   const double between_m = spacing_rad * std::min(ray(a).norm(), ray(b).norm());
   return (a.end - b.end).head<2>().norm() <= std::max(kStep_m, kStepBeams * between_m);
 }
@@ -35,7 +33,8 @@ bool is_free_beyond(const std::vector<Beam>& beams, int outermost, int direction
   for (int step = 1; step <= std::min(1 + kMixed, size - 1); ++step) {
     const Beam& next = beams[(outermost + direction * step + size) % size];
     if (!is_usable(next) || between_rad(next, edge) > kBeside_rad) continue;
-    if (next.kind == BeamEnd::kMiss || ray(next).norm() > ray(edge).norm() + kBehind_m) return true;
+    if (next.kind == BeamEnd::kMiss || ray(next).norm() > ray(edge).norm() + kStepBehind_m)
+      return true;
   }
   return false;
 }

@@ -14,8 +14,8 @@ constexpr double kStep_m = 0.05;      // of the sampled path, at least
 constexpr double kSteps = 25.0;       // in the window that rounds corners
 constexpr double kMostSamples = 2e4;  // very long paths are sampled more coarsely
 constexpr int kMostPieces = 2000;
-constexpr double kShareOfAcceleration = 0.6;  // leaves room for the curve's own shape
-constexpr double kSlowest = 0.01;             // [m/s] of the profile, so that times stay finite
+constexpr double kProfileAcceleration = 0.6;  // leaves room for the curve's own shape
+constexpr double kSlowest_mps = 0.01;         // [m/s] of the profile, so that times stay finite
 
 template <int D>
 using Points = std::vector<Eigen::Matrix<double, D, 1>>;
@@ -68,7 +68,7 @@ std::vector<double> corner_speeds(const Points<D>& samples, const MotionLimits& 
     if (curvature < 1e-6) continue;
     speeds[i] = std::min({speeds[i], limits.max_yaw_rate / curvature,
                           limits.max_wheel_speed / (1.0 + 0.5 * limits.track_m * curvature),
-                          std::sqrt(kShareOfAcceleration * limits.max_acceleration / curvature)});
+                          std::sqrt(kProfileAcceleration * limits.max_acceleration / curvature)});
   }
   return speeds;
 }
@@ -78,7 +78,7 @@ std::vector<double> corner_speeds(const Points<D>& samples, const MotionLimits& 
 template <int D>
 std::vector<double> arrival_times(const Points<D>& samples, std::vector<double> speeds,
                                   double start_speed, const MotionLimits& limits) {
-  const double gain = 2.0 * kShareOfAcceleration * limits.max_acceleration;
+  const double gain = 2.0 * kProfileAcceleration * limits.max_acceleration;
   speeds.front() = std::min(speeds.front(), start_speed);
   speeds.back() = 0.0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -91,7 +91,7 @@ std::vector<double> arrival_times(const Points<D>& samples, std::vector<double> 
   }
   std::vector<double> times = {0.0};
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double mean = std::max(kSlowest, 0.5 * (speeds[i] + speeds[i - 1]));
+    const double mean = std::max(kSlowest_mps, 0.5 * (speeds[i] + speeds[i - 1]));
     times.push_back(times.back() + (samples[i] - samples[i - 1]).norm() / mean);
   }
   return times;
@@ -103,7 +103,7 @@ template <int D>
 double InitialKnots<D>::metres_per_eta() const {
   const auto steps = path.rightCols(path.cols() - 1) - path.leftCols(path.cols() - 1);
   const double speed = steps.colwise().norm().sum() / durations_s.sum();
-  return std::max(kSlowest, speed) * duration_slope(eta_of(durations_s.mean()));
+  return std::max(kSlowest_mps, speed) * duration_slope(eta_of(durations_s.mean()));
 }
 
 template <int D>

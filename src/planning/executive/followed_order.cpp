@@ -5,6 +5,7 @@
 
 #include "planning/candidates/start_maneuver.h"
 #include "trajectory/plane_vectors.h"
+#include "trajectory/polyline.h"
 #include "world/obstacle.h"
 
 namespace mocha {
@@ -31,12 +32,6 @@ Projection projected(const Vector2& place, const std::vector<Vector2>& path) {
     begin_m += (path[i] - path[i - 1]).norm();
   }
   return best;
-}
-
-double length_of(const std::vector<Vector2>& path) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i] - path[i - 1]).norm();
-  return length_m;
 }
 
 bool turns_back(const std::vector<Vector2>& before, const std::vector<Vector2>& after) {

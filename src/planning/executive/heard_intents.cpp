@@ -3,7 +3,7 @@
 namespace mocha {
 namespace {
 
-constexpr double kLapse_s = 1.5;
+constexpr double kSilence_s = 1.5;
 constexpr std::size_t kMostHeard = 256;
 
 }  // namespace
@@ -15,7 +15,7 @@ bool is_news(const PassingIntent& before, const PassingIntent& now) {
 
 HeardIntents::Heard HeardIntents::hear(const PassingIntent& intent, double now_s) {
   for (auto it = said_.begin(); it != said_.end();)
-    it = now_s < it->second.time_s + kLapse_s ? std::next(it) : said_.erase(it);
+    it = now_s < it->second.time_s + kSilence_s ? std::next(it) : said_.erase(it);
   const auto known = said_.find(intent.agent);
   if (known == said_.end() && said_.size() >= kMostHeard) return Heard::kNoRoom;
   const bool news = known != said_.end() && is_news(known->second.intent, intent);
@@ -26,14 +26,14 @@ HeardIntents::Heard HeardIntents::hear(const PassingIntent& intent, double now_s
 std::vector<PassingIntent> HeardIntents::all(double now_s) const {
   std::vector<PassingIntent> fresh;
   for (const auto& [name, said] : said_) {
-    if (now_s < said.time_s + kLapse_s) fresh.push_back(said.intent);
+    if (now_s < said.time_s + kSilence_s) fresh.push_back(said.intent);
   }
   return fresh;
 }
 
 const PassingIntent* HeardIntents::of(const std::string& name, double now_s) const {
   const auto found = said_.find(name);
-  const bool is_fresh = found != said_.end() && now_s < found->second.time_s + kLapse_s;
+  const bool is_fresh = found != said_.end() && now_s < found->second.time_s + kSilence_s;
   return is_fresh ? &found->second.intent : nullptr;
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kMaxExpansions = 20000;
 constexpr double kFarthestExit_m = 30.0;
-constexpr double kRounding_m = 0.005;  // so much closer than searched, a drive may be
+constexpr double kDriveRounding_m = 0.005;  // so much closer than searched, a drive may be
 constexpr double kSlow_mps = 0.3;
 // Where there is the least room, so slow is the robot that it asks for so much more at most.
 constexpr double kSlowest_mps = 0.1;
@@ -118,7 +118,7 @@ std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const St
   const double reach_m = robot.footprint.cover_reach_m();
   const SpeedMargin margin = MarginBudget::of(robot).static_margin();
   const double slowest = std::min(kSlowest_mps, margin.fastest(margin.still_m + kForSpeed_m));
-  const double margin_m = margin.at(slowest) + kRounding_m;
+  const double margin_m = margin.at(slowest) + kDriveRounding_m;
   const Leaving leaving = Requirements(robot)[RequirementName::kPlan].leaving;
   // Wherever the body may fit: whether it does, is searched for.
   const double least_m = robot.footprint.inscribed_radius_m() - leaving.deepest_m;
@@ -148,7 +148,7 @@ std::vector<Phase> park_out(const Pose& start, const RobotModel& robot, const St
   tight.is_out = [&](const Pose& pose) { return can_turn(pose.position); };
   tight.exit = to_exit.points.back();
   const auto fastest_at = [&](const Pose& pose) {
-    return std::max(slowest, kShareOfSpeed * margin.fastest(tight.gap_m(pose) - kRounding_m));
+    return std::max(slowest, kShareOfSpeed * margin.fastest(tight.gap_m(pose) - kDriveRounding_m));
   };
   // Rather forward, where the lidar does not see what is behind.
   std::vector<Stretch> way;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trajectory/braking.h"
 #include "trajectory/minco.h"
 
 namespace mocha {
@@ -10,10 +11,9 @@ namespace {
 
 constexpr double kKnot_s = 0.2;
 constexpr double kJerk = 8.0;            // [m/s^3] along the path
-constexpr double kShareOfLimits = 0.85;  // for the curve between the knots
+constexpr double kShareForCurve = 0.85;  // for the curve between the knots
 constexpr double kShareOfYawRate = 0.75;
 constexpr double kTightest_m = 0.2;  // radius; tighter, the curve between knots turns too fast
-constexpr double kRest_mps = 1e-3;
 
 Vector2 direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
@@ -29,14 +29,14 @@ Rolling Rolling::from(const MotionState& state) {
 
 Rolling Rolling::setting_off(const Pose& from, double turn_rad, const MotionLimits& limits) {
   return {from.position, from.yaw_rad + turn_rad, 0.0, 0.0,
-          kShareOfLimits * limits.max_acceleration};
+          kShareForCurve * limits.max_acceleration};
 }
 
 Vector2 Rolling::along() const { return direction(course_rad); }
 
 void Rolling::step(double duration_s, double yaw_rate_wanted, double acceleration_wanted,
                    const MotionLimits& limits) {
-  const double most = kShareOfLimits * limits.max_acceleration;
+  const double most = kShareForCurve * limits.max_acceleration;
   const double change = limits.max_yaw_acceleration * duration_s;
   const double tightest =
       std::min({kShareOfYawRate * limits.max_yaw_rate, most / speed, speed / kTightest_m});
@@ -46,7 +46,7 @@ void Rolling::step(double duration_s, double yaw_rate_wanted, double acceleratio
   const double jerk = kJerk * duration_s;
   acceleration += std::clamp(acceleration_wanted - acceleration, -jerk, jerk);
   acceleration = std::clamp(acceleration, -left, left);
-  const double fastest = std::max(speed, kShareOfLimits * limits.max_speed);
+  const double fastest = std::max(speed, kShareForCurve * limits.max_speed);
   const double before = speed;
   speed = std::clamp(speed + acceleration * duration_s, 0.0, fastest);
   acceleration = (speed - before) / duration_s;
@@ -69,7 +69,7 @@ DrivePhase drive_through(const MotionState& start, const std::vector<Vector2>& p
   PlanarMinco::State to;
   from << start.pose.position, start.velocity, start.acceleration;
   // Ending on the deceleration: the heading at rest is then well defined. So is it at the start.
-  const double hard = kShareOfLimits * limits.max_acceleration;
+  const double hard = kShareForCurve * limits.max_acceleration;
   if (start.at_rest) from.col(2) = hard * direction(start.pose.yaw_rad);
   to << places.back(), Vector2::Zero(), -hard * direction(final_course_rad);
   PlanarMinco minco;

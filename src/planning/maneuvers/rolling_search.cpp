@@ -16,14 +16,14 @@
 namespace mocha {
 namespace {
 
-constexpr double kStep_s = 0.05;
+constexpr double kSearchStep_s = 0.05;
 constexpr int kStepsPerEdge = 6;
 constexpr int kMostExpansions = 3000;
 constexpr std::size_t kMostWays = 6;  // that a curve may turn out to break the limits along
-constexpr double kYawRates[] = {-1.0, -0.5, 0.0, 0.5, 1.0};  // shares of the highest
-constexpr double kAccelerations[] = {1.0, 0.0, -1.0};        // the same
-constexpr int kHeadings = 12;                                // from rest
-constexpr double kRest_mps = 0.05;
+constexpr double kTriedYawRates[] = {-1.0, -0.5, 0.0, 0.5, 1.0};  // shares of the highest
+constexpr double kTriedAccelerations[] = {1.0, 0.0, -1.0};        // the same
+constexpr int kHeadings = 12;                                     // from rest
+constexpr double kSlowest_mps = 0.05;
 constexpr double kBehind_mps = 0.01;
 constexpr double kPast = 0.4;      // weight of the time so far, against the time to go
 constexpr double kGrowth_s = 1.0;  // for which what is kept grows
@@ -45,15 +45,15 @@ struct Disc {
 class MovingDiscs {
  public:
   MovingDiscs(const ManeuverStart& start, const Vector2& from, const RollingSearchOptions& options)
-      : steps_(1 +
-               static_cast<int>((options.duration_s + options.stands_s + kLongest_s) / kStep_s)),
+      : steps_(1 + static_cast<int>((options.duration_s + options.stands_s + kLongest_s) /
+                                    kSearchStep_s)),
         clearance_m_(start.robot.moving_clearance_m) {
     for (const MovingThing& thing : exposed_to(start, options.join_s)) {
       const double here_m = room_m(thing, from, options.join_s);
       const double most_m = here_m < 0.0 ? here_m + keep_m(thing, options.join_s) - kNearer_m
                                          : std::numeric_limits<double>::infinity();
       for (int step = 0; step < static_cast<int>(steps_.size()); ++step) {
-        const double ahead_s = step * kStep_s;
+        const double ahead_s = step * kSearchStep_s;
         const double t = options.join_s + ahead_s;
         if (t > thing.until_s) break;
         if (room_m(thing, from, t) > ahead_s * options.limits.max_speed + kReaction_m) continue;
@@ -64,8 +64,8 @@ class MovingDiscs {
 
   bool is_clear(const Vector2& place, int step, const Keeping& keeping) const {
     if (step >= static_cast<int>(steps_.size())) return true;
-    const double more_m =
-        keeping.growth * std::min(step * kStep_s, kGrowth_s) - (1.0 - keeping.share) * clearance_m_;
+    const double more_m = keeping.growth * std::min(step * kSearchStep_s, kGrowth_s) -
+                          (1.0 - keeping.share) * clearance_m_;
     return std::none_of(steps_[step].begin(), steps_[step].end(), [&](const Disc& disc) {
       const double kept_m = std::min(disc.most_m, disc.keep_m + more_m);
       return (place - disc.centre).squaredNorm() < kept_m * kept_m;
@@ -117,7 +117,7 @@ class Search {
         state_(stop_ ? Motion(join_s_, {*stop_}).at(join_s_ + stop_->duration_s)
                      : start.committed.at(join_s_)),
         steps_(kStepsPerEdge *
-               static_cast<int>(std::lround(options.duration_s / (kStepsPerEdge * kStep_s)))),
+               static_cast<int>(std::lround(options.duration_s / (kStepsPerEdge * kSearchStep_s)))),
         stands_s_(options.stands_s),
         clear_m_(start.robot.footprint.circumscribed_radius_m() +
                  MarginBudget::of(start.robot).static_margin_m()),
@@ -138,8 +138,8 @@ class Search {
         if (auto motion = motion_to(index)) ways.push_back(std::move(*motion));
         continue;
       }
-      for (const double yaw_rate : kYawRates) {
-        for (const double acceleration : kAccelerations) expand(index, yaw_rate, acceleration);
+      for (const double yaw_rate : kTriedYawRates) {
+        for (const double acceleration : kTriedAccelerations) expand(index, yaw_rate, acceleration);
       }
     }
     return ways;
@@ -155,7 +155,7 @@ class Search {
     const double stop_s = stop_ ? stop_->duration_s : 0.0;
     for (int i = 0; i < kHeadings; ++i) {
       const double change = wrap_angle(2.0 * M_PI * i / kHeadings);
-      const int steps = static_cast<int>(std::ceil((stop_s + turn_s(change)) / kStep_s));
+      const int steps = static_cast<int>(std::ceil((stop_s + turn_s(change)) / kSearchStep_s));
       if (stays_clear(state_.pose.position, 1, steps))
         add({Rolling::setting_off(state_.pose, change, limits_), steps, -1, 0.0, 0.0});
     }
@@ -201,18 +201,19 @@ class Search {
     if (!seen_.insert(key).second) return;
     nodes_.push_back(node);
     const double to_go_s = (rolling.position - start_.target).norm() / limits_.max_speed;
-    open_.push({to_go_s + kPast * node.step * kStep_s, static_cast<int>(nodes_.size()) - 1});
+    open_.push({to_go_s + kPast * node.step * kSearchStep_s, static_cast<int>(nodes_.size()) - 1});
   }
 
   void expand(int index, double yaw_rate, double acceleration) {
     Node next = nodes_[index];
-    if (next.rolling.speed < kRest_mps && next.from >= 0 && (acceleration > 0.0 || yaw_rate != 0.0))
+    if (next.rolling.speed < kSlowest_mps && next.from >= 0 &&
+        (acceleration > 0.0 || yaw_rate != 0.0))
       return;  // the end of the way: it stands
     next.from = index;
     next.yaw_rate = yaw_rate * limits_.max_yaw_rate;
     next.acceleration = acceleration * limits_.max_acceleration;
     for (int i = 0; i < kStepsPerEdge; ++i) {
-      next.rolling.step(kStep_s, next.yaw_rate, next.acceleration, limits_);
+      next.rolling.step(kSearchStep_s, next.yaw_rate, next.acceleration, limits_);
       if (!is_clear(next.rolling.position, ++next.step)) return;
     }
     add(next);
@@ -227,7 +228,7 @@ class Search {
     int step = first.step;
     std::vector<Vector2> places = {rolling.position};
     const auto roll = [&](double yaw_rate, double acceleration) {
-      rolling.step(kStep_s, yaw_rate, acceleration, limits_);
+      rolling.step(kSearchStep_s, yaw_rate, acceleration, limits_);
       places.push_back(rolling.position);
       ++step;
     };
@@ -239,7 +240,7 @@ class Search {
       roll(0.0, -limits_.max_acceleration);
       if (!is_clear(rolling.position, step)) return std::nullopt;
     }
-    const int stands = step + static_cast<int>(stands_s_ / kStep_s);
+    const int stands = step + static_cast<int>(stands_s_ / kSearchStep_s);
     if (places.size() < 4 || !stays_clear(rolling.position, step, stands)) return std::nullopt;
     return assembled(first, places, rolling.course_rad);
   }
@@ -250,14 +251,14 @@ class Search {
     if (stop_) phases.emplace_back(*stop_);
     MotionState from = state_;
     const double change = wrap_angle(first.rolling.course_rad - state_.pose.yaw_rad);
-    const double left_s = first.step * kStep_s - (stop_ ? stop_->duration_s : 0.0);
+    const double left_s = first.step * kSearchStep_s - (stop_ ? stop_->duration_s : 0.0);
     if (state_.at_rest && std::abs(change) > 1e-6) {
       phases.emplace_back(TurnPhase{state_.pose, change, left_s});
       from.pose.yaw_rad = wrap_angle(state_.pose.yaw_rad + change);
     } else if (stop_) {
       phases.emplace_back(StandPhase{state_.pose, left_s});
     }
-    phases.emplace_back(drive_through(from, places, kStep_s, final_course_rad, limits_));
+    phases.emplace_back(drive_through(from, places, kSearchStep_s, final_course_rad, limits_));
     auto motion = Motion::make(join_s_, std::move(phases));
     if (!motion) return std::nullopt;
     return std::move(motion.motion);

@@ -15,12 +15,12 @@ constexpr double kDistances_m[] = {0.4, 0.8, 1.3, 2.0};
 constexpr int kDirections = 24;
 constexpr std::size_t kMost = 10;
 // Enough room is enough; of those that have it, the one that is soonest done is the best.
-constexpr double kEnough_m = 0.05;
+constexpr double kEnoughRoom_m = 0.05;
 constexpr double kNoTurn_rad = 0.005;
 constexpr double kShareOfLimits = 0.95;
 // So far ahead a sidestep looks at what is in the way: to step straight back is to be met again
 // soon, to step aside is not.
-constexpr double kForeseen_s = 15.0;
+constexpr double kSidestepForeseen_s = 15.0;
 
 /// Straight along the heading (direction +1) or against it, from rest to rest: the cubic, which
 /// sets off with all its acceleration.
@@ -71,7 +71,7 @@ bool stands_free(const Vector2& from, const Vector2& to, const ManeuverStart& st
 std::vector<MovingThing> within_reach(const std::vector<MovingThing>& moving, const Vector2& stop,
                                       double brake_m, double from_s, double until_s) {
   const double reach_m =
-      *std::max_element(std::begin(kDistances_m), std::end(kDistances_m)) + kEnough_m + brake_m;
+      *std::max_element(std::begin(kDistances_m), std::end(kDistances_m)) + kEnoughRoom_m + brake_m;
   std::vector<MovingThing> near;
   for (const MovingThing& thing : moving) {
     const MovingObstacle::Disc disc = thing.obstacle->at(from_s);
@@ -92,7 +92,7 @@ struct Step {
 std::vector<Step> steps(const ManeuverStart& start, double join_s, const std::vector<Phase>& brake,
                         const MotionLimits& limits) {
   const Pose stop = Motion(join_s, brake).end_pose();
-  const double until_s = join_s + kForeseen_s;
+  const double until_s = join_s + kSidestepForeseen_s;
   const double brake_m = (start.committed.position(join_s) - stop.position).norm();
   const std::vector<MovingThing> near =
       within_reach(exposed_to(start, join_s), stop.position, brake_m, join_s, until_s);
@@ -107,7 +107,7 @@ std::vector<Step> steps(const ManeuverStart& start, double join_s, const std::ve
         phases.push_back(phase);
       Motion motion(join_s, std::move(phases));
       const double room_m = least_room_m(motion, near, join_s, until_s);
-      steps.push_back({std::min(room_m, kEnough_m), std::move(motion)});
+      steps.push_back({std::min(room_m, kEnoughRoom_m), std::move(motion)});
     }
   }
   return steps;

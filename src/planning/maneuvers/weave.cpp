@@ -13,7 +13,7 @@ constexpr double kWayOut_s = 2.4;
 // Nobody may come so long after it: a weave may turn out to be the last, a way out is not.
 constexpr double kStays_s = 5.0;
 constexpr double kEscapes_s = 1.5;
-constexpr double kShareOfLimits = 0.9;  // some is left to the curve that is laid through the way
+constexpr double kShareForWay = 0.9;  // some is left to the curve that is laid through the way
 // Of the way at full speed, or to the target: what gets on by less is no way through.
 constexpr double kLeastShare = 0.5;
 
@@ -30,8 +30,8 @@ Maneuvers whole_ways(const ManeuverStart& start, const RollingSearchOptions& opt
 Maneuvers weaves(const ManeuverStart& start) {
   const bool at_once = is_alone(start);
   MotionLimits limits = start.robot.limits;
-  limits.max_speed *= kShareOfLimits;
-  limits.max_acceleration *= kShareOfLimits;
+  limits.max_speed *= kShareForWay;
+  limits.max_acceleration *= kShareForWay;
   const double join_s = at_once ? start.emergency_s : start.settled_s;
   Maneuvers ways = whole_ways(start, {limits, join_s, kWeave_s, kStays_s, {{1.0, 0.2}, {1.0, 0.0}}},
                               at_once, "weaves");

@@ -11,7 +11,7 @@ namespace mocha {
 namespace {
 
 constexpr double kAround_m = 8.0;  // of the group, in which it looks for room first
-constexpr double kSamePlace_m = 0.02;
+constexpr double kAtPlace_m = 0.02;
 // One after the other, where the search is stopped before it finds a way.
 constexpr MoveSearchOptions kMoveSearches[] = {{100000, 1.0}, {400000, 2.0}};
 constexpr int kMostSteps = 300000;    // where no search for moves finds one
@@ -49,7 +49,7 @@ class Grouping {
   /// Of a place that is there, or is added.
   static int number_of(const Vector2& place, std::vector<Vector2>& places) {
     for (std::size_t i = 0; i < places.size(); ++i) {
-      if ((places[i] - place).norm() < kSamePlace_m) return static_cast<int>(i);
+      if ((places[i] - place).norm() < kAtPlace_m) return static_cast<int>(i);
     }
     places.push_back(place);
     return static_cast<int>(places.size()) - 1;

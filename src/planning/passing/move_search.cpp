@@ -12,7 +12,7 @@
 namespace mocha {
 namespace {
 
-struct Node {
+struct MovedPlacing {
   Placing placing;
   int parent;
   int robot;              // that has moved
@@ -20,9 +20,9 @@ struct Node {
   double cost_m;
 };
 
-class Search {
+class CheapestMoves {
  public:
-  Search(const PassingProblem& problem, const MoveSearchOptions& options)
+  CheapestMoves(const PassingProblem& problem, const MoveSearchOptions& options)
       : problem_(problem), options_(options), distances_m_(problem, kPerMove_m) {}
 
   PassingSequence run(const std::function<bool()>& should_stop) {
@@ -55,13 +55,13 @@ class Search {
   }
 
   void make(int from, int robot, const PlaceMove& move) {
-    Node next{nodes_[from].placing, from, robot, &move,
-              nodes_[from].cost_m + move.length_m + kPerMove_m};
+    MovedPlacing next{nodes_[from].placing, from, robot, &move,
+                      nodes_[from].cost_m + move.length_m + kPerMove_m};
     next.placing[robot] = move.to;
     add(std::move(next));
   }
 
-  void add(Node node) {
+  void add(MovedPlacing node) {
     double left_m = 0.0;
     for (int robot = 0; robot < problem_.robots(); ++robot)
       left_m += distances_m_(robot, node.placing[robot]);
@@ -89,7 +89,7 @@ class Search {
   const PassingProblem& problem_;
   const MoveSearchOptions options_;
   const GoalDistances distances_m_;
-  std::vector<Node> nodes_;
+  std::vector<MovedPlacing> nodes_;
   std::map<Placing, double> best_m_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
@@ -103,7 +103,7 @@ PassingSequence find_few_moves(const PassingProblem& problem, const MoveSearchOp
     throw std::invalid_argument("find_few_moves: times_least " +
                                 std::to_string(options.times_least) + ", allowed is 1 or above");
   }
-  return Search(problem, options).run(should_stop);
+  return CheapestMoves(problem, options).run(should_stop);
 }
 
 }  // namespace mocha

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "trajectory/plane_vectors.h"
+#include "trajectory/polyline.h"
 
 namespace mocha {
 namespace {
@@ -12,16 +13,10 @@ constexpr double kShareOfAll = 0.1;
 constexpr double kBend_rad = 1.2;  // of more, it stops and turns in place
 constexpr double kSame_s = 1e-6;
 
-struct Made {
+struct MoveTimes {
   double begins_s;
   double ends_s;
 };
-
-double length_of(const std::vector<Vector2>& path) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i] - path[i - 1]).norm();
-  return length_m;
-}
 
 /// Between the end of one move and the beginning of the next [rad].
 double bend(const std::vector<Vector2>& before, const std::vector<Vector2>& after) {
@@ -75,7 +70,7 @@ class Timing {
 
   const PassingOrder& order_;
   const PassingPace pace_;
-  std::vector<std::vector<Made>> made_;
+  std::vector<std::vector<MoveTimes>> made_;
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace mocha {
 namespace {
 
 /// A placing that was reached, and what is still to be tried from there.
-struct Node {
+struct VisitedPlacing {
   Placing placing;
   int parent;
   std::vector<int> waiting;        // of each robot: for how many steps it has not been at its goal
@@ -22,9 +22,9 @@ struct Node {
   std::queue<FixedMoves> demands;  // each: one step to be tried
 };
 
-class Search {
+class LazySearch {
  public:
-  Search(const PassingProblem& problem, const std::function<bool()>& should_stop)
+  LazySearch(const PassingProblem& problem, const std::function<bool()>& should_stop)
       : problem_(problem),
         should_stop_(should_stop),
         distances_m_(problem),
@@ -58,7 +58,7 @@ class Search {
 
   /// A new node, on top of what is to be looked at.
   void visit(const Placing& placing, int parent) {
-    Node node{placing, parent, {}, {}, {}};
+    VisitedPlacing node{placing, parent, {}, {}, {}};
     for (int robot = 0; robot < problem_.robots(); ++robot) {
       const int before = parent < 0 ? 0 : nodes_[parent].waiting[robot];
       node.waiting.push_back(problem_.is_at_goal(robot, placing[robot]) ? 0 : before + 1);
@@ -127,7 +127,7 @@ class Search {
   const std::function<bool()>& should_stop_;
   const GoalDistances distances_m_;
   StepSearch steps_;
-  std::vector<Node> nodes_;
+  std::vector<VisitedPlacing> nodes_;
   std::map<Placing, int> numbers_;
   std::vector<int> open_;
 };
@@ -137,7 +137,7 @@ class Search {
 PassingSequence find_passing(const PassingProblem& problem, int most_steps,
                              const std::function<bool()>& should_stop) {
   validate(problem);
-  return Search(problem, should_stop).run(most_steps);
+  return LazySearch(problem, should_stop).run(most_steps);
 }
 
 }  // namespace mocha

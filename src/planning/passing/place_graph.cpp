@@ -12,6 +12,7 @@
 #include "planning/passing/place_packing.h"
 #include "topology/paths/path_shortcutting.h"
 #include "topology/static_map/lattice.h"
+#include "trajectory/polyline.h"
 #include "world/obstacle.h"
 
 namespace mocha {
@@ -185,12 +186,6 @@ class Surroundings {
   std::vector<int> owner_;
   std::vector<int> parent_;  // towards the place; itself beside it
 };
-
-double length_of(const std::vector<Vector2>& path) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i] - path[i - 1]).norm();
-  return length_m;
-}
 
 double distance_m(const Vector2& place, const std::vector<Vector2>& path) {
   double least_m = (place - path.front()).norm();

@@ -121,6 +121,11 @@ geometry_msgs::TransformStamped transform_message(ros::Time stamp, const std::st
   return message;
 }
 
+ros::Time ros_time(double t) {
+  constexpr double kLatest_s = 4294967295.0;
+  return t >= 0.0 && t < kLatest_s ? ros::Time(t) : ros::Time();
+}
+
 geometry_msgs::Quaternion quaternion_of(double yaw_rad) {
   geometry_msgs::Quaternion quaternion;
   quaternion.z = std::sin(0.5 * yaw_rad);

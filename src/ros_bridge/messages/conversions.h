@@ -24,6 +24,9 @@ void to_message(const Braking& braking, mocha_ugv::Trajectory& message);
 /// Throws std::invalid_argument for numbers that are none of a braking.
 Braking braking_from_message(const mocha_ugv::Trajectory& message);
 
+/// Zero where ROS has no such time.
+ros::Time ros_time(double t);
+
 geometry_msgs::Quaternion quaternion_of(double yaw_rad);
 geometry_msgs::Pose to_message(const Pose& pose);
 /// Position and heading; anything out of the plane is dropped.

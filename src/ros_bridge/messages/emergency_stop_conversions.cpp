@@ -4,14 +4,10 @@
 
 #include <boost/date_time/posix_time/posix_time.hpp>
 
+#include "ros_bridge/messages/conversions.h"
+
 namespace mocha {
 namespace {
-
-/// Zero where ROS has no such time.
-ros::Time ros_time(double t) {
-  constexpr double kLatest_s = 4294967295.0;
-  return t >= 0.0 && t < kLatest_s ? ros::Time(t) : ros::Time();
-}
 
 std::string since(double t) {
   return " since " + boost::posix_time::to_simple_string(ros_time(t).toBoost()) + " UTC";

@@ -2,18 +2,10 @@
 
 #include <stdexcept>
 
+#include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/rviz/candidate_drawing.h"
 
 namespace mocha {
-namespace {
-
-/// Zero where ROS has no such time.
-ros::Time ros_time(double t) {
-  constexpr double kLatest_s = 4294967295.0;
-  return t >= 0.0 && t < kLatest_s ? ros::Time(t) : ros::Time();
-}
-
-}  // namespace
 
 // The enumerations are sent as their numbers.
 using Status = mocha_ugv::PlannerStatus;

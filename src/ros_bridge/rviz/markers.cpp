@@ -40,8 +40,8 @@ constexpr double kTextHeight_m = 0.4;
 constexpr double kTextLevel_m = 0.6;  // above all else, seen from above
 
 const std_msgs::ColorRGBA kInk = color(0.1, 0.1, 0.12);
-const std_msgs::ColorRGBA kRobot = color(0.1, 0.25, 0.85);
-const std_msgs::ColorRGBA kGoal = color(0.8, 0.05, 0.5);
+const std_msgs::ColorRGBA kRobotColour = color(0.1, 0.25, 0.85);
+const std_msgs::ColorRGBA kGoalColour = color(0.8, 0.05, 0.5);
 
 /// Blue, cyan, green, yellow, red for a share from 0 to 1.
 std_msgs::ColorRGBA rainbow(double share) {
@@ -50,7 +50,7 @@ std_msgs::ColorRGBA rainbow(double share) {
   return color(ramp(s - 2.0), std::min(ramp(s), ramp(4.0 - s)), ramp(2.0 - s));
 }
 
-geometry_msgs::Point point(const Vector2& p, double height_m = 0.0) {
+geometry_msgs::Point lifted(const Vector2& p, double height_m = 0.0) {
   geometry_msgs::Point message;
   message.x = p.x();
   message.y = p.y();
@@ -69,7 +69,7 @@ std::vector<double> sample_times(double start, double end, double dt) {
 std::vector<geometry_msgs::Point> positions(const Motion& motion, double height_m) {
   std::vector<geometry_msgs::Point> points;
   for (const double t : sample_times(motion.start_time(), motion.end_time(), kLineStep_s)) {
-    points.push_back(point(motion.position(t), height_m));
+    points.push_back(lifted(motion.position(t), height_m));
   }
   return points;
 }
@@ -166,7 +166,7 @@ Marker& Drawing::add_text(const std::string& name, const std::string& text, cons
   marker.text = text;
   marker.scale.z = kTextHeight_m;
   marker.color = kInk;
-  marker.pose.position = point(place, kTextLevel_m);
+  marker.pose.position = lifted(place, kTextLevel_m);
   return marker;
 }
 
@@ -190,7 +190,7 @@ void Drawing::add_line(const std::string& name, const std::vector<Vector2>& poin
   line.color = color;
   const std::size_t even = points.size() - points.size() % 2;  // what a LINE_LIST must have
   for (std::size_t i = 0; i < (dashed ? even : points.size()); ++i)
-    line.points.push_back(point(points[i], kLineLevel_m));
+    line.points.push_back(lifted(points[i], kLineLevel_m));
 }
 
 void Drawing::add_label(const std::string& name, const std::string& text, const Vector2& place,
@@ -203,7 +203,7 @@ void Drawing::add_label(const std::string& name, const std::string& text, const 
 void Drawing::add_square(const std::string& name, const Vector2& place, double side_m,
                          const std_msgs::ColorRGBA& color) {
   Marker& square = add(name, Marker::CUBE);
-  square.pose.position = point(place, kSquareLevel_m);
+  square.pose.position = lifted(place, kSquareLevel_m);
   square.scale.x = square.scale.y = side_m;
   square.scale.z = 0.02;
   square.color = color;
@@ -216,17 +216,17 @@ void Drawing::add_robot(const std::string& name, const std::string& base_frame,
     marker.header.frame_id = base_frame;
     marker.header.stamp = ros::Time(0);
     marker.frame_locked = true;
-    marker.color = kRobot;
+    marker.color = kRobotColour;
     return marker;
   };
   Marker& line = fix(add(name, Marker::LINE_STRIP));
   line.scale.x = 0.05;
-  for (const Vector2& corner : outline(footprint)) line.points.push_back(point(corner, 0.08));
+  for (const Vector2& corner : outline(footprint)) line.points.push_back(lifted(corner, 0.08));
 
   Marker& arrow = fix(add(name, Marker::ARROW));
   arrow.scale.x = 0.06;
   arrow.scale.y = 0.16;
-  arrow.points = {point(Vector2::Zero(), 0.08), point({radius_m, 0.0}, 0.08)};
+  arrow.points = {lifted(Vector2::Zero(), 0.08), lifted({radius_m, 0.0}, 0.08)};
 
   fix(add_text(name, name, {0.0, radius_m + 0.7 * kTextHeight_m}));
 }
@@ -234,24 +234,24 @@ void Drawing::add_robot(const std::string& name, const std::string& base_frame,
 void Drawing::add_goal(const std::string& name, const Vector2& place,
                        std::optional<double> yaw_rad) {
   Marker& disc = add(name, Marker::CYLINDER);
-  disc.pose.position = point(place, 0.01);
+  disc.pose.position = lifted(place, 0.01);
   disc.scale.x = disc.scale.y = 0.3;
   disc.scale.z = 0.02;
-  disc.color = kGoal;
-  add_text(name, name + " goal", place + Vector2(0.0, kTextHeight_m + 0.1)).color = kGoal;
+  disc.color = kGoalColour;
+  add_text(name, name + " goal", place + Vector2(0.0, kTextHeight_m + 0.1)).color = kGoalColour;
   if (!yaw_rad) return;
   Marker& arrow = add(name, Marker::ARROW);
   arrow.pose = to_message(Pose{place, *yaw_rad});
   arrow.scale.x = 0.5;
   arrow.scale.y = arrow.scale.z = 0.08;
-  arrow.color = kGoal;
+  arrow.color = kGoalColour;
 }
 
 void Drawing::add_obstacle(const MovingObstacle& obstacle, double t, double horizon_s) {
   for (const double later : sample_times(0.0, horizon_s, kGhostStep_s)) {
     const MovingObstacle::Disc disc = obstacle.at(t + later);
     Marker& cylinder = add(obstacle.name(), Marker::CYLINDER);
-    cylinder.pose.position = point(disc.centre, 0.005);  // below all lines
+    cylinder.pose.position = lifted(disc.centre, 0.005);  // below all lines
     cylinder.scale.x = cylinder.scale.y = 2.0 * disc.radius_m;
     cylinder.scale.z = 0.01;
     // Those to come lie on top of each other: together no more than the first.

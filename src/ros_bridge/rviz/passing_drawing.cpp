@@ -9,7 +9,7 @@ namespace {
 constexpr double kBroad_m = 0.12;
 constexpr double kThin_m = 0.03;
 constexpr double kPlace_m = 0.15;
-constexpr double kTextHeight_m = 0.25;
+constexpr double kTurnTextHeight_m = 0.25;
 const std_msgs::ColorRGBA kColor = color(0.9, 0.45, 0.0, 0.7);
 const std_msgs::ColorRGBA kObstacleColor = color(0.9, 0.0, 0.0, 0.9);
 
@@ -61,7 +61,7 @@ void PassingDrawing::draw(Drawing& drawing) const {
     if (number >= promised) permitted = permitted && may_make(turn);
     drawing.add_line("turns", turn.path, permitted ? kBroad_m : kThin_m, kColor, false);
     drawing.add_square("places", turn.path.back(), kPlace_m, kColor);
-    drawing.add_label("numbers", std::to_string(number + 1), turn.path.back(), kTextHeight_m,
+    drawing.add_label("numbers", std::to_string(number + 1), turn.path.back(), kTurnTextHeight_m,
                       kColor);
   }
 }

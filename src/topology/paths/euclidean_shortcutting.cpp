@@ -3,22 +3,17 @@
 #include <algorithm>
 #include <utility>
 
+#include "trajectory/polyline.h"
+
 namespace mocha {
 namespace {
 
-constexpr int kParts = 24;            // from whose ends corners are cut, about
-constexpr int kRounds = 3;            // to and fro, at most
-constexpr double kWorthwhile = 0.01;  // another round is, after one that gained this share
+constexpr int kParts = 24;                   // from whose ends corners are cut, about
+constexpr int kStraightRounds = 3;           // to and fro, at most
+constexpr double kWorthAnotherRound = 0.01;  // another round is, after one that gained this share
 
 template <int D>
 using Path = std::vector<Eigen::Matrix<double, D, 1>>;
-
-template <int D>
-double length_of(const Path<D>& path) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i] - path[i - 1]).norm();
-  return length_m;
-}
 
 /// The same path with more points on it.
 template <int D>
@@ -107,7 +102,7 @@ bool is_clear(const Path<D>& path, const SampledSpace<D>& space) {
 template <int D>
 Path<D> with_shortcuts(Path<D> path, const SampledSpace<D>& space) {
   if (path.size() <= 2) return path;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kStraightRounds; ++round) {
     Path<D> shorter = path;
     // Backwards as well, as what is cut first bends what is cut later.
     for (int direction = 0; direction < 2; ++direction) {
@@ -119,7 +114,7 @@ Path<D> with_shortcuts(Path<D> path, const SampledSpace<D>& space) {
     const double length_m = length_of<D>(path);
     const double gained_m = length_m - length_of<D>(shorter);
     if (gained_m > 0.0 || shorter.size() < path.size()) path = std::move(shorter);
-    if (gained_m <= kWorthwhile * length_m) break;
+    if (gained_m <= kWorthAnotherRound * length_m) break;
   }
   return path;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "trajectory/polyline.h"
+
 namespace mocha {
 namespace {
 
@@ -93,12 +95,6 @@ class CornerCutter {
   const Cuts<2>& cuts_;
   std::vector<Reached> to_;  // each of the points, along the path
 };
-
-double length_of(const std::vector<Vector2>& path) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i] - path[i - 1]).norm();
-  return length_m;
-}
 
 /// One round of cutting; returns the path from its end to its start.
 std::vector<Vector2> cut_back_to_front(const std::vector<Vector2>& path, const TravelCost& cost,

@@ -12,8 +12,8 @@ namespace {
 
 constexpr float kBarred = -1.0f;
 constexpr int kNone = -1;
-constexpr int kApart = 6;               // cells between gates of one stretch, at least
-constexpr std::size_t kNeighbours = 6;  // of a node, that straight edges are tried to
+constexpr int kApart = 6;                       // cells between gates of one stretch, at least
+constexpr std::size_t kStraightNeighbours = 6;  // of a node, that straight edges are tried to
 
 /// One line of the skeleton, as it is followed.
 struct Line {
@@ -39,7 +39,7 @@ class SkeletonTiler::Builder {
     index_.assign(figure_.room.size(), kNone);
     for (std::size_t i = 0; i < nodes_.size(); ++i) index_[nodes_[i]] = static_cast<int>(i);
     if (!is_open_ && !nodes_.empty()) trace(thinning_.run(figure_, nodes_));
-    add_straight_edges(is_open_ ? nodes_.size() : kNeighbours);
+    add_straight_edges(is_open_ ? nodes_.size() : kStraightNeighbours);
     for (const int node : nodes_) tile_.nodes.push_back(number_of(node));
     return std::exchange(tile_, {});
   }

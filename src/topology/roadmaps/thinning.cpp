@@ -7,7 +7,7 @@
 namespace mocha {
 namespace {
 
-constexpr int kNone = -1;
+constexpr int kNoPixel = -1;
 constexpr std::uint8_t kGone = 0;
 constexpr std::uint8_t kThere = 1;
 constexpr std::uint8_t kAnchor = 2;
@@ -44,7 +44,7 @@ void Thinning::start(const RoomRaster& figure, const std::vector<int>& anchors) 
   around_it_.resize(places);
   bucket_.resize(places);
   next_.resize(places);
-  first_.fill(kNone);
+  first_.fill(kNoPixel);
   float most = 0.0f;
   for (const float room : figure.room) most = std::max(most, room);
   const float scale = most > 0.0f ? (kBuckets - 1) / most : 0.0f;
@@ -70,7 +70,7 @@ std::vector<std::uint8_t> Thinning::run(const RoomRaster& figure, const std::vec
   if (figure.room.empty()) return {};
   start(figure, anchors);
   for (int place = 0; place < static_cast<int>(state_.size()); ++place) push(place);
-  for (int place = pop(); place != kNone; place = pop()) {
+  for (int place = pop(); place != kNoPixel; place = pop()) {
     if (!kSimple[around_it_[place]]) continue;
     state_[place] = kGone;
     for (int k = 0; k < 8; ++k) {
@@ -90,15 +90,15 @@ void Thinning::push(int place) {
   if (state_[place] != kThere || !kSimple[around_it_[place]]) return;
   state_[place] = kQueued;
   const int bucket = bucket_[place];
-  (first_[bucket] == kNone ? first_[bucket] : next_[last_[bucket]]) = place;
+  (first_[bucket] == kNoPixel ? first_[bucket] : next_[last_[bucket]]) = place;
   last_[bucket] = place;
-  next_[place] = kNone;
+  next_[place] = kNoPixel;
   lowest_ = std::min(lowest_, bucket);
 }
 
 int Thinning::pop() {
-  while (lowest_ < kBuckets && first_[lowest_] == kNone) ++lowest_;
-  if (lowest_ == kBuckets) return kNone;
+  while (lowest_ < kBuckets && first_[lowest_] == kNoPixel) ++lowest_;
+  if (lowest_ == kBuckets) return kNoPixel;
   const int place = first_[lowest_];
   first_[lowest_] = next_[place];
   state_[place] = kThere;
