@@ -1,7 +1,7 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 namespace mocha {
@@ -29,18 +29,15 @@ class BlockTridiagonal {
   /// Block (i, i - 1); i > 0.
   Block& below(int i) { return below_[i]; }
 
-  /// Puts the factor in the matrix's place; false where that is not positive definite.
+  /// Puts the factor in the matrix's place; false where that is not positive definite. What is
+  /// above the diagonal is left as it is.
   bool factor() {
     for (int i = 0; i < blocks(); ++i) {
       if (i > 0) {
-        diagonal_[i - 1]
-            .transpose()
-            .template triangularView<Eigen::Upper>()
-            .template solveInPlace<Eigen::OnTheRight>(below_[i]);
-        diagonal_[i].noalias() -= below_[i].lazyProduct(below_[i].transpose());
+        divide_by_factor(diagonal_[i - 1], below_[i]);
+        for (int k = 0; k < N; ++k) subtract_square(below_[i], k, 0, diagonal_[i]);
       }
-      const Eigen::LLT<Eigen::Ref<Block>> cholesky(diagonal_[i]);
-      if (cholesky.info() != Eigen::Success) return false;
+      if (!factor(diagonal_[i])) return false;
     }
     return true;
   }
@@ -48,17 +45,56 @@ class BlockTridiagonal {
   /// Solves for a right-hand side, in its place: a column a block. Requires factor().
   void solve(Eigen::Matrix<double, N, Eigen::Dynamic>& columns) const {
     for (int i = 0; i < blocks(); ++i) {
-      if (i > 0) columns.col(i) -= below_[i].lazyProduct(columns.col(i - 1));
-      diagonal_[i].template triangularView<Eigen::Lower>().solveInPlace(columns.col(i));
+      auto x = columns.col(i);
+      if (i > 0) {
+        for (int k = 0; k < N; ++k) x -= columns(k, i - 1) * below_[i].col(k);
+      }
+      for (int k = 0; k < N; ++k) {
+        x[k] /= diagonal_[i](k, k);
+        for (int row = k + 1; row < N; ++row) x[row] -= x[k] * diagonal_[i](row, k);
+      }
     }
     for (int i = blocks() - 1; i >= 0; --i) {
-      if (i + 1 < blocks())
-        columns.col(i) -= below_[i + 1].transpose().lazyProduct(columns.col(i + 1));
-      diagonal_[i].transpose().template triangularView<Eigen::Upper>().solveInPlace(columns.col(i));
+      auto x = columns.col(i);
+      if (i + 1 < blocks()) {
+        for (int k = 0; k < N; ++k) x[k] -= below_[i + 1].col(k).dot(columns.col(i + 1));
+      }
+      for (int k = N - 1; k >= 0; --k) {
+        for (int row = k + 1; row < N; ++row) x[k] -= diagonal_[i](row, k) * x[row];
+        x[k] /= diagonal_[i](k, k);
+      }
     }
   }
 
  private:
+  // Loops by columns, as Eigen's own solvers for blocks of a fixed size take a minute to compile.
+
+  /// Subtracts from a block's lower half, from a column on, the square of another's column k.
+  static void subtract_square(const Block& other, int k, int first, Block& block) {
+    for (int column = first; column < N; ++column) {
+      for (int row = column; row < N; ++row) block(row, column) -= other(row, k) * other(column, k);
+    }
+  }
+
+  static bool factor(Block& block) {
+    for (int k = 0; k < N; ++k) {
+      if (!(block(k, k) > 0.0)) return false;
+      const double root = std::sqrt(block(k, k));
+      for (int row = k; row < N; ++row) block(row, k) /= root;
+      subtract_square(block, k, k + 1, block);
+    }
+    return true;
+  }
+
+  /// Multiplies a block from the right by the inverse of a factor's transpose.
+  static void divide_by_factor(const Block& factor, Block& block) {
+    for (int k = 0; k < N; ++k) {
+      block.col(k) /= factor(k, k);
+      for (int column = k + 1; column < N; ++column)
+        block.col(column) -= factor(column, k) * block.col(k);
+    }
+  }
+
   std::vector<Block> diagonal_;
   std::vector<Block> below_;
 };

@@ -83,11 +83,7 @@ void CurvatureModel<D, S>::solve(Eigen::VectorXd& x) {
   }
 }
 
-template class CurvatureModel<2, 2>;
 template class CurvatureModel<2, 3>;
-template class CurvatureModel<2, 4>;
-template class CurvatureModel<3, 2>;
 template class CurvatureModel<3, 3>;
-template class CurvatureModel<3, 4>;
 
 }  // namespace mocha

@@ -46,11 +46,7 @@ class CurvatureModel {
   Eigen::Matrix<double, kSize, Eigen::Dynamic> columns_;
 };
 
-extern template class CurvatureModel<2, 2>;
 extern template class CurvatureModel<2, 3>;
-extern template class CurvatureModel<2, 4>;
-extern template class CurvatureModel<3, 2>;
 extern template class CurvatureModel<3, 3>;
-extern template class CurvatureModel<3, 4>;
 
 }  // namespace mocha

@@ -40,7 +40,8 @@ TimeQuadrature<D, S>::TimeQuadrature(int kappa, int pieces, std::size_t penaltie
 
 template <int D, int S>
 void TimeQuadrature<D, S>::set_end_tables() {
-  EndTable effort = EndTable::Zero();  // by coefficients
+  // Of any size: solvers for each fixed one take long to compile, and this is done once.
+  Eigen::MatrixXd effort = Eigen::MatrixXd::Zero(2 * S, 2 * S);  // by coefficients
   for (int k = 0; k < S; ++k) {
     for (int j = 0; j < 2 * S; ++j) {
       ends_by_coefficients_(k, j) = j == k ? falling_factorial(k, k) : 0.0;
@@ -51,7 +52,7 @@ void TimeQuadrature<D, S>::set_end_tables() {
       }
     }
   }
-  const EndTable coefficients_by_ends = ends_by_coefficients_.inverse();
+  const Eigen::MatrixXd coefficients_by_ends = Eigen::MatrixXd(ends_by_coefficients_).inverse();
   effort_by_ends_ = coefficients_by_ends.transpose() * effort * coefficients_by_ends;
   for (int order = 0; order < kOrders; ++order)
     basis_by_ends_[order] = basis_[order] * coefficients_by_ends;
@@ -227,11 +228,7 @@ auto TimeQuadrature<D, S>::curvature(const Minco<D, S>& curve, const Penalties& 
   return curvature_;
 }
 
-template class TimeQuadrature<2, 2>;
 template class TimeQuadrature<2, 3>;
-template class TimeQuadrature<2, 4>;
-template class TimeQuadrature<3, 2>;
 template class TimeQuadrature<3, 3>;
-template class TimeQuadrature<3, 4>;
 
 }  // namespace mocha

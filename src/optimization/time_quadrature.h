@@ -67,11 +67,7 @@ class TimeQuadrature {
   std::vector<double> by_time_;      // of each piece as a whole
 };
 
-extern template class TimeQuadrature<2, 2>;
 extern template class TimeQuadrature<2, 3>;
-extern template class TimeQuadrature<2, 4>;
-extern template class TimeQuadrature<3, 2>;
 extern template class TimeQuadrature<3, 3>;
-extern template class TimeQuadrature<3, 4>;
 
 }  // namespace mocha

@@ -102,11 +102,7 @@ CostTerms TrajectoryObjective<D, S>::terms() const {
   return terms;
 }
 
-template class TrajectoryObjective<2, 2>;
 template class TrajectoryObjective<2, 3>;
-template class TrajectoryObjective<2, 4>;
-template class TrajectoryObjective<3, 2>;
 template class TrajectoryObjective<3, 3>;
-template class TrajectoryObjective<3, 4>;
 
 }  // namespace mocha

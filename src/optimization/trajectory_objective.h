@@ -82,11 +82,7 @@ class TrajectoryObjective {
   double duration_ = 0.0;
 };
 
-extern template class TrajectoryObjective<2, 2>;
 extern template class TrajectoryObjective<2, 3>;
-extern template class TrajectoryObjective<2, 4>;
-extern template class TrajectoryObjective<3, 2>;
 extern template class TrajectoryObjective<3, 3>;
-extern template class TrajectoryObjective<3, 4>;
 
 }  // namespace mocha

@@ -218,17 +218,9 @@ OptimizedTrajectory<D, S> optimize(TrajectoryObjective<D, S>& objective, Eigen::
   return result;
 }
 
-template OptimizedTrajectory<2, 2> optimize(TrajectoryObjective<2, 2>&, Eigen::VectorXd,
-                                            const OptimizerOptions&);
 template OptimizedTrajectory<2, 3> optimize(TrajectoryObjective<2, 3>&, Eigen::VectorXd,
                                             const OptimizerOptions&);
-template OptimizedTrajectory<2, 4> optimize(TrajectoryObjective<2, 4>&, Eigen::VectorXd,
-                                            const OptimizerOptions&);
-template OptimizedTrajectory<3, 2> optimize(TrajectoryObjective<3, 2>&, Eigen::VectorXd,
-                                            const OptimizerOptions&);
 template OptimizedTrajectory<3, 3> optimize(TrajectoryObjective<3, 3>&, Eigen::VectorXd,
-                                            const OptimizerOptions&);
-template OptimizedTrajectory<3, 4> optimize(TrajectoryObjective<3, 4>&, Eigen::VectorXd,
                                             const OptimizerOptions&);
 
 }  // namespace mocha

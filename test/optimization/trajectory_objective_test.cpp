@@ -131,8 +131,7 @@ struct Case {
 
 template <typename Case>
 class Objectives : public testing::Test {};
-using Cases =
-    testing::Types<Case<2, 2>, Case<2, 3>, Case<2, 4>, Case<3, 2>, Case<3, 3>, Case<3, 4>>;
+using Cases = testing::Types<Case<2, 3>, Case<3, 3>>;
 TYPED_TEST_SUITE(Objectives, Cases);
 
 TYPED_TEST(Objectives, GradientMatchesDifferences) {
