@@ -83,6 +83,11 @@ class Pace {
         rate_(on_machine_clock_ ? 1.0 : rate),
         last_(start) {}
 
+  /// As the constructor's, from now on.
+  void set_rate(double rate) {
+    if (!on_machine_clock_) rate_ = rate;
+  }
+
   /// Serves callbacks until the next step may begin. A step that came late makes the following ones
   /// hurry on the machine's clock only.
   void wait(double step_s) {
@@ -135,8 +140,8 @@ class FleetSimulatorNode {
             node.advertise<visualization_msgs::MarkerArray>("/fleet_simulator/moving_markers", 10)),
         diagnostics_timer_(node.createWallTimer(ros::WallDuration(kDiagnosticsPeriod_s),
                                                 &FleetSimulatorNode::on_diagnostics, this)),
-        parameters_(values_, [this](const ParameterTable& v) { lie(v); }) {
-    lie(values_);
+        parameters_(values_, [this](const ParameterTable& v) { apply(v); }) {
+    apply(values_);
     std::vector<geometry_msgs::TransformStamped> mounts;
     for (std::size_t i = 0; i < simulator_.robots().size(); ++i) {
       connect(node, i);
@@ -199,7 +204,8 @@ class FleetSimulatorNode {
                       simulator_.robots()[robot].setup.name.c_str());
   }
 
-  void lie(const ParameterTable& values) {
+  void apply(const ParameterTable& values) {
+    pace_.set_rate(values.number("rate"));
     simulator_.set_fault(values.text("fault_robot"), SensorFault::from(values));
   }
 

@@ -23,7 +23,7 @@ constexpr std::size_t kMostWays = 6;  // that a curve may turn out to break the 
 constexpr double kTriedYawRates[] = {-1.0, -0.5, 0.0, 0.5, 1.0};  // shares of the highest
 constexpr double kTriedAccelerations[] = {1.0, 0.0, -1.0};        // the same
 constexpr int kHeadings = 12;                                     // from rest
-constexpr double kSlowest_mps = 0.05;
+constexpr double kSlowestOnward_mps = 0.05;
 constexpr double kBehind_mps = 0.01;
 constexpr double kPast = 0.4;      // weight of the time so far, against the time to go
 constexpr double kGrowth_s = 1.0;  // for which what is kept grows
@@ -206,7 +206,7 @@ class Search {
 
   void expand(int index, double yaw_rate, double acceleration) {
     Node next = nodes_[index];
-    if (next.rolling.speed < kSlowest_mps && next.from >= 0 &&
+    if (next.rolling.speed < kSlowestOnward_mps && next.from >= 0 &&
         (acceleration > 0.0 || yaw_rate != 0.0))
       return;  // the end of the way: it stands
     next.from = index;

@@ -9,7 +9,7 @@
 namespace mocha {
 namespace {
 
-constexpr double kShareOfAll = 0.1;
+constexpr double kShareOfAllTimes = 0.1;
 constexpr double kBend_rad = 1.2;  // of more, it stops and turns in place
 constexpr double kSame_s = 1e-6;
 
@@ -42,7 +42,7 @@ class Timing {
       last_s = std::max(last_s, end_s);
       all_s += end_s;
     }
-    return last_s + kShareOfAll * all_s;
+    return last_s + kShareOfAllTimes * all_s;
   }
 
  private:

@@ -11,7 +11,7 @@
 namespace mocha {
 namespace {
 
-constexpr std::size_t kMostObstacles = 1000;
+constexpr std::size_t kMostPredicted = 1000;
 constexpr double kFastest = 30.0;  // [m/s]
 constexpr double kLargest_m = 20.0;
 constexpr double kFarthest_m = 1e5;
@@ -48,8 +48,8 @@ void NewestPredictions::on_predictions(const mocha_ugv::PredictedObstacles& mess
   try {
     if (message.header.frame_id != frame_)
       throw std::invalid_argument("the frame is not " + frame_);
-    if (message.obstacles.size() + message.tentative.size() > kMostObstacles)
-      throw std::invalid_argument("more than " + std::to_string(kMostObstacles) + " obstacles");
+    if (message.obstacles.size() + message.tentative.size() > kMostPredicted)
+      throw std::invalid_argument("more than " + std::to_string(kMostPredicted) + " obstacles");
     Predictions newest{message.header.stamp.toSec(), {}, spread_from(message)};
     for (const auto* obstacles : {&message.obstacles, &message.tentative}) {
       for (const mocha_ugv::PredictedObstacle& obstacle : *obstacles) {

@@ -17,9 +17,9 @@ static_assert(static_cast<int>(ViolatedTerm::kSeparation) == Status::SEPARATION)
 static_assert(static_cast<int>(ViolatedTerm::kUnseenSpace) == Status::UNSEEN_SPACE);
 static_assert(static_cast<int>(ViolatedTerm::kWheelSpeed) == Status::WHEEL_SPEED);
 static_assert(static_cast<int>(ViolatedTerm::kSpeedBackward) == Status::SPEED_BACKWARD);
-using Effort = mocha_ugv::PlanningEffort;
-static_assert(static_cast<int>(Parameterisation::kCamouflage) == Effort::CAMOUFLAGE);
-static_assert(static_cast<int>(Parameterisation::kWaypoints) == Effort::WAYPOINTS);
+using EffortMessage = mocha_ugv::PlanningEffort;
+static_assert(static_cast<int>(Parameterisation::kCamouflage) == EffortMessage::CAMOUFLAGE);
+static_assert(static_cast<int>(Parameterisation::kWaypoints) == EffortMessage::WAYPOINTS);
 using ReplannerStatus = mocha_ugv::ReplannerStatus;
 static_assert(static_cast<int>(Row::kEmergencyStop) == ReplannerStatus::EMERGENCY_STOP);
 static_assert(static_cast<int>(Row::kDetourLikely) == ReplannerStatus::DETOUR_LIKELY);
@@ -96,8 +96,8 @@ GoalExecutive::Report from_message(const Status& status) {
   return report;
 }
 
-Effort to_message(const PlanningRecord& record) {
-  Effort effort;
+EffortMessage to_message(const PlanningRecord& record) {
+  EffortMessage effort;
   effort.time = record.last().took_s;
   effort.time_median = record.quantile_s(0.5);
   effort.time_95 = record.quantile_s(0.95);
