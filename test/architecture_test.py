@@ -20,12 +20,12 @@ LEVELS = [["config", "trajectory"],
           ["planning"],
           ["stack"],
           ["ros_bridge"],
-          ["nodes"]]
+          ["nodes", "rviz_panel"]]
 LEVEL = {folder: level for level, folders in enumerate(LEVELS) for folder in folders}
 # The same for the rooms of a folder.
 ROOM_LEVELS = {"planning": [["candidates", "passing"], ["global", "local", "maneuvers"], ["executive", "replanner"]]}
 ROOM_LEVEL = {f"{folder}/{room}": level for folder, levels in ROOM_LEVELS.items() for level, rooms in enumerate(levels) for room in rooms}
-WITH_ROS = {"ros_bridge", "nodes"}
+WITH_ROS = {"ros_bridge", "nodes", "rviz_panel"}
 
 # Every room of src/, and what belongs there.
 ROOMS = {
@@ -56,6 +56,7 @@ ROOMS = {
     "ros_bridge/outputs": "What nodes publish.",
     "ros_bridge/runtime": "What every node is made of: parameters, loops, names, lockstep with the simulator.",
     "ros_bridge/rviz": "Drawings for rviz.",
+    "rviz_panel": "The fleet panel in rviz: what robots do and why, and what they are told.",
     "safety": "What may be driven: one proof a file.",
     "simulation": "Vehicles, lidars, bases, networks and moving things without a robot.",
     "stack": "The brain of one robot without ROS: its planners and promises wired, and what their parameters must keep to work together.",
@@ -74,7 +75,8 @@ MOST_LINES = 320  # of a source
 # Headers of a library, and the paths below src/ that may include them.
 LIBRARIES = {
     "ROS": (r"(ros|rosbag|rosconsole|tf2\w*|actionlib|message_filters|dynamic_reconfigure|laser_geometry|diagnostic_\w+"
-            r"|xmlrpcpp|\w+_msgs|std_srvs|mocha_ugv)/|XmlRpc", r"(ros_bridge|nodes)/"),
+            r"|xmlrpcpp|\w+_msgs|std_srvs|mocha_ugv)/|XmlRpc", r"(ros_bridge|nodes|rviz_panel)/"),
+    "Qt and rviz": (r"Q[A-Z]\w+$|rviz/|pluginlib/", r"rviz_panel/"),
     "OctoMap": (r"octomap", r"perception/"),
     "CGAL": (r"CGAL/", r"topology/roadmaps/apollonius_roadmap\.cpp"),
     "Ceres": (r"ceres/", r"perception/localization/scan_matcher\.cpp"),

@@ -4,7 +4,6 @@ import time
 
 import rospy
 
-from mocha_scripts import rviz_view
 from mocha_scripts.referee import Referee
 from mocha_scripts.session import Session
 
@@ -27,9 +26,6 @@ def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, lcm_u
                  "lcm_url": lcm_url, "emulated_bases": str(emulated_bases).lower(), "localizer": str(bool(map_file)).lower()}
     if map_file:
         arguments["map_file"] = os.path.abspath(map_file)
-    if rviz:
-        arguments["rviz_config"] = os.path.abspath(os.path.join(out, "fleet.rviz"))
-        rviz_view.write(world, arguments["rviz_config"])
     with Session("fleet_sim.launch", arguments, os.path.join(out, "drive.log")) as session:
         if not session.wait_for_launch():
             return {"robots": [], "min_separation_m": None}, session.last_words()
