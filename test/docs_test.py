@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Checks README.md and docs/*.md: how long README is, that links lead somewhere, that every page is linked to, and that the commands name scripts,
+"""Checks README.md and the pages of docs/: how long README is, that links lead somewhere, that every page is linked to, and that the commands name scripts,
 options, launch files, arguments and nodes that exist. Each rule is also tried on a planted fault."""
 import functools
 import pathlib
@@ -15,7 +15,7 @@ SPAN = re.compile(r"`([^`\n]+)`")
 
 def pages():
     """The text of each page, by its path below ROOT."""
-    return {path.relative_to(ROOT).as_posix(): path.read_text() for path in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]}
+    return {path.relative_to(ROOT).as_posix(): path.read_text() for path in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]}
 
 
 def without_code(text):
