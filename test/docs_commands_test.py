@@ -136,7 +136,11 @@ class Desk:
                 raise AssertionError(f"{process.command}: ended with {process.returncode}, and said:\n{text}")
             return holds(text)
 
-        wait_until(looks_so, lambda: f"{process.command}: {what() if callable(what) else what}; it said:\n{process.log.read_text()[-3000:]}", 90.0)
+        wait_until(looks_so, lambda: f"{process.command}: {what() if callable(what) else what}; what was said:\n{self.last_words()}", 90.0)
+
+    def last_words(self):
+        """Of all that was started and runs on."""
+        return "\n".join(f"--- {path.name}\n{path.read_text()[-2000:]}" for path in sorted(self.home.glob("*.log")))
 
     def nodes(self):
         try:
@@ -216,8 +220,8 @@ def walk_through(take):
         desk.launch(take("roslaunch mocha_ugv robot.launch robot:=my_robot model:=my_robot.yaml base:=false lcm_url:=topics map_file:=my_map.yaml"))
         place = desk.start(watch)
         desk.await_words(place, is_at((4.0, -1.2)), "does not find its place in the map")
-        desk.run(take(goal % "0.0, y: 1.0"))
-        desk.await_words(place, is_at((0.0, 1.0)), "does not get back")
+        desk.run(take(goal % "0.0, y: -1.0"))
+        desk.await_words(place, is_at((0.0, -1.0)), "does not get back")
         convert = take("python3 -c \"from PIL import Image; Image.open('plan.png').convert('L').save('plan.pgm')\"")
         desk.run("python3 -c \"from PIL import Image; Image.open('my_map.pgm').save('plan.png')\"")
         desk.run(convert)

@@ -22,8 +22,8 @@ def table(heads, rows):
 
 
 def prose(text):
-    """As Markdown shows it: what stands in <> would be taken for HTML."""
-    return text.replace("<", "&lt;").replace("|", "\\|")
+    """As it is in Markdown, where what stands in <> would be taken for HTML, and stars for emphasis."""
+    return re.sub(r"([|*])", r"\\\1", text.replace("<", "&lt;"))
 
 
 def code(names):
