@@ -98,7 +98,19 @@ class Desk:
     def __exit__(self, *_):
         for process in reversed(self._started):
             self.end(process)
+        for pid in self.left_over():  # what roslaunch has started anew while it was ended
+            os.kill(pid, signal.SIGKILL)
         self._folder.cleanup()
+
+    def left_over(self):
+        """Processes that know the master of this desk."""
+        mark = f"ROS_MASTER_URI={self._master}".encode()
+        for folder in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                if mark in (folder / "environ").read_bytes().split(b"\0"):
+                    yield int(folder.name)
+            except OSError:
+                continue  # somebody else's, or gone
 
     def _popen(self, command, output):
         for pattern, other in INSTEAD:
@@ -350,6 +362,13 @@ class Commands(unittest.TestCase):
             with self.assertRaisesRegex(AssertionError, "ended with 3"):
                 desk.await_words(desk.start("echo here; exit 3"), lambda text: "there" in text, "is not there")
         self.assertFalse(desk.home.exists())
+
+    def test_a_desk_leaves_nothing_behind(self):
+        with Desk("left") as desk:
+            process = desk.start("setsid sleep 600 & echo $!")
+            desk.await_words(process, lambda text: text.strip(), "is not there")
+            self.assertEqual(len(list(desk.left_over())), 1)
+        wait_until(lambda: not list(desk.left_over()), "it has ended", 10.0)
 
 
 if __name__ == "__main__":
