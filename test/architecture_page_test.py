@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Checks docs/architecture.md and its picture against the sources: topics, paths, the rows of the ladder, the states of the executive, the
-named requirements; docs/nodes.md and docs/troubleshooting.md, too. Each rule is also tried on a planted fault."""
+named requirements; docs/reference/ and docs/troubleshooting.md, too. Each rule is also tried on a planted fault."""
 import pathlib
 import re
 import sys
@@ -8,7 +8,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
-from mocha_scripts import architecture_plot, node_topics  # noqa: E402
+from mocha_scripts import architecture_plot, frames_plot, node_topics, reference  # noqa: E402
 
 SPAN = re.compile(r"`([^`]+)`")
 PATH = re.compile(r"(?:src|test|config|msg|launch|scripts)/[\w./]*[\w/]")
@@ -122,23 +122,6 @@ def requirement_faults(page, header):
     return [f"{name}: is not there" for name in names if name not in listed] + [f"{name}: is none" for name in listed if name not in names]
 
 
-def node_table_faults(page, topics):
-    """What the table of docs/nodes.md says of a node that the node does not have."""
-    nodes = {cells[0].split("`")[1]: cells for cells in tables(section(page, "Topics and services")) if cells[0].startswith("`")}
-    for node, each in topics.items():
-        if node not in nodes:
-            yield f"{node}: is not there"
-            continue
-        spelled = " ".join(nodes[node][1:])
-        for name in sorted(name for name in each.writes if name not in ("tf", "/diagnostics", "/fleet_simulator/acks")):
-            if name.split("/")[-1] not in spelled:
-                yield f"{node}: does not say that it writes {name}"
-        known = {*each.writes, *each.reads, *each.services}
-        for name in re.findall(r"`([a-z_/]+)`", spelled):
-            if not any(name.strip("/") == other.strip("/") or other.endswith("/" + name) for other in known):
-                yield f"{node}: has no {name}"
-
-
 # What docs/troubleshooting.md explains: the words of an enumeration, and where they are.
 EXPLAINED = (("PlanReason", "src/ros_bridge/messages/status_conversions.cpp"), ("Row", LADDER + ".cpp"), ("M", "src/control/tracker_mode.cpp"),
              ("Refusal", "src/fleet/protocol/commitment_event.cpp"))
@@ -157,7 +140,6 @@ class ArchitecturePage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.page = read("docs/architecture.md")
-        cls.nodes = read("docs/nodes.md")
         cls.sources = code()
         cls.topics = node_topics.read_topics(ROOT)
 
@@ -173,7 +155,7 @@ class ArchitecturePage(unittest.TestCase):
             self.assertEqual(absent_names(read(f"docs/{page}.md"), self.sources), [], page)
 
     def test_paths_exist(self):
-        for path in sorted((ROOT / "docs").glob("*.md")):
+        for path in sorted((ROOT / "docs").rglob("*.md")):
             self.assertEqual(absent_paths(path.read_text()), [], path.name)
         self.check(absent_paths, self.page, ("src/control/lease.h", "src/control/leash.h"), "leash.h")
 
@@ -204,9 +186,30 @@ class ArchitecturePage(unittest.TestCase):
             self.assertGreater(len(words(read(file), enumeration)), 6, enumeration)
         self.check(unexplained_words, read("docs/troubleshooting.md"), ("| `sidestep` |", "| `side step` |"), "Row: sidestep")
 
-    def test_nodes_page_says_what_they_read_and_write(self):
-        faults = lambda page: node_table_faults(page, self.topics)  # noqa: E731
-        self.check(faults, self.nodes, ("`replanner_status`", "`replanner_state`"), "local_replanner: has no replanner_state")
+    def test_reference_is_what_the_sources_say(self):
+        for name, text in reference.pages(ROOT).items():
+            self.assertEqual(read("docs/" + name), text, "write it anew: scripts/plots reference --out docs")
+
+    def test_every_topic_has_a_meaning(self):
+        self.assertEqual(list(reference.meaning_faults(self.topics)), [])
+        planted = {**self.topics, "perception": self.topics["perception"]._replace(services={"smell": "std_srvs/Empty"})}
+        faults = "\n".join(reference.meaning_faults(planted))
+        self.assertIn("service smell: meanings.py does not say", faults)
+        self.assertIn("service save_map: meanings.py explains it", faults)
+
+    def test_reference_says_all_of_a_message(self):
+        about, parts = reference.split_definition("# A thing.\n# Or two.\nuint8 ODD=1  # not even\nuint8 kind\n\n# About both.\nstring[] a # first\nT b\n")
+        self.assertEqual(about, "A thing. Or two.")
+        table = reference.fields_table(parts, {"T"})
+        for line in ("| `kind` | uint8 | 1 `ODD`: not even |", "|  |  | *About both.* |", "| `a` | string[] | first |", "| `b` | [T](#t) |  |"):
+            self.assertIn(line, table)
+
+    def test_frames_are_what_the_sources_say(self):
+        publishers = node_topics.read_transforms(ROOT)
+        self.assertEqual(read("docs/frames.svg"), frames_plot.Frames(publishers).svg(), "draw it anew: scripts/plots architecture --out docs")
+        self.assertEqual(publishers["odom", "base_link"], ["base_driver", "fleet_simulator"])
+        nodes = sorted({node for nodes in publishers.values() for node in nodes if node in self.topics})
+        self.assertEqual(nodes, sorted(node for node, each in self.topics.items() if "tf" in each.writes), "a node whose transforms are not found")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Checks README.md and docs/*.md: how long README is, that links lead somewhere, that every page is linked to, and that the commands name scripts,
+"""Checks README.md and the pages of docs/: how long README is, that links lead somewhere, that every page is linked to, and that the commands name scripts,
 options, launch files, arguments and nodes that exist. Each rule is also tried on a planted fault."""
 import functools
 import pathlib
@@ -11,20 +11,21 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 MOST_LINES = 120  # of README.md
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 SPAN = re.compile(r"`([^`\n]+)`")
+BOX = re.compile(r"^ *```(\w*)\n(.*?)^ *```$", re.DOTALL | re.MULTILINE)  # language, if any, and what is in it
 
 
 def pages():
     """The text of each page, by its path below ROOT."""
-    return {path.relative_to(ROOT).as_posix(): path.read_text() for path in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]}
+    return {path.relative_to(ROOT).as_posix(): path.read_text() for path in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]}
 
 
 def without_code(text):
-    return SPAN.sub("", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
+    return SPAN.sub("", BOX.sub("", text))
 
 
 def anchors(text):
     """As GitHub makes them of headings."""
-    headings = re.findall(r"^#+ (.*)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), re.MULTILINE)
+    headings = re.findall(r"^#+ (.*)$", BOX.sub("", text), re.MULTILINE)
     return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
@@ -57,12 +58,20 @@ def long_readme(texts):
     return [f"README.md: has {lines} lines, allowed are {MOST_LINES}"] if lines > MOST_LINES else []
 
 
+def boxed_commands(text):
+    """The lines in boxes of no other language, without comments, continued lines joined."""
+    for language, box in BOX.findall(text):
+        lines = box.replace("\\\n", " ").splitlines() if not language else []
+        yield from filter(None, (" ".join(re.sub(r"(^|\s)#.*", "", line).split()) for line in lines))
+
+
+def spoken_commands(text):
+    """What is said between the boxes in code type."""
+    return [span.strip() for span in SPAN.findall(BOX.sub("", text))]
+
+
 def commands(text):
-    """The lines in boxes, and what is said in between in code type; without comments, continued lines joined."""
-    boxes = "\n".join(re.findall(r"```\n(.*?)```", text, re.DOTALL)).replace("\\\n", " ")
-    spans = SPAN.findall(re.sub(r"```.*?```", "", text, flags=re.DOTALL))
-    for line in [*boxes.splitlines(), *spans]:
-        yield re.sub(r"(^|\s)#.*", "", line).strip()
+    return [*boxed_commands(text), *spoken_commands(text)]
 
 
 @functools.lru_cache(maxsize=None)

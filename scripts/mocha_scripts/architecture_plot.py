@@ -2,18 +2,16 @@
 for the same sources."""
 import os
 
-from mocha_scripts import node_topics
+from mocha_scripts import meanings, node_topics
+from mocha_scripts.svg import BLUE, DARK, GREY, PALE, Drawing
 
-# The data's way. Nodes that are not named here come last.
-ORDER = ["scan_localizer", "perception", "global_planner", "local_replanner", "trajectory_broadcaster", "trajectory_tracker", "base_driver",
-         "base_emulator", "fleet_simulator"]
+ORDER = list(meanings.NODES)  # the data's way
 SIMULATION = {"base_emulator", "fleet_simulator"}
 MAIN_WAY = ["scan", "map", "map_updates", "predicted_obstacles", "global_trajectory", "proposed_trajectory", "committed_trajectory", "cmd_vel"]
 OUTSIDE = "outside"
 
 NAME_X, TYPE_X, FIRST_X, COLUMN = 16, 232, 452, 116
 TOP, ROW, BOX_WIDTH, BOX_HEIGHT = 84, 22, 108, 38
-BLUE, DARK, GREY, PALE = "#0b57a4", "#37474f", "#78909c", "#e3e8eb"
 
 
 def rows_of(topics):
@@ -31,21 +29,15 @@ def rows_of(topics):
     return [(heading, names) for heading, names in [*groups, ("Several nodes write", shared)] if names]
 
 
-class Picture:
+class Picture(Drawing):
     def __init__(self, topics):
+        super().__init__()
         self.topics = topics
         self.columns = {name: FIRST_X + COLUMN * i for i, name in enumerate([OUTSIDE, *ORDER])}
         self.groups = rows_of(topics)
         self.width = FIRST_X + COLUMN * len(ORDER) + COLUMN // 2 + 8
         rows = sum(len(names) + 1.4 for _, names in self.groups)
         self.bottom = TOP + BOX_HEIGHT + round(ROW * (rows + 0.9))
-        self.lines = []
-
-    def add(self, line):
-        self.lines.append(line)
-
-    def text(self, x, y, text, size=12, colour=DARK, anchor="start", weight="normal"):
-        self.add(f'<text x="{x}" y="{y}" font-size="{size}" fill="{colour}" text-anchor="{anchor}" font-weight="{weight}">{text}</text>')
 
     def box(self, name, y):
         x = self.columns[name]
@@ -61,7 +53,7 @@ class Picture:
         colour = BLUE if main else GREY
         writers = [node for node in ORDER if name in self.topics[node].writes]
         readers = [node for node in ORDER if name in self.topics[node].reads]
-        kind = next((self.topics[node].writes[name] for node in writers), "")
+        kind = next((self.topics[node].writes[name] for node in writers), "").split("/")[-1]
         # What on a robot comes from elsewhere, only simulators write here.
         real = [node for node in writers if node not in SIMULATION]
         if not real and not name.startswith("/") and set(readers) - SIMULATION:
@@ -78,10 +70,6 @@ class Picture:
             self.add(f'<circle cx="{self.columns[node]}" cy="{y}" r="{2.2 if both else 5}" fill="{colour}"/>')
 
     def svg(self):
-        height = self.bottom + BOX_HEIGHT + 12
-        self.add(f'<svg xmlns="http://www.w3.org/2000/svg" width="{self.width}" height="{height}" viewBox="0 0 {self.width} {height}" '
-                 'font-family="DejaVu Sans, Verdana, sans-serif">')
-        self.add(f'<rect width="{self.width}" height="{height}" fill="#ffffff"/>')
         self.text(NAME_X, 30, "Nodes and topics of one robot", 20, DARK, weight="bold")
         self.text(NAME_X, 52, "Full dot: the node writes the topic; ring: it reads it; ring with a dot: it writes and reads it, as others do; "
                               "a full dot alone: for rviz, for people and for the simulation's results.", 12)
@@ -99,8 +87,7 @@ class Picture:
         for name in self.columns:
             self.box(name, TOP)
             self.box(name, self.bottom)
-        self.add("</svg>")
-        return "\n".join(self.lines) + "\n"
+        return self.whole(self.width, self.bottom + BOX_HEIGHT + 12)
 
 
 def draw_architecture(root, out):

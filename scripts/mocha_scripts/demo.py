@@ -75,7 +75,7 @@ def main(arguments):
     names = read_robots(options.world)
     from mocha_scripts import drive, referee
     show = bool(os.environ.get("DISPLAY")) and not options.headless
-    print(f"demo: {' and '.join(names)} drive through {shown(options.world)} (log: {shown(options.out)}/drive.log)\n"
+    print(f"demo: {' and '.join(names)} {'drives' if len(names) == 1 else 'drive'} through {shown(options.world)} (log: {shown(options.out)}/drive.log)\n"
           "demo: simulated time, and how far each robot has driven", flush=True)
     results, why = drive.drive(options.world, names, options.out, rate=options.rate, seed=options.seed, rviz=show,
                                record=not options.no_plots, limit_s=options.limit, lcm_url=options.lcm,

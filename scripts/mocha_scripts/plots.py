@@ -1,5 +1,5 @@
 """Draws a recorded drive (map with trajectories, speed, acceleration and yaw rate against limits, clearance, separation), or the paper's
-Figs. 6 to 15 with our own data, or the paths of all classes on a map, or what moves in recorded laser scans, or the nodes and their topics."""
+Figs. 6 to 15 with our own data, or the paths of all classes on a map, or what moves in recorded laser scans, or the nodes, their topics and parameters."""
 import argparse
 import os
 import sys
@@ -127,10 +127,17 @@ def add_animation(what):
 
 
 def add_architecture(what):
-    architecture = what.add_parser("architecture", help="the nodes and their topics, read from the sources",
-                                   description="Writes architecture.svg, which docs/ holds.")
+    architecture = what.add_parser("architecture", help="the nodes, their topics and the frames, read from the sources",
+                                   description="Writes architecture.svg and frames.svg, which docs/ holds.")
     architecture.set_defaults(draw=draw_architecture)
     return architecture
+
+
+def add_reference(what):
+    reference = what.add_parser("reference", help="topics, messages and parameters in words, read from the sources",
+                                description="Writes reference/topics.md, messages.md and parameters.md, which docs/ holds.")
+    reference.set_defaults(draw=write_reference)
+    return reference
 
 
 # The imports stand in the functions, as the help needs no matplotlib.
@@ -190,15 +197,21 @@ def draw_animation(options):
 
 
 def draw_architecture(options):
-    from mocha_scripts import architecture_plot
+    from mocha_scripts import architecture_plot, frames_plot
     architecture_plot.draw_architecture(ROOT, options.out)
+    frames_plot.draw_frames(ROOT, options.out)
+
+
+def write_reference(options):
+    from mocha_scripts import reference
+    reference.write_reference(ROOT, options.out)
 
 
 def main(arguments):
     parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
     what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
     for plots in (add_drive(what), add_table1(what), add_table2(what), add_table3(what), add_classes(what), add_tracks(what), add_contacts(what),
-                  add_replan(what), add_detour(what), add_costs(what), add_animation(what), add_architecture(what)):
+                  add_replan(what), add_detour(what), add_costs(what), add_animation(what), add_architecture(what), add_reference(what)):
         plots.add_argument("--out", default=".", metavar="DIR", help="files go there (default: here)")
     options = parser.parse_args(arguments)
     os.makedirs(options.out, exist_ok=True)
