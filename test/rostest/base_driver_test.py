@@ -232,6 +232,18 @@ class BaseDriverTest(unittest.TestCase):
         self.assertLess(max(steps), PWM_PER_SPEED * (2.0 * 0.1 + CATCH_UP), "no step beyond the ramp")
         self.assertLess(sorted(steps)[int(0.98 * len(steps)) - 2], PWM_PER_SPEED * 2.0 * 0.06)
 
+    def battery(self):
+        return next((status for name, status in self.watch.diagnosis.items() if name.endswith("base_driver: battery")), None)
+
+    def test_a_low_battery_is_reported_and_an_empty_one_is_an_error(self):
+        self.drive()
+        for level, reading, words in ((0, b"1185", "11.85 V"), (1, b"950", "9.50 V: low"), (2, b"880", "8.80 V: empty")):
+            self.line.damage = lambda said, reading=reading: said.replace(b'"v":1185', b'"v":' + reading)
+            self.wait(lambda: self.battery() and self.battery().message == words, 5.0, words)
+            self.assertEqual(self.battery().level, level)
+        self.line.damage = None
+        self.drive()
+
     def test_stops_when_commands_stay_away(self):
         self.drive()
         self.commander.be_silent()
