@@ -8,6 +8,7 @@ namespace mocha {
 namespace {
 
 constexpr double kSetupPeriod_s = 1.0;
+constexpr double kLongestStep_s = 0.1;
 constexpr double kGyroSigma = 0.02;  // [rad/s] of one reading
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
@@ -23,6 +24,8 @@ WaveshareBase::Options WaveshareBase::Options::from(const ParameterTable& values
   options.odometry = {model.limits.track_m, model.limits.max_wheel_speed,
                       model.odometry_noise_distance, model.odometry_noise_yaw,
                       values.number("gyro_noise")};
+  if (values.text("speed_control") == "driver")
+    options.wheel_control = WheelControl::Options::from(values, model);
   options.feedback_timeout_s = values.number("feedback_timeout");
   options.feedback_delay_s = values.number("feedback_delay");
   options.acceleration_scale = values.number("acceleration_scale");
@@ -36,10 +39,13 @@ WaveshareBase::WaveshareBase(const Options& options)
     : options_(options),
       port_(options.device, options.baud),
       odometry_(options.odometry),
+      left_(options.wheel_control),
+      right_(options.wheel_control),
       heard_s_(kNever),
       stamp_s_(kNever) {}
 
 std::vector<BaseFeedback> WaveshareBase::poll(double now_s) {
+  now_s_ = now_s;
   if (port_.poll(now_s)) {
     opened_s_ = now_s;
     decoder_.restart();
@@ -74,14 +80,17 @@ std::optional<double> WaveshareBase::gyro_yaw_rate(const WaveshareFeedback& line
 
 BaseFeedback WaveshareBase::feedback(double stamp_s, const WaveshareFeedback& line) {
   const std::optional<double> yaw_rate = gyro_yaw_rate(line);
-  odometry_.add(stamp_s, {line.speeds, line.left_cm, line.right_cm, yaw_rate});
+  const bool driven = told_.left != 0.0 || told_.right != 0.0;
+  odometry_.add(stamp_s, {line.speeds, line.left_cm, line.right_cm, yaw_rate, driven});
+  if (left_) left_->measure(odometry_.left().last());
+  if (right_) right_->measure(odometry_.right().last());
   const double track = options_.odometry.track_m;
   const double variance = options_.wheel_speed_noise * options_.wheel_speed_noise;
   BaseFeedback result;
   result.stamp_s = stamp_s;
   result.pose = odometry_.pose();
   result.pose_covariance = odometry_.covariance();
-  result.twist = from_wheel_speeds(line.speeds, track);
+  result.twist = from_wheel_speeds({odometry_.left().speed(), odometry_.right().speed()}, track);
   result.speed_variance = 0.5 * variance;
   result.yaw_rate_variance = 2.0 * variance / (track * track);
   if (const auto turning = odometry_.gyro_yaw_rate()) {
@@ -104,7 +113,15 @@ bool WaveshareBase::connected(double now_s) const {
 
 void WaveshareBase::drive(const UnicycleState& command) {
   const UnicycleState wanted = stop_.value_or(false) ? UnicycleState{0.0, 0.0} : command;
-  if (port_.is_open()) send(waveshare_drive(wheel_speeds(wanted, options_.odometry.track_m)));
+  if (port_.is_open()) send(drive_line(wheel_speeds(wanted, options_.odometry.track_m)));
+}
+
+std::string WaveshareBase::drive_line(const WheelSpeeds& wheels) {
+  told_ = wheels;
+  const double dt_s = std::clamp(now_s_ - driven_s_, 0.0, kLongestStep_s);
+  driven_s_ = now_s_;
+  if (!left_ || !right_) return waveshare_drive(wheels);
+  return waveshare_pwm(left_->pwm(dt_s, wheels.left), right_->pwm(dt_s, wheels.right));
 }
 
 void WaveshareBase::set_emergency_stop(bool stopped) {

@@ -92,6 +92,14 @@ std::string waveshare_drive(const WheelSpeeds& wheels) {
   return line({{"T", 1}, {"L", rounded(wheels.left)}, {"R", rounded(wheels.right)}});
 }
 
+std::string waveshare_pwm(double left, double right) {
+  if (!std::isfinite(left) || !std::isfinite(right)) return waveshare_pwm(0.0, 0.0);
+  const auto whole = [](double pwm) {
+    return static_cast<int>(std::lround(std::clamp(pwm, -kWaveshareMaxPwm, kWaveshareMaxPwm)));
+  };
+  return line({{"T", 11}, {"L", whole(left)}, {"R", whole(right)}});
+}
+
 std::string waveshare_emergency_stop() { return line({{"T", 0}}); }
 
 std::string waveshare_emergency_reset() { return line({{"T", 999}}); }

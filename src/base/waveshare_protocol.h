@@ -15,8 +15,9 @@ namespace mocha {
 /// The serial protocol of the Waveshare UGV family (RaspRover, UGV Rover, UGV Beast): lines of
 /// JSON, whose "T" is the kind. Nothing but bytes here.
 ///
-/// Driven is with T 1 (wheel speeds) alone: the firmware's heartbeat, which stops the wheels when
-/// the computer dies, counts from the last T 1. T 13 (body velocities) is not under its watch.
+/// Driven is with T 1 (wheel speeds) or T 11 (PWM) alone: the firmware's heartbeat, which stops the
+/// wheels when the computer dies, counts from the last of these. T 13 (body velocities) is not
+/// under its watch.
 
 /// What the firmware does not do of itself, or forgets when it restarts.
 struct WaveshareOptions {
@@ -28,12 +29,18 @@ struct WaveshareOptions {
 /// The firmware ignores commands beyond this and goes on with the former one, heartbeat refreshed.
 constexpr double kWaveshareMaxWheelSpeed = 2.0;  // [m/s]
 
+constexpr double kWaveshareMaxPwm = 255.0;
+
 /// The lines that bring the firmware to `firmware`.
 std::vector<std::string> waveshare_setup(const WaveshareOptions& firmware);
 
 /// Wheel rim speeds [m/s]. Where one is beyond the firmware's limit both are slowed down, which
 /// keeps the curvature; what is not finite stands.
 std::string waveshare_drive(const WheelSpeeds& wheels);
+
+/// PWM of 255 for the motors of both sides, which the firmware then does not control; what is not
+/// finite stands.
+std::string waveshare_pwm(double left, double right);
 
 std::string waveshare_emergency_stop();
 std::string waveshare_emergency_reset();
@@ -46,7 +53,7 @@ struct WaveshareFeedback {
     std::array<double, 3> rate;
   };
 
-  WheelSpeeds speeds = {0.0, 0.0};  ///< [m/s] of the moment
+  WheelSpeeds speeds = {0.0, 0.0};  ///< [m/s] of the moment, in whole pulses
   std::int64_t left_cm = 0;         ///< travelled since the base was switched on, cut towards zero
   std::int64_t right_cm = 0;
   double battery_v = 0.0;

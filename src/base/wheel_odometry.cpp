@@ -37,8 +37,8 @@ void WheelOdometry::add(double stamp_s, const Reading& reading) {
 }
 
 bool WheelOdometry::wheels_stand(const Reading& reading) const {
-  return reading.speeds.left == 0.0 && reading.speeds.right == 0.0 && reading.left_cm == left_cm_ &&
-         reading.right_cm == right_cm_;
+  return !reading.driven && reading.speeds.left == 0.0 && reading.speeds.right == 0.0 &&
+         reading.left_cm == left_cm_ && reading.right_cm == right_cm_;
 }
 
 void WheelOdometry::widen(const Arc& arc, double yaw_variance) {

@@ -36,6 +36,7 @@ class WheelOdometry {
     std::int64_t left_cm;
     std::int64_t right_cm;
     std::optional<double> yaw_rate;  ///< by gyroscope [rad/s], if there is one
+    bool driven = false;  ///< the wheels were told to turn: they do not count as standing
   };
 
   /// The pose begins at the origin with the first reading.
@@ -44,6 +45,9 @@ class WheelOdometry {
   const Pose& pose() const { return pose_; }
   /// Of the newest reading [rad/s]; nothing where the wheels alone tell it.
   std::optional<double> gyro_yaw_rate() const { return gyro_yaw_rate_; }
+  /// What the wheels did last.
+  const WheelTravel& left() const { return left_; }
+  const WheelTravel& right() const { return right_; }
   /// Of x, y, yaw in the frame of the pose.
   Eigen::Matrix3d covariance() const;
   /// How often the odometers began again.

@@ -221,17 +221,24 @@ UnicycleState TrajectoryTracker::wanted(double t, const Pose& pose) {
   if (stands(t)) {
     return {0.0, settling_yaw_rate(wrap_angle(reference.pose.yaw_rad - pose.yaw_rad))};
   }
-  settling_ = false;
+  settling_rad_ = 0.0;
+  settle_widening_ = 1.0;
   const MotionState ahead = active_.motion.at(t + lead_s_);
   return feedback(pose, reference.pose, {ahead.speed, ahead.yaw_rate}, parameters_.gains);
 }
 
-/// With a dead band, so that noise does not make a standing robot wiggle.
+/// With a dead band, so that noise does not make a standing robot wiggle. Wheels that leap as they
+/// break loose turn it too far: that ends the correction, too, and widens the band, as it would
+/// hunt otherwise.
 double TrajectoryTracker::settling_yaw_rate(double heading_error_rad) {
-  const double size = std::abs(heading_error_rad);
-  settling_ =
-      size > (settling_ ? parameters_.gains.settle_stop_rad : parameters_.gains.settle_start_rad);
-  return settling_ ? parameters_.gains.heading * heading_error_rad : 0.0;
+  const FeedbackGains& gains = parameters_.gains;
+  const bool settles = settling_rad_ != 0.0;
+  const bool crossed = settling_rad_ * heading_error_rad < 0.0;
+  if (crossed) settle_widening_ *= 2.0;
+  const double bound =
+      settles && !crossed ? gains.settle_stop_rad : settle_widening_ * gains.settle_start_rad;
+  settling_rad_ = std::abs(heading_error_rad) > bound ? heading_error_rad : 0.0;
+  return gains.heading * settling_rad_;
 }
 
 }  // namespace mocha

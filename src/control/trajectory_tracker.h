@@ -107,7 +107,8 @@ class TrajectoryTracker {
   std::optional<CommitmentProtocol> early_lease_;  // without a motion yet
   std::optional<TrackingError> error_;
   std::optional<double> last_step_s_;
-  bool settling_ = false;
+  double settling_rad_ = 0.0;     // what is corrected while standing; 0: nothing
+  double settle_widening_ = 1.0;  // of the dead band
   bool stopped_ = false;
   std::string order_;  // why stopped_
   std::string stop_reason_;

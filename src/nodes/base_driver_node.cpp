@@ -37,6 +37,7 @@ class BaseDriverNode {
       : robot_(robot_identity()),
         model_(own_robot_model(values)),
         low_battery_v_(values.number("low_battery")),
+        empty_battery_v_(values.number("empty_battery")),
         base_(WaveshareBase::Options::from(values, model_)),
         watchdog_(model_.cmd_timeout_s),
         limiter_(model_),
@@ -46,6 +47,10 @@ class BaseDriverNode {
         commands_(node.subscribe("cmd_vel", 1, &BaseDriverNode::on_command, this, at_once())),
         stop_(node),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
+    if (empty_battery_v_ > low_battery_v_) {
+      throw ParameterError("empty_battery = " + std::to_string(empty_battery_v_) +
+                           " V, expected no more than low_battery");
+    }
     diagnostics_.setHardwareID(robot_.name);
     diagnostics_.add("base", this, &BaseDriverNode::diagnose_base);
     diagnostics_.add("battery", this, &BaseDriverNode::diagnose_battery);
@@ -153,14 +158,19 @@ class BaseDriverNode {
       return;
     }
     const double voltage = *feedback_->battery_v;
-    const bool low = voltage < low_battery_v_;
-    status.summaryf(low ? DiagnosticStatus::WARN : DiagnosticStatus::OK, "%.2f V%s", voltage,
-                    low ? ": low" : "");
+    if (voltage < empty_battery_v_) {
+      status.summaryf(DiagnosticStatus::ERROR, "%.2f V: empty", voltage);
+    } else if (voltage < low_battery_v_) {
+      status.summaryf(DiagnosticStatus::WARN, "%.2f V: low", voltage);
+    } else {
+      status.summaryf(DiagnosticStatus::OK, "%.2f V", voltage);
+    }
   }
 
   RobotIdentity robot_;
   RobotModel model_;
   double low_battery_v_;
+  double empty_battery_v_;
   WaveshareBase base_;
   CommandWatchdog watchdog_;
   CommandLimiter limiter_;

@@ -115,6 +115,20 @@ class SimulatedChassis : public Chassis {
   ros::Subscriber odometry_;
 };
 
+/// No two gearboxes are alike: the right wheel has a tenth more friction.
+BaseEmulator::Options firmware_options(const ParameterTable& values) {
+  constexpr double kUneven = 1.1;
+  const double breakaway_pwm = values.number("breakaway_pwm");
+  const double friction_pwm = values.number("friction_pwm");
+  if (breakaway_pwm < friction_pwm) {
+    throw ParameterError("base_emulator: breakaway_pwm = " + std::to_string(breakaway_pwm) +
+                         ", allowed is no less than friction_pwm");
+  }
+  return {values.flag("holds_emergency_stop"),
+          {breakaway_pwm, friction_pwm},
+          {kUneven * breakaway_pwm, kUneven * friction_pwm}};
+}
+
 /// A Waveshare UGV on a pseudo-terminal: its firmware, and what its wheels move.
 ///
 /// With the fleet simulator behind it, the stack of a robot runs as on the robot: base_driver
@@ -128,7 +142,7 @@ class BaseEmulatorNode {
   BaseEmulatorNode(ros::NodeHandle& node, const ParameterTable& values)
       : robot_(robot_identity()),
         model_(own_robot_model(values)),
-        firmware_(ros::Time::now().toSec(), values.flag("holds_emergency_stop")),
+        firmware_(ros::Time::now().toSec(), firmware_options(values)),
         terminal_(link_of(values)),
         restart_(
             ros::NodeHandle("~").advertiseService("restart", &BaseEmulatorNode::on_restart, this)) {

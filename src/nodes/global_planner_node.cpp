@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "planning/candidates/path_clearance.h"
+#include "ros_bridge/inputs/battery_listener.h"
 #include "ros_bridge/inputs/committed_trajectory_source.h"
 #include "ros_bridge/inputs/emergency_stop_listener.h"
 #include "ros_bridge/inputs/goal_inputs.h"
@@ -55,6 +56,11 @@ class GlobalPlannerNode {
                   handover_s(neighbour_parameters("local_replanner")), worker_,
                   ros::names::resolve("map")),
         stop_(node, [this] { heed_stop(); }),
+        battery_(node,
+                 LowBattery::Options::from(
+                     values, neighbour_parameters("base_driver").number("low_battery")),
+                 {[this](const std::string& why) { inputs_.finish(false, why), drop(why); },
+                  [this](const Goal& goal) { take({goal}); }}),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         peers_(node, identity_.name, identity_.map_frame),
         committed_(node, identity_.name),
@@ -72,7 +78,7 @@ class GlobalPlannerNode {
         pauses_(node.advertiseService("pause", &GlobalPlannerNode::on_pause, this)),
         inputs_(node, identity_, pose_.transforms(),
                 {[this](std::deque<Goal> goals) { take(std::move(goals)); },
-                 [this](const std::string& why) { stop(why); }, [this] { return stop_.reason(); }}),
+                 [this](const std::string& why) { stop(why); }, [this] { return refusal(); }}),
         parameters_(values_,
                     [this](const ParameterTable& changed) { planning_.set_options(changed); }),
         loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }),
@@ -121,6 +127,7 @@ class GlobalPlannerNode {
       outputs_.adopt(Motion(), now_);
     } else {
       executive_.resume();
+      battery_.go_on();
       if (executive_.idle()) report(PlanReason::kNoGoal, {}, "is not paused any more");
     }
     response.success = true;
@@ -134,6 +141,7 @@ class GlobalPlannerNode {
     now_ = now;
     diagnostics_.update();
     heed_stop();
+    battery_.step(now, executive_.idle(), stop_.stopped());
     const bool looked_for_answer = go_on();
     if (worker_.busy() || (looked_for_answer && executive_.awaits_plan())) {
       loop_.hold();
@@ -180,12 +188,18 @@ class GlobalPlannerNode {
     };
   }
 
+  /// The way to the charger is not for those to stop whose goals are refused.
   void stop(const std::string& why) {
-    if (stop_.stopped()) return;
+    if (refusal().empty()) drop(why);
+  }
+
+  void drop(const std::string& why) {
     executive_.drop();
     outputs_.adopt(Motion(), now_);
     report(PlanReason::kNoGoal, {}, why);
   }
+
+  std::string refusal() const { return stop_.stopped() ? stop_.reason() : battery_.reason(); }
 
   PlanService::Work work_on(const PlanService::Request& request) {
     PlanResult refusal;
@@ -232,6 +246,7 @@ class GlobalPlannerNode {
     if (ending == GoalExecutive::Ending::kNone) return;
     if (ending == GoalExecutive::Ending::kReached) {
       ROS_INFO("%s: reached its goal", identity_.name.c_str());
+      battery_.arrive();
       inputs_.finish(true, "reached");
       return;
     }
@@ -251,6 +266,7 @@ class GlobalPlannerNode {
         rests ? to_text(executive_.state()) : to_text(outputs_.reason()) + (": " + outputs_.text());
     status.summary(fine ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                    planning_.stopped() ? stop_.reason() : doing);
+    if (battery_.low()) status.mergeSummary(DiagnosticStatus::WARN, battery_.reason());
     status.add("state", to_text(executive_.state()));
     status.add("passes gaps of (m)", passable_gap_m(model_));
     status.add("turns on the spot in (m)", turning_room_m(model_));
@@ -271,6 +287,7 @@ class GlobalPlannerNode {
   GoalPlanning planning_;
   GoalExecutive& executive_ = planning_.executive();
   EmergencyStopListener stop_;
+  BatteryListener battery_;
   PoseSource pose_;
   PeerSource peers_;
   CommittedTrajectorySource committed_;

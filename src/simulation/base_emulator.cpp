@@ -12,6 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kMostWheelSpeed = 2.0;  // [m/s]
+constexpr double kMostPwm = 255.0;
 constexpr std::size_t kLongestLine = 4096;
 constexpr double kAccelerometer = 8192.0 / 9.80665;     // counts per m/s^2, range of 4 g
 constexpr double kGyroBias = 0.012;                     // [rad/s]
@@ -34,10 +35,14 @@ std::int64_t centimetres(double metres) { return static_cast<std::int64_t>(100.0
 
 }  // namespace
 
-BaseEmulator::BaseEmulator(double now_s, bool holds_stop)
-    : holds_stop_(holds_stop), feedback_s_(now_s), commanded_s_(now_s) {}
+BaseEmulator::BaseEmulator(double now_s, const Options& options)
+    : options_(options),
+      feedback_s_(now_s),
+      commanded_s_(now_s),
+      left_(options.left),
+      right_(options.right) {}
 
-void BaseEmulator::restart(double now_s) { *this = BaseEmulator(now_s, holds_stop_); }
+void BaseEmulator::restart(double now_s) { *this = BaseEmulator(now_s, options_); }
 
 void BaseEmulator::receive(double now_s, std::string_view bytes) {
   for (const char byte : bytes) {
@@ -56,11 +61,14 @@ void BaseEmulator::obey(double now_s, const std::string& line) {
   if (echo_) output_ += line + "\n";
   switch (static_cast<int>(std::clamp(number(command, "T"), -1e6, 1e6))) {
     case 0:
-      goal_ = {0.0, 0.0};
-      stopped_ = holds_stop_;
+      order_ = {};
+      stopped_ = options_.holds_stop;
       break;
     case 1:
       obey_drive(now_s, command);
+      break;
+    case 11:
+      obey_pwm(now_s, command);
       break;
     case 13:
       obey_velocity(command);
@@ -105,23 +113,41 @@ void BaseEmulator::obey_velocity(const Json& command) {
   turn_wheels(wheel_speeds({number(command, "X"), number(command, "Z")}, track_m_));
 }
 
+/// Zero for what is not there, unlike T 1.
+void BaseEmulator::obey_pwm(double now_s, const Json& command) {
+  heartbeat_fired_ = false;
+  commanded_s_ = now_s;
+  const auto pwm = [&](const char* key) {
+    return std::clamp(std::round(number(command, key)), -kMostPwm, kMostPwm);
+  };
+  if (!stopped_) order_ = {{pwm("L"), pwm("R")}, true};
+}
+
 void BaseEmulator::turn_wheels(const WheelSpeeds& speeds) {
   const double fastest = std::max(std::abs(speeds.left), std::abs(speeds.right));
-  if (!stopped_ && fastest <= kMostWheelSpeed) goal_ = speeds;
+  if (!stopped_ && fastest <= kMostWheelSpeed) order_ = {speeds, false};
+}
+
+WheelOrder BaseEmulator::order(double now_s) {
+  if (!heartbeat_fired_ && now_s - commanded_s_ > heartbeat_s_ + kTimeSlack_s) {
+    heartbeat_fired_ = true;
+    order_ = {};
+  }
+  return order_;
 }
 
 WheelSpeeds BaseEmulator::wheels(double now_s) {
-  if (!heartbeat_fired_ && now_s - commanded_s_ > heartbeat_s_ + kTimeSlack_s) {
-    heartbeat_fired_ = true;
-    goal_ = {0.0, 0.0};
-  }
-  return goal_;
+  const auto [wheels, by_pwm] = order(now_s);
+  if (by_pwm) return {left_.follow_pwm(wheels.left), right_.follow_pwm(wheels.right)};
+  return {left_.follow_speed(now_s, wheels.left), right_.follow_speed(now_s, wheels.right)};
 }
 
 void BaseEmulator::roll(double left_m, double right_m, const WheelSpeeds& speeds) {
   left_m_ += left_m;
   right_m_ += right_m;
   speeds_ = speeds;
+  left_.roll(left_m, speeds.left);
+  right_.roll(right_m, speeds.right);
 }
 
 void BaseEmulator::feel(double acceleration, double yaw_rate) {
@@ -147,8 +173,8 @@ int BaseEmulator::gyro_counts(double rate) {
 std::string BaseEmulator::feedback() {
   const nlohmann::ordered_json line = {
       {"T", 1001},
-      {"L", speeds_.left},
-      {"R", speeds_.right},
+      {"L", left_.measured_speed()},
+      {"R", right_.measured_speed()},
       {"ax", counts(kAccelerometer * acceleration_)},
       {"ay", counts(kAccelerometer * 0.5 * (speeds_.left + speeds_.right) * yaw_rate_)},
       {"az", counts(kAccelerometer * 9.80665)},

@@ -64,6 +64,15 @@ TEST(WaveshareProtocol, WhatIsNotFiniteStands) {
   }
 }
 
+TEST(WaveshareProtocol, TellsAWholePwmWithinItsRange) {
+  EXPECT_EQ(waveshare_pwm(63.5, -0.4), "{\"T\":11,\"L\":64,\"R\":0}\n");
+  EXPECT_EQ(waveshare_pwm(1e300, -1e300), "{\"T\":11,\"L\":255,\"R\":-255}\n");
+  for (const double bad : {kInfinity, -kInfinity, std::nan("")}) {
+    EXPECT_EQ(waveshare_pwm(bad, 100.0), waveshare_pwm(0.0, 0.0));
+    EXPECT_EQ(waveshare_pwm(100.0, bad), waveshare_pwm(0.0, 0.0));
+  }
+}
+
 TEST(WaveshareProtocol, SetsTheHeartbeatBeforeAnythingElse) {
   const auto lines = waveshare_setup({3, 250, 40});
   EXPECT_EQ(lines.at(0), "{\"T\":136,\"cmd\":250}\n");

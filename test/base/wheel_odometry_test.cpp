@@ -61,6 +61,26 @@ TEST(WheelTravel, IsFinerThanTheOdometer) {
   EXPECT_LT(std::sqrt(square / count), 0.002);  // the odometer alone: 0.0029 about its middle
 }
 
+/// A pulse in a millisecond is 0.38 m/s, so that most readings at 0.1 m/s are 0.
+TEST(WheelTravel, SmoothsAReadingOfSinglePulses) {
+  constexpr double kPulse_m = M_PI * 0.08 / 660.0;
+  WheelTravel travel(2.0);
+  double rolled_m = 0.0;
+  double worst = 0.0;
+  double sum = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    rolled_m += 0.1 * kInterval_s;
+    const double pulses =
+        std::floor(rolled_m / kPulse_m) - std::floor((rolled_m - 1e-4) / kPulse_m);
+    travel.add(kInterval_s, pulses * kPulse_m / 1e-3, odometer_cm(rolled_m));
+    if (i < 40) continue;
+    worst = std::max(worst, std::abs(travel.speed() - 0.1));
+    sum += travel.speed() / 360;
+  }
+  EXPECT_NEAR(sum, 0.1, 0.01);
+  EXPECT_LT(worst, 0.15);  // of a reading: 0.28
+}
+
 TEST(WheelTravel, SlowMotionIsNotStuckBetweenTwoCentimetres) {
   WheelTravel travel(2.0);
   double sum_m = travel.add(0.0, 0.0, 5);
@@ -193,6 +213,16 @@ TEST(WheelOdometry, AGyroscopeTellsHowFarSkiddingWheelsTurn) {
   const double sigma = std::sqrt(odometry.covariance()(2, 2) - before);
   EXPECT_GT(sigma, 0.005);
   EXPECT_LT(sigma, 0.03);
+}
+
+/// So slowly that most readings of the wheels are without a pulse.
+TEST(WheelOdometry, ASlowTurnIsNoBias) {
+  WheelOdometry odometry = odometry_with_gyro();
+  double stamp_s = 0.0;
+  for (int i = 0; i < 120; ++i) odometry.add(stamp_s += kInterval_s, {{0.0, 0.0}, 0, 0, 0.03});
+  for (int i = 0; i < 400; ++i)
+    odometry.add(stamp_s += kInterval_s, {{0.0, 0.0}, 0, 0, 0.03 + 0.08, true});
+  EXPECT_NEAR(odometry.pose().yaw_rad, 0.08 * 400 * kInterval_s, 0.01);
 }
 
 TEST(WheelOdometry, TheBiasIsFollowed) {

@@ -60,6 +60,30 @@ TEST(TrajectoryTracker, NoiseDoesNotMakeAStandingRobotWiggle) {
   EXPECT_EQ(samples.back().command.yaw_rate, 0.0);
 }
 
+/// Wheels that stand until they leap, and turn on for 0.1 s after they were told to stand.
+TEST(TrajectoryTracker, WheelsThatLeapDoNotMakeAStandingRobotHunt) {
+  TrajectoryTracker tracker(TrackerParameters(), rover());
+  tracker.offer({1, 1}, Motion(0.0, {StandPhase{{}, 1.0}}), kForever);
+  double yaw_rad = 0.12;
+  double rolls_until_s = 0.0;
+  double way = 0.0;
+  double commanded_s = 0.0;
+  int reversals = 0;
+  for (double t = 0.0; t < 20.0; t += kPeriod_s) {
+    const double wanted = tracker.step(t, RobotState{t, {{0.0, 0.0}, yaw_rad}}).yaw_rate;
+    if (std::abs(wanted) > 1e-6) {
+      commanded_s = t;
+      reversals += way * wanted < 0.0;
+      way = wanted;
+      rolls_until_s = t + 0.1;
+    }
+    if (t < rolls_until_s) yaw_rad += std::copysign(1.2 * kPeriod_s, way);
+  }
+  EXPECT_LE(reversals, 2);
+  EXPECT_LT(commanded_s, 2.0);
+  EXPECT_LT(std::abs(yaw_rad), 0.2);
+}
+
 TEST(TrajectoryTracker, OldPosesAreCarriedForward) {
   const DrivePhase drive = straight({}, 1, 6.0, 7.0);
   ClosedLoop loop(jackal(), {}, 6);

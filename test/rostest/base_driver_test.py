@@ -36,6 +36,8 @@ FEEDBACK_TIMEOUT_S = 0.3
 BRAKING_S = SPEED / 2.0 + 0.5
 SCHEDULING_S = 0.3
 STANDING = 0.02
+FRICTION_PWM, PWM_PER_SPEED = 35.0, 169.0  # the driver's
+CATCH_UP = 0.15  # m/s: what it may add at once for a wheel that stalls, or is behind
 TOPICS = {"/ugv1/base_emulator/truth": Odometry, "/ugv1/odom": Odometry, "/ugv1/imu": Imu, "/ugv1/battery": BatteryState, "/tf": TFMessage}
 
 
@@ -60,6 +62,7 @@ class Watch:
         self.lock = threading.Lock()
         self.newest = {}
         self.speeds = []  # (time [s], speed) of the truth
+        self.rates = []  # [rad/s] by the gyroscope
         self.diagnosis = {}
         self.diagnosed_s = 0.0
         for topic, kind in TOPICS.items():
@@ -71,6 +74,8 @@ class Watch:
             self.newest[topic] = message
             if topic.endswith("truth"):
                 self.speeds.append((message.header.stamp.to_sec(), speed_of(message.twist.twist)))
+            if topic.endswith("imu"):
+                self.rates.append(message.angular_velocity.z)
 
     def on_diagnostics(self, array):
         for status in array.status:
@@ -201,9 +206,11 @@ class BaseDriverTest(unittest.TestCase):
         self.stays_standing(0.2)
         before = self.watch.truth().pose.pose, self.watch.odometry().pose.pose
         self.commander.drive(0.3, 0.6)
-        self.watch_for(4.0)
-        rate = self.watch.newest["/ugv1/imu"].angular_velocity.z
-        self.assertAlmostEqual(rate, 0.6, delta=0.05)
+        self.watch_for(1.0)
+        turning = len(self.watch.rates)
+        self.watch_for(3.0)
+        rates = self.watch.rates[turning:]
+        self.assertAlmostEqual(sum(rates) / len(rates), 0.6, delta=0.05)
         self.commander.drive(0.0)
         self.stands_within(0.0)
         self.stays_standing(0.2)
@@ -214,7 +221,7 @@ class BaseDriverTest(unittest.TestCase):
         self.assertLess(math.hypot(truth[0] - odometry[0], truth[1] - odometry[1]), 0.05)
         self.assertLess(abs(math.remainder(truth[2] - odometry[2], 2.0 * math.pi)), 0.06)
 
-    def test_only_wheel_speeds_are_sent_and_ramped(self):
+    def test_only_what_is_under_the_heartbeat_is_sent_and_ramped(self):
         self.drive()
         end("/ugv1/base_driver", signal.SIGKILL)
         mark = len(self.line.from_computer)
@@ -224,11 +231,23 @@ class BaseDriverTest(unittest.TestCase):
         sent = [json.loads(line) for line in bytes(self.line.from_computer[mark:]).split(b"\n")[1:-1] if line]
         self.assertNotIn(13, {line["T"] for line in sent})
         self.assertEqual(sent[0], {"T": 136, "cmd": 300}, "the heartbeat comes first")
-        left = [line["L"] for line in sent if line["T"] == 1]
-        self.assertGreater(max(left), 0.3)
-        self.assertLess(max(abs(b - a) for a, b in zip(left, left[1:])), 2.0 * 0.1 + 1e-3, "no step beyond the ramp")
-        small = sorted(abs(b - a) for a, b in zip(left, left[1:]))[int(0.98 * len(left)) - 2]
-        self.assertLess(small, 2.0 * 0.06)
+        left = [line["L"] for line in sent if line["T"] == 11]
+        self.assertGreater(max(left), FRICTION_PWM + 0.3 * PWM_PER_SPEED)
+        steps = [abs(b - a) for a, b in zip(left, left[1:]) if a * b != 0]  # but for what friction takes
+        self.assertLess(max(steps), PWM_PER_SPEED * (2.0 * 0.1 + CATCH_UP), "no step beyond the ramp")
+        self.assertLess(sorted(steps)[int(0.98 * len(steps)) - 2], PWM_PER_SPEED * 2.0 * 0.06)
+
+    def battery(self):
+        return next((status for name, status in self.watch.diagnosis.items() if name.endswith("base_driver: battery")), None)
+
+    def test_a_low_battery_is_reported_and_an_empty_one_is_an_error(self):
+        self.drive()
+        for level, reading, words in ((0, b"1185", "11.85 V"), (1, b"950", "9.50 V: low"), (2, b"880", "8.80 V: empty")):
+            self.line.damage = lambda said, reading=reading: said.replace(b'"v":1185', b'"v":' + reading)
+            self.wait(lambda: self.battery() and self.battery().message == words, 5.0, words)
+            self.assertEqual(self.battery().level, level)
+        self.line.damage = None
+        self.drive()
 
     def test_stops_when_commands_stay_away(self):
         self.drive()
@@ -353,7 +372,7 @@ class BaseDriverTest(unittest.TestCase):
         os.kill(pid_of("/ugv1/base_driver"), signal.SIGTERM)
         self.stands_within(0.0)
         last = bytes(self.line.from_computer[mark:]).split(b"\n")[-2]
-        self.assertEqual(json.loads(last), {"T": 1, "L": 0.0, "R": 0.0})
+        self.assertEqual(json.loads(last), {"T": 11, "L": 0, "R": 0})
         self.drive(timeout_s=20.0)
 
     def test_a_base_that_restarts_gets_its_heartbeat_again(self):
@@ -381,9 +400,10 @@ class BaseDriverTest(unittest.TestCase):
         self.wait(lambda: self.watch.base()[0] == "a button", 3.0, "diagnostics say so")
         lines = [json.loads(line) for line in bytes(self.line.from_computer[mark:]).split(b"\n")[1:-1] if line]
         held = [line["T"] for line in lines].index(0)
-        ramp = [line["L"] for line in lines[:held] if line["T"] == 1]
-        self.assertEqual(ramp[-1], 0.0)
-        self.assertLess(max(abs(b - a) for a, b in zip(ramp, ramp[1:])), 2.0 * 0.1 + 1e-3, "no step beyond the ramp")
+        ramp = [line["L"] for line in lines[:held] if line["T"] == 11]
+        self.assertEqual(ramp[-1], 0)
+        steps = [abs(b - a) for a, b in zip(ramp, ramp[1:]) if a * b != 0]
+        self.assertLess(max(steps), PWM_PER_SPEED * (2.0 * 0.1 + CATCH_UP), "no step beyond the ramp")
         mark = len(self.line.from_computer)
         self.reset()
         self.drive()

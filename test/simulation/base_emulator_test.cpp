@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::json;
 
 void expect_wheels(BaseEmulator& base, double now_s, double left, double right) {
-  const WheelSpeeds wheels = base.wheels(now_s);
+  const WheelSpeeds wheels = base.order(now_s).wheels;
   EXPECT_EQ(wheels.left, left) << "at " << now_s;
   EXPECT_EQ(wheels.right, right) << "at " << now_s;
 }
@@ -44,15 +44,25 @@ TEST(BaseEmulator, VelocitiesAreNotUnderTheHeartbeat) {
   BaseEmulator base(0.0);
   base.receive(0.0, "{\"T\":900,\"main\":3,\"module\":0}\n{\"T\":1,\"L\":0.1,\"R\":0.1}\n");
   base.receive(2.0, "{\"T\":13,\"X\":0.5,\"Z\":1.0}\n");
-  EXPECT_NEAR(base.wheels(2.0).left, 0.5 - 0.0705, 1e-12);
+  EXPECT_NEAR(base.order(2.0).wheels.left, 0.5 - 0.0705, 1e-12);
   expect_wheels(base, 3.01, 0.0, 0.0);  // of the T 1 before
   base.receive(4.0, "{\"T\":13,\"X\":0.5,\"Z\":0.0}\n");
   expect_wheels(base, 1000.0, 0.5, 0.5);  // it has fired: nothing stops this
 }
 
+TEST(BaseEmulator, PwmIsUnderTheHeartbeat) {
+  BaseEmulator base(0.0);
+  base.receive(0.0, "{\"T\":136,\"cmd\":300}\n{\"T\":11,\"L\":164,\"R\":-300}\n");
+  EXPECT_TRUE(base.order(0.3).by_pwm);
+  expect_wheels(base, 0.3, 164.0, -255.0);
+  EXPECT_NEAR(base.wheels(0.3).left, 1.3 / 220.0 * (164.0 - 35.0), 1e-9);
+  expect_wheels(base, 0.31, 0.0, 0.0);
+  EXPECT_EQ(base.wheels(0.31).left, 0.0);
+}
+
 TEST(BaseEmulator, HoldsAnEmergencyStopWhereItsFirmwareDoes) {
   for (const bool holds : {true, false}) {
-    BaseEmulator base(0.0, holds);
+    BaseEmulator base(0.0, {holds, {}, {}});
     base.receive(0.0, "{\"T\":1,\"L\":0.5,\"R\":0.5}\n{\"T\":0}\n");
     expect_wheels(base, 0.0, 0.0, 0.0);
     base.receive(0.1, "{\"T\":1,\"L\":0.5,\"R\":0.5}\n");
@@ -89,8 +99,8 @@ TEST(BaseEmulator, SendsFeedbackAtItsInterval) {
   EXPECT_EQ(count, 50);
   const Json line = Json::parse(text);
   EXPECT_EQ(line["T"], 1001);
-  EXPECT_EQ(line["L"], 0.5);
-  EXPECT_EQ(line["odl"], 19);  // cut, not rounded
+  EXPECT_NEAR(line["L"], 0.38, 0.01);  // 0.5 in whole pulses of a millisecond
+  EXPECT_EQ(line["odl"], 19);          // cut, not rounded
   EXPECT_EQ(line["odr"], -19);
   EXPECT_EQ(line["az"], 8192);
   EXPECT_NEAR(line["gz"], 16.4 * 57.2958 * (1.0 + 0.012), 5.0 * 16.4 * 57.2958 * 0.004);
@@ -131,8 +141,8 @@ TEST(BaseEmulator, SurvivesNoise) {
     for (char& c : bytes) c = "{}\"T:,0123456789-.eLRcmd[]\n"[random() % 27];
     base.receive(0.001 * i, bytes);
     const WheelSpeeds wheels = base.wheels(0.001 * i);
-    ASSERT_LE(std::abs(wheels.left), 2.0);
-    ASSERT_LE(std::abs(wheels.right), 2.0);
+    ASSERT_LE(std::abs(wheels.left), 255.0);
+    ASSERT_LE(std::abs(wheels.right), 255.0);
     base.send(0.001 * i);
   }
 }
