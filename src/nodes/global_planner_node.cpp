@@ -18,6 +18,7 @@
 #include "ros_bridge/inputs/peer_source.h"
 #include "ros_bridge/inputs/plan_service.h"
 #include "ros_bridge/inputs/pose_source.h"
+#include "ros_bridge/inputs/zone_source.h"
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/status_conversions.h"
 #include "ros_bridge/outputs/planner_outputs.h"
@@ -72,7 +73,11 @@ class GlobalPlannerNode {
         pauses_(node.advertiseService("pause", &GlobalPlannerNode::on_pause, this)),
         inputs_(node, identity_, pose_.transforms(),
                 {[this](std::deque<Goal> goals) { take(std::move(goals)); },
-                 [this](const std::string& why) { stop(why); }, [this] { return stop_.reason(); }}),
+                 [this](const std::string& why) { stop(why); },
+                 [this](const Goal& goal) {
+                   return stop_.stopped() ? stop_.reason() : zones_.refusal(goal.position);
+                 }}),
+        zones_(node, identity_.map_frame, [this](bool were_known) { heed_zones(were_known); }),
         parameters_(values_,
                     [this](const ParameterTable& changed) { planning_.set_options(changed); }),
         loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }),
@@ -113,6 +118,22 @@ class GlobalPlannerNode {
 
   void take(std::deque<Goal> goals) {
     executive_.take(std::move(goals), committed_.motion(), now_.toSec());
+  }
+
+  /// Goals in a zone that is not to be entered are given up, plans are made anew; a robot in such a
+  /// zone that has no goal leaves it.
+  void heed_zones(bool may_leave) {
+    for (const Goal& goal : executive_.goals().left()) {
+      const std::string why = zones_.refusal(goal.position);
+      if (why.empty()) continue;
+      inputs_.finish(false, "the goal is given up: " + why);
+      stop("the goal is given up: " + why);
+      break;
+    }
+    executive_.request();
+    const bool rests = executive_.idle() && executive_.state() != ExecutiveState::kPaused;
+    if (may_leave && rests && !stop_.stopped() && !zones_.way_out().empty())
+      take({Goal{zones_.way_out().back(), std::nullopt}});
   }
 
   bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
@@ -188,20 +209,18 @@ class GlobalPlannerNode {
   }
 
   PlanService::Work work_on(const PlanService::Request& request) {
-    PlanResult refusal;
-    refusal.reason = PlanReason::kInvalidInput;
     const bool from_here = request.start.header.frame_id.empty();
     const auto goal = inputs_.to_goal(request.goal);
     const auto start = from_here ? std::nullopt : inputs_.to_goal(request.start);
-    if (!goal || (!from_here && !start)) {
-      refusal.message = "start or goal is not usable: " + inputs_.refusal();
-      return [refusal](const auto&) { return refusal; };
-    }
-    if (!map_.available() || (from_here && committed_.motion().empty())) {
-      refusal.reason = map_.available() ? PlanReason::kNoPose : PlanReason::kNoMap;
-      refusal.message = map_.available() ? "the robot's state is not known yet" : "no map yet";
-      return [refusal](const auto&) { return refusal; };
-    }
+    if (!goal || (!from_here && !start))
+      return PlanService::refusal(PlanReason::kInvalidInput,
+                                  "start or goal is not usable: " + inputs_.refusal());
+    const std::string kept_out = zones_.refusal(goal->position);
+    if (!kept_out.empty())
+      return PlanService::refusal(PlanReason::kGoalOccupied, "the goal: " + kept_out);
+    if (!map_.available()) return PlanService::refusal(PlanReason::kNoMap, "no map yet");
+    if (from_here && committed_.motion().empty())
+      return PlanService::refusal(PlanReason::kNoPose, "the robot's state is not known yet");
     const double now_s = now_.toSec();
     const Motion from =
         start ? Motion(now_s, {StandPhase{{start->position, start->yaw_rad.value_or(0.0)}, 0.1}})
@@ -260,7 +279,7 @@ class GlobalPlannerNode {
     status.add("parameter changes refused", parameters_.refused());
     status.add("messages refused", refused_ + committed_.refused() + inputs_.refused() +
                                        map_.refused() + peers_.refused() + pose_.refused() +
-                                       passing_.refused());
+                                       passing_.refused() + zones_.refused());
   }
 
   const RobotIdentity identity_;
@@ -286,6 +305,7 @@ class GlobalPlannerNode {
   ros::ServiceServer pauses_;
   diagnostic_updater::Updater diagnostics_;
   GoalInputs inputs_;
+  ZoneSource zones_;
   LiveParameters parameters_;
   StepLoop loop_;
   PlanService service_;

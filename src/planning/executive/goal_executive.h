@@ -74,6 +74,7 @@ class GoalExecutive {
 
   ExecutiveState state() const { return state_; }
   bool idle() const { return goals_.empty(); }
+  const GoalQueue& goals() const { return goals_; }
   /// The plan at hand; empty if there is none.
   const Motion& plan() const { return errand_.plan; }
 

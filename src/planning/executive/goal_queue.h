@@ -41,7 +41,8 @@ class GoalQueue {
   void move_current(const Vector2& position) { instead_ = position; }
   /// The robot makes room for others: that is no lack of progress.
   void wait(double now_s) { progress_s_ = now_s; }
-  std::size_t remaining() const { return goals_.size(); }
+  /// Those that are still to be visited, in order.
+  const std::deque<Goal>& left() const { return goals_; }
 
   /// Arrival is standing within the tolerances, at the goal or at a place that counts for it; then
   /// the next goal counts. Progress is coming nearer to the goal than ever, or being half a metre

@@ -47,8 +47,9 @@ std::optional<Goal> GoalInputs::to_goal(const geometry_msgs::PoseStamped& stampe
 }
 
 std::optional<Goal> GoalInputs::accept(const geometry_msgs::PoseStamped& pose) {
-  const std::string why = handlers_.refusal();
-  if (why.empty()) return to_goal(pose);
+  const auto goal = to_goal(pose);
+  const std::string why = goal ? handlers_.refusal(*goal) : "";
+  if (why.empty()) return goal;
   refuse(why);
   return std::nullopt;
 }
@@ -89,7 +90,7 @@ void GoalInputs::on_action_goal() {
     return;
   }
   action_.setAborted({}, "the goal is not usable: " + refusal_);
-  handlers_.stop("the new goal is not usable");
+  handlers_.stop("the new goal is not usable: " + refusal_);
 }
 
 void GoalInputs::on_action_cancel() {

@@ -25,8 +25,8 @@ class GoalInputs {
   struct Handlers {
     std::function<void(std::deque<Goal>)> take;    ///< new goals, to be visited in order
     std::function<void(const std::string&)> stop;  ///< no goal any more, and why
-    /// Why no goal is taken now, whatever it is; empty where one is.
-    std::function<std::string()> refusal;
+    /// Why a goal is not taken now; empty where it is.
+    std::function<std::string(const Goal&)> refusal;
   };
 
   /// `transforms` must outlive this.
@@ -48,7 +48,7 @@ class GoalInputs {
   void on_waypoints(const nav_msgs::Path& path);
   void on_action_goal();
   void on_action_cancel();
-  /// As to_goal(), unless no goal is taken now.
+  /// As to_goal(), unless the goal is not taken now.
   std::optional<Goal> accept(const geometry_msgs::PoseStamped& pose);
   void refuse(const std::string& why);
 

@@ -14,6 +14,13 @@ PlanService::PlanService(ros::NodeHandle& node, Handlers handlers)
   spinner_.start();
 }
 
+PlanService::Work PlanService::refusal(PlanReason reason, const std::string& why) {
+  PlanResult result;
+  result.reason = reason;
+  result.message = why;
+  return [result](const auto&) { return result; };
+}
+
 bool PlanService::on_request(Request& request, Response& response) {
   const auto ends = [this] { return ends_ || !ros::ok(); };
   // By value: they may be called when nobody waits any more.

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <functional>
+#include <string>
 
 #include "stack/plan_runner.h"
 
@@ -23,6 +24,9 @@ class PlanService {
     std::function<Work(const Request&)> prepare;
     std::function<Response(const PlanResult&)> respond;
   };
+
+  /// There is nothing to be done, as nothing can be planned.
+  static Work refusal(PlanReason reason, const std::string& why);
 
   /// The handlers are called from the node's callback queue.
   PlanService(ros::NodeHandle& node, Handlers handlers);

@@ -62,7 +62,7 @@ TEST_F(GoalQueueTest, VisitsGoalsInOrder) {
   queue.set({goal(1.0), goal(2.0), goal(1.0)}, 0.0);
   EXPECT_EQ(queue.update(1.0, at(2.0)), Event::kNone);  // not its turn yet
   EXPECT_EQ(queue.update(2.0, at(1.0)), Event::kReached);
-  EXPECT_EQ(queue.remaining(), 2u);
+  EXPECT_EQ(queue.left().size(), 2u);
   EXPECT_EQ(queue.current().position.x(), 2.0);
   EXPECT_EQ(queue.update(3.0, at(2.0)), Event::kReached);
   EXPECT_EQ(queue.update(4.0, at(1.0)), Event::kAllReached);
