@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kForTurning_m = 0.1;  // beside the body and its margin, so that plans find room
 
-Room room_of(const RobotModel& robot) {
+ExitRoom room_of(const RobotModel& robot) {
   const MarginBudget margins = MarginBudget::of(robot);
   const double inscribed_m = robot.footprint.inscribed_radius_m();
   return {robot.footprint.circumscribed_radius_m() + margins.static_margin_m() +
@@ -62,7 +62,7 @@ void KeepOut::look(const std::vector<Pose>& course, const OccupancyMap& map) {
 void KeepOut::open_way(const std::vector<Pose>& course, const OccupancyMap& map) {
   std::vector<Vector2> places;
   for (const Pose& pose : course) places.push_back(pose.position);
-  Strip strip = find_way_out(areas_, map, places, room_);
+  Strip strip = find_exit(areas_, map, places, room_);
   leads_out_ = strip.path.size() > places.size();
   if (strip.path == open_.path) return;
   open_ = std::move(strip);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "perception/mapping/occupancy_map.h"
-#include "perception/mapping/way_out.h"
+#include "perception/mapping/zone_exit.h"
 #include "world/robot_model.h"
 
 namespace mocha {
@@ -35,7 +35,7 @@ class KeepOut {
 
   const Footprint footprint_;
   const double still_m_;  ///< margin of a robot that stands
-  const Room room_;
+  const ExitRoom room_;
   std::vector<Polygon> areas_;
   bool are_new_ = false;
   Strip open_;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "perception/mapping/occupancy_map.h"
-#include "perception/mapping/way_out.h"
+#include "perception/mapping/zone_exit.h"
 #include "world/corner_window.h"
 #include "world/obstacle.h"
 #include "world/occupancy_grid.h"

@@ -10,7 +10,6 @@
 namespace mocha {
 namespace {
 
-constexpr char kInForce[] = "zones_in_force";
 constexpr double kLook_s = 0.5;      // between looks at where the robot is and at the file
 constexpr double kReaction_s = 0.7;  // until a robot begins to brake for a zone
 constexpr double kStep_s = 0.05;     // between poses of its braking
@@ -24,19 +23,21 @@ std::filesystem::file_time_type time_of(const std::string& file) {
 }  // namespace
 
 ZoneControls::ZoneControls(ros::NodeHandle& node, const RobotIdentity& robot,
-                           const RobotModel& model, const std::string& file)
-    : node_(node),
-      robot_(robot),
+                           const RobotModel& model, const ParameterTable& values)
+    : robot_(robot),
       braking_(model.braking()),
-      file_(file),
-      written_(time_of(file)),
+      file_(values.text("keep_out_file")),
+      written_(time_of(file_)),
       keep_out_(model),
       committed_(node, robot.name),
       states_(node.advertise<mocha_ugv::Zones>("zones", 1, true)),
       calls_(node.advertiseService("set_zones", &ZoneControls::on_set, this)) {
-  if (!file_.empty()) zones_ = load_zones(file_);
-  std::string in_force;
-  if (node_.getParam(kInForce, in_force)) zones_ = parse_zones(in_force, kInForce);
+  const std::string& in_force = values.text("zones_in_force");
+  if (!in_force.empty()) {
+    zones_ = parse_zones(in_force, "zones_in_force");
+  } else if (!file_.empty()) {
+    zones_ = load_zones(file_);
+  }
   keep_out_.set(kept_out_of(zones_));
 }
 
@@ -63,7 +64,7 @@ bool ZoneControls::on_set(mocha_ugv::SetZones::Request& request,
 void ZoneControls::set(Zones zones) {
   zones_ = std::move(zones);
   keep_out_.set(kept_out_of(zones_));
-  node_.setParam(kInForce, to_yaml(zones_));
+  ros::NodeHandle("~").setParam("zones_in_force", to_yaml(zones_));
   inside_ = nullptr;
   are_new_ = true;
   ROS_INFO("%s: %zu zones in force", robot_.name.c_str(), zones_.size());
@@ -123,9 +124,9 @@ void ZoneControls::publish() {
   to_message(zones_, message);
   if (keep_out_.leads_out()) {
     for (const Vector2& place : keep_out_.open().path) {
-      message.way_out.emplace_back();
-      message.way_out.back().x = place.x();
-      message.way_out.back().y = place.y();
+      message.exit.emplace_back();
+      message.exit.back().x = place.x();
+      message.exit.back().y = place.y();
     }
   }
   states_.publish(message);

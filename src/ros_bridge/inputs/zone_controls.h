@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "config/parameter_table.h"
 #include "perception/mapping/keep_out.h"
 #include "ros_bridge/inputs/committed_trajectory_source.h"
 #include "ros_bridge/outputs/map_outputs.h"
@@ -20,12 +21,12 @@ namespace mocha {
 
 /// The zones of one robot as people meet them: the service `set_zones`, the file that they come
 /// from, which is read again when it is written, and what is in force, latched, as `zones`. They
-/// outlive the node, as a parameter of the robot.
+/// outlive the node, as its parameter `zones_in_force`.
 class ZoneControls {
  public:
-  /// `file` may be empty. Throws WorldError for one that is not usable.
+  /// `values` are those of config/perception.yaml. Throws WorldError for zones that are none.
   ZoneControls(ros::NodeHandle& node, const RobotIdentity& robot, const RobotModel& model,
-               const std::string& file);
+               const ParameterTable& values);
 
   /// Marks what is not to be entered in the maps; the robot is at `base`, if that is known.
   void step(ros::Time now, const std::optional<Pose>& base, const OccupancyMap& map,
@@ -39,7 +40,6 @@ class ZoneControls {
   std::vector<Pose> course_from(const Pose& base, ros::Time now) const;
   void publish();
 
-  ros::NodeHandle node_;
   const RobotIdentity robot_;
   const Braking braking_;
   std::string file_;  // the zones are those of; empty: of none

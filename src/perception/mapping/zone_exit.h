@@ -17,7 +17,7 @@ struct Strip {
 };
 
 /// What a robot needs in order to leave.
-struct Room {
+struct ExitRoom {
   double half_width_m;  ///< of the strip, clear of all areas where it ends
   double body_m;        ///< to occupied cells, if it can be had
   double least_m;       ///< the same, where the robot hardly fits
@@ -26,7 +26,7 @@ struct Room {
 /// A strip along `course`, which the robot takes in any case, and on from its end out of the areas:
 /// as short as may be, by cells that are not occupied and, if it can be had, were seen. Where there
 /// is no way out, it is the course alone. Nothing that is farther off than 30 m is found.
-Strip find_way_out(const std::vector<Polygon>& areas, const OccupancyMap& map,
-                   const std::vector<Vector2>& course, const Room& room);
+Strip find_exit(const std::vector<Polygon>& areas, const OccupancyMap& map,
+                   const std::vector<Vector2>& course, const ExitRoom& room);
 
 }  // namespace mocha

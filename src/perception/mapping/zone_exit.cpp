@@ -1,4 +1,4 @@
-#include "perception/mapping/way_out.h"
+#include "perception/mapping/zone_exit.h"
 
 #include <algorithm>
 #include <array>
@@ -28,7 +28,7 @@ bool is_outside(const std::vector<Polygon>& areas, const Vector2& place, double 
 
 /// Dijkstra's search on a lattice about `from`; empty where nothing outside is found.
 template <typename MayPass>
-std::vector<Vector2> shortest_way_out(const std::vector<Polygon>& areas, const Vector2& from,
+std::vector<Vector2> shortest_exit(const std::vector<Polygon>& areas, const Vector2& from,
                                       double half_width_m, const MayPass& may_pass) {
   struct Node {
     double way_m = std::numeric_limits<double>::infinity();
@@ -81,8 +81,8 @@ bool Strip::covers(const Vector2& place) const {
   return false;
 }
 
-Strip find_way_out(const std::vector<Polygon>& areas, const OccupancyMap& map,
-                   const std::vector<Vector2>& course, const Room& room) {
+Strip find_exit(const std::vector<Polygon>& areas, const OccupancyMap& map,
+                   const std::vector<Vector2>& course, const ExitRoom& room) {
   Strip strip{course, room.half_width_m};
   const auto is_free = [&](const Vector2& place, double room_m) {
     return !map.is_occupied_within(place, room_m, false);
@@ -91,7 +91,7 @@ Strip find_way_out(const std::vector<Polygon>& areas, const OccupancyMap& map,
     return is_free(place, room.body_m) && !map.is_unknown_within(place, map.options().resolution_m);
   };
   const auto search = [&](const auto& may_pass) {
-    return shortest_way_out(areas, course.back(), room.half_width_m, may_pass);
+    return shortest_exit(areas, course.back(), room.half_width_m, may_pass);
   };
   std::vector<Vector2> way = search(is_seen);
   for (const double room_m : {room.body_m, room.least_m}) {
