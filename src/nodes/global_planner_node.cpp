@@ -72,10 +72,10 @@ class GlobalPlannerNode {
                                   at_once())),
         pauses_(node.advertiseService("pause", &GlobalPlannerNode::on_pause, this)),
         inputs_(node, identity_, pose_.transforms(),
-                {[this](std::deque<Goal> goals) { take(std::move(goals)); },
+                {[this](std::deque<Goal> goals, bool patrols) { take(std::move(goals), patrols); },
                  [this](const std::string& why) { stop(why); },
                  [this](const Goal& goal) {
-                   return stop_.stopped() ? stop_.reason() : zones_.refusal(goal.position);
+                   return stop_.stopped() ? stop_.reason() : zones_.refusal({goal});
                  }}),
         zones_(node, identity_.map_frame, [this](bool were_known) { heed_zones(were_known); }),
         parameters_(values_,
@@ -116,24 +116,19 @@ class GlobalPlannerNode {
     }
   }
 
-  void take(std::deque<Goal> goals) {
-    executive_.take(std::move(goals), committed_.motion(), now_.toSec());
+  void take(std::deque<Goal> goals, bool patrols) {
+    executive_.take(std::move(goals), committed_.motion(), now_.toSec(), patrols);
   }
 
   /// Goals in a zone that is not to be entered are given up, plans are made anew; a robot in such a
   /// zone that has no goal leaves it.
   void heed_zones(bool may_leave) {
-    for (const Goal& goal : executive_.goals().left()) {
-      const std::string why = zones_.refusal(goal.position);
-      if (why.empty()) continue;
-      inputs_.finish(false, "the goal is given up: " + why);
-      stop("the goal is given up: " + why);
-      break;
-    }
+    const std::string why = zones_.refusal(executive_.goals().left());
+    if (!why.empty()) stop("the goal is given up: " + why);
     executive_.request();
     const bool rests = executive_.idle() && executive_.state() != ExecutiveState::kPaused;
-    if (may_leave && rests && !stop_.stopped() && !zones_.way_out().empty())
-      take({Goal{zones_.way_out().back(), std::nullopt}});
+    if (may_leave && rests && !stop_.stopped() && !zones_.exit().empty())
+      take({Goal{zones_.exit().back(), std::nullopt}}, false);
   }
 
   bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
@@ -171,7 +166,10 @@ class GlobalPlannerNode {
       return false;
     }
     if (!executive_.idle()) inputs_.feedback(*reading.state, now_);
+    const auto before = executive_.goals().progress();
     show(planning_.step(now_.toSec(), *reading.state, committed_.motion(), scenes()));
+    if (!executive_.idle() && !(executive_.goals().progress() == before))
+      ROS_INFO("%s: reached %s", identity_.name.c_str(), before.words().c_str());
     return true;
   }
 
@@ -194,15 +192,16 @@ class GlobalPlannerNode {
   SceneSource scenes() {
     if (!map_.available()) return {};
     return [this, peers = peers_.obstacles()](const std::vector<Vector2>& places) {
-      return PlanningScene{map_.static_map(places, kMapBorder_m), peers, [this, places] {
-                             return map_.field(DistanceField::Solid::kOccupiedOrUnknown, places,
-                                               kMapBorder_m);
-                           }};
+      const auto unseen = [this, places] {
+        return map_.field(DistanceField::Solid::kOccupiedOrUnknown, places, kMapBorder_m);
+      };
+      return PlanningScene{map_.static_map(places, kMapBorder_m), peers, unseen};
     };
   }
 
   void stop(const std::string& why) {
     if (stop_.stopped()) return;
+    inputs_.finish(false, why);
     executive_.drop();
     outputs_.adopt(Motion(), now_);
     report(PlanReason::kNoGoal, {}, why);
@@ -215,7 +214,7 @@ class GlobalPlannerNode {
     if (!goal || (!from_here && !start))
       return PlanService::refusal(PlanReason::kInvalidInput,
                                   "start or goal is not usable: " + inputs_.refusal());
-    const std::string kept_out = zones_.refusal(goal->position);
+    const std::string kept_out = zones_.refusal({*goal});
     if (!kept_out.empty())
       return PlanService::refusal(PlanReason::kGoalOccupied, "the goal: " + kept_out);
     if (!map_.available()) return PlanService::refusal(PlanReason::kNoMap, "no map yet");
@@ -259,7 +258,7 @@ class GlobalPlannerNode {
   }
 
   void report(PlanReason reason, const Violation& violation, const std::string& text) {
-    outputs_.report(reason, violation, text, now_);
+    outputs_.report(reason, violation, text, executive_.goals().progress(), now_);
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
@@ -60,7 +61,7 @@ class PerceptionNode {
         queue_(robot_.map_frame, values.number("integration_rate"), timeout_s_),
         listener_(transforms_, node, false, at_once()),
         maps_(node, robot_.map_frame),
-        zones_(node, robot_, model_, values.text("keep_out_file")),
+        zones_(node, robot_, model_, values),
         cells_(node.advertise<sensor_msgs::PointCloud2>("occupied_cells", 1)),
         moving_(node.advertise<mocha_ugv::PredictedObstacles>("predicted_obstacles", 5)),
         scans_(node.subscribe("scan", 20, &PerceptionNode::on_scan, this, at_once())),
@@ -69,7 +70,9 @@ class PerceptionNode {
             node.subscribe("fleet/trajectories", 10, &PerceptionNode::on_fleet, this, at_once())),
         services_{node.advertiseService("save_map", &PerceptionNode::on_save, this),
                   node.advertiseService("load_map", &PerceptionNode::on_load, this),
-                  node.advertiseService("clear_map", &PerceptionNode::on_clear, this)},
+                  node.advertiseService("clear_map", &PerceptionNode::on_clear, this),
+                  node.advertiseService("move_base/clear_costmaps",
+                                        &PerceptionNode::on_clear_costmaps, this)},
         parameters_(values_),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
     if (!values.text("map_file").empty()) map_.load(values.text("map_file"));
@@ -207,6 +210,12 @@ class PerceptionNode {
       filter_.clear();
       if (const auto base = base_at({})) map_.see_robot(*base, start_ground_.under_body(), {});
     });
+  }
+
+  /// As move_base has it.
+  bool on_clear_costmaps(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+    std_srvs::Trigger call;
+    return on_clear(call.request, call.response) && call.response.success;
   }
 
   template <class Response, class Work>

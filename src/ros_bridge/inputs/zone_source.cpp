@@ -1,5 +1,7 @@
 #include "ros_bridge/inputs/zone_source.h"
 
+#include <iomanip>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -13,9 +15,16 @@ ZoneSource::ZoneSource(ros::NodeHandle& node, std::string frame, Changed changed
       changed_(std::move(changed)),
       messages_(node.subscribe("zones", 2, &ZoneSource::on_zones, this, at_once())) {}
 
-std::string ZoneSource::refusal(const Vector2& place) const {
-  const Zone* zone = keep_out_zone_at(zones_, place);
-  return zone ? "it lies in keep-out zone `" + zone->name + "`" : "";
+std::string ZoneSource::refusal(const std::deque<Goal>& goals) const {
+  for (const Goal& goal : goals) {
+    if (const Zone* zone = keep_out_zone_at(zones_, goal.position)) {
+      std::ostringstream text;
+      text << std::fixed << std::setprecision(2) << "(" << goal.position.x() << ", "
+           << goal.position.y() << ") lies in keep-out zone `" << zone->name << "`";
+      return text.str();
+    }
+  }
+  return "";
 }
 
 void ZoneSource::on_zones(const mocha_ugv::Zones& message) {
@@ -28,8 +37,8 @@ void ZoneSource::on_zones(const mocha_ugv::Zones& message) {
     ROS_WARN_THROTTLE(1.0, "Refused a message on zones: %s", error.what());
     return;
   }
-  way_out_.clear();
-  for (const auto& point : message.way_out) way_out_.emplace_back(point.x, point.y);
+  exit_.clear();
+  for (const auto& point : message.exit) exit_.emplace_back(point.x, point.y);
   const bool were_known = std::exchange(are_known_, true);
   const ros::Time before = std::exchange(since_, message.header.stamp);
   const bool is_news = since_ != before || !were_known;

@@ -3,11 +3,14 @@
 #include <mocha_ugv/Zones.h>
 #include <ros/node_handle.h>
 
+#include <deque>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "world/zones.h"
+#include "world/goal.h"
+#include "world/speed_zones.h"
 
 namespace mocha {
 
@@ -22,10 +25,14 @@ class ZoneSource {
       ros::NodeHandle& node, std::string frame, Changed changed = [](bool) {});
 
   const Zones& zones() const { return zones_; }
-  /// Why nobody may go there; empty where one may.
-  std::string refusal(const Vector2& place) const;
+  /// Where a robot has to be slow; null: nowhere.
+  std::shared_ptr<const SpeedZones> speed_zones(const RobotModel& robot) const {
+    return SpeedZones::of(zones_, robot, since_.toSec());
+  }
+  /// Why the robot may not go to the first of these goals where it may not; empty if it may to all.
+  std::string refusal(const std::deque<Goal>& goals) const;
   /// Out of the zone that the robot is in; empty if it is in none.
-  const std::vector<Vector2>& way_out() const { return way_out_; }
+  const std::vector<Vector2>& exit() const { return exit_; }
   int refused() const { return refused_; }
 
  private:
@@ -36,7 +43,7 @@ class ZoneSource {
   Zones zones_;
   ros::Time since_;
   bool are_known_ = false;
-  std::vector<Vector2> way_out_;
+  std::vector<Vector2> exit_;
   int refused_ = 0;
   ros::Subscriber messages_;
 };
