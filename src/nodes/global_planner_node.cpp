@@ -191,11 +191,12 @@ class GlobalPlannerNode {
   /// while there is no map.
   SceneSource scenes() {
     if (!map_.available()) return {};
-    return [this, peers = peers_.obstacles()](const std::vector<Vector2>& places) {
+    return [this, peers = peers_.obstacles(),
+            slow = zones_.speed_zones(model_)](const std::vector<Vector2>& places) {
       const auto unseen = [this, places] {
         return map_.field(DistanceField::Solid::kOccupiedOrUnknown, places, kMapBorder_m);
       };
-      return PlanningScene{map_.static_map(places, kMapBorder_m), peers, unseen};
+      return PlanningScene{map_.static_map(places, kMapBorder_m), peers, unseen, slow};
     };
   }
 

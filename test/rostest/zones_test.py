@@ -17,6 +17,10 @@ from simulated_robot import SimulatedRobot, pose
 
 LANE_Y = -1.5  # free from end to end
 RADIUS_M = 0.2  # of the rover, at least
+SLOW_MPS = 0.3
+FEEDBACK_MPS = 0.05  # of the tracker, on top of the motion's speed
+NOTICE_S = 2.0  # before a speed zone counts
+BRAKING_MPS2 = 0.48
 
 
 def box(name, x0, y0, x1, y1, max_speed=Zone.KEEP_OUT):
@@ -80,6 +84,28 @@ class ZonesTest(unittest.TestCase):
         self.drive(-4.5, LANE_Y, lambda: passed.append(self.inside(*area)) is None)
         self.assertTrue(any(passed), "the way leads there again")
 
+    def test_slow_where_that_is_asked_for(self):
+        self.robot.arrive(-4.5, LANE_Y, 0.0)
+        area = (-1.0, -3.4, 1.0, 3.4)
+        self.put(box("door", *area, max_speed=SLOW_MPS))
+        inside, outside = [], []
+        self.drive(4.5, LANE_Y, lambda: (inside if self.inside(*area) else outside).append(abs(self.robot.truth.speed)) is None)
+        self.assertLess(max(inside), SLOW_MPS + FEEDBACK_MPS)
+        self.assertGreater(max(inside), 0.7 * SLOW_MPS)
+        self.assertGreater(max(outside), 0.6)
+
+    def test_a_moving_robot_slows_down_without_stopping(self):
+        self.go_to_speed()
+        self.put(box("hall", -6.0, -3.5, 6.0, 3.5, max_speed=SLOW_MPS))
+        since = self.robot.now
+        speed = abs(self.robot.truth.speed)
+        self.robot.run(NOTICE_S + 2.0 * (speed - SLOW_MPS) / BRAKING_MPS2)
+        self.assertLess(abs(self.robot.truth.speed), SLOW_MPS + FEEDBACK_MPS)
+        self.robot.run_until(self.robot.done, 60.0, "it arrives")
+        self.assertEqual(self.robot.outcome()[0], "SUCCEEDED", self.robot.outcome()[1])
+        driving = [abs(v) for at, v, _ in self.robot.speeds if since < at < self.robot.now - 4.0]
+        self.assertGreater(min(driving), 0.1)
+
     def test_ahead_of_a_moving_robot(self):
         """It brakes or swerves before what is far enough ahead."""
         self.go_to_speed()
@@ -95,9 +121,9 @@ class ZonesTest(unittest.TestCase):
         x = self.robot.place()[0]
         area = (x - 1.0, -2.6, x + 1.5, -0.5)
         self.put(box("here", *area))
-        self.assertTrue(self.in_force[-1].way_out)
+        self.assertTrue(self.in_force[-1].exit)
         self.robot.run_until(lambda: not self.inside(*area, margin=RADIUS_M), 20.0, "it has left")
-        self.robot.run_until(lambda: not self.in_force[-1].way_out, 2.0, "it is shut behind it")
+        self.robot.run_until(lambda: not self.in_force[-1].exit, 2.0, "it is shut behind it")
         self.robot.run_until(lambda: self.robot.done() or self.inside(*area, margin=RADIUS_M), 60.0, "it arrives")
         self.assertEqual(self.robot.outcome()[0], "SUCCEEDED", self.robot.report())
 
