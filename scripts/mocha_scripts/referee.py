@@ -1,14 +1,31 @@
-"""Watches the simulator's ground truth and the goals' outcomes, and keeps the result of a drive."""
+"""Watches the simulator's ground truth, the goals' outcomes, commands and plans, and keeps the result of a drive."""
 import math
 import threading
 
 import rospy
 from actionlib_msgs.msg import GoalStatus
-from mocha_ugv.msg import Contact, GroundTruth
+from geometry_msgs.msg import Twist
+from mocha_ugv.msg import Contact, GroundTruth, Trajectory
 from move_base_msgs.msg import MoveBaseActionResult
 
 
 BLAME = {Contact.OWN: "own", Contact.STANDING: "standing", Contact.UNSEEN: "unseen"}
+
+
+class Reversals:
+    """How often a yaw rate changes its sign: small ones in between do not count."""
+    DEAD_BAND_RADPS = 0.1
+
+    def __init__(self):
+        self.count = 0
+        self._turns_left = None  # the last that counted
+
+    def add(self, yaw_rate):
+        if abs(yaw_rate) <= self.DEAD_BAND_RADPS:
+            return
+        turns_left = yaw_rate > 0.0
+        self.count += self._turns_left is not None and turns_left != self._turns_left
+        self._turns_left = turns_left
 
 
 class RobotResult:
@@ -24,6 +41,17 @@ class RobotResult:
         self.path_m = 0.0
         self.min_clearance_m = math.inf
         self.max_speed_mps = 0.0
+        self.reversals = Reversals()
+        self.plans = 0  # that it was given to drive
+
+    def on_command(self, command):
+        if not self.reached:
+            self.reversals.add(command.angular.z)
+
+    def on_plan(self, plan):
+        """A plan without phases says that there is nothing to drive to."""
+        if not self.reached and plan.phases:
+            self.plans += 1
 
     def update(self, truth):
         self.has_goal = truth.has_goal
@@ -45,7 +73,7 @@ class RobotResult:
         return {"name": self.name, "reached": self.reached, "gave_up": self.gave_up, "contacts": self.contacts,
                 "own_contacts": self.own_contacts, "time_s": rounded(self.time_s), "arrival_s": rounded(arrival_s),
                 "path_m": rounded(self.path_m), "min_clearance_m": rounded(self.min_clearance_m),
-                "max_speed_mps": rounded(self.max_speed_mps)}
+                "max_speed_mps": rounded(self.max_speed_mps), "reversals": self.reversals.count, "replans": max(0, self.plans - 1)}
 
 
 class Referee:
@@ -76,9 +104,14 @@ class Referee:
             self.min_separation_m = min(self.min_separation_m, message.min_separation)
             for truth in message.robots:
                 if truth.name not in self.robots:
-                    self.robots[truth.name] = RobotResult(truth.name)
-                    rospy.Subscriber(f"/{truth.name}/move_base/result", MoveBaseActionResult, self._on_outcome, truth.name)
+                    self._watch(truth.name)
                 self.robots[truth.name].update(truth)
+
+    def _watch(self, name):
+        robot = self.robots[name] = RobotResult(name)
+        rospy.Subscriber(f"/{name}/move_base/result", MoveBaseActionResult, self._on_outcome, name)
+        rospy.Subscriber(f"/{name}/cmd_vel", Twist, robot.on_command)
+        rospy.Subscriber(f"/{name}/global_trajectory", Trajectory, robot.on_plan)
 
     def _on_outcome(self, message, name):
         with self._lock:
@@ -119,11 +152,12 @@ def table(results):
     """The results as lines for people."""
     show = lambda value, digits: "-" if value is None else f"{value:.{digits}f}"
     lines = [f"{'robot':<10}{'reached':>8}{'contacts':>10}{'time [s]':>10}{'path [m]':>10}{'clearance [m]':>15}"
-             f"{'top speed [m/s]':>17}"]
+             f"{'top speed [m/s]':>17}{'reversals':>11}{'replans':>9}"]
     for robot in results["robots"]:
         lines.append(f"{robot['name']:<10}{'yes' if robot['reached'] else 'no':>8}{robot['contacts']:>10}"
                      f"{show(robot['time_s'], 2):>10}{show(robot['path_m'], 2):>10}"
-                     f"{show(robot['min_clearance_m'], 3):>15}{show(robot['max_speed_mps'], 2):>17}")
+                     f"{show(robot['min_clearance_m'], 3):>15}{show(robot['max_speed_mps'], 2):>17}"
+                     f"{robot['reversals']:>11}{robot['replans']:>9}")
     lines += [f"{robot['name']} gave its goal up: {robot['gave_up']}" for robot in results["robots"]
               if robot["gave_up"] is not None and not robot["reached"]]
     if results["min_separation_m"] is not None:

@@ -19,6 +19,8 @@
 #include "ros_bridge/inputs/peer_source.h"
 #include "ros_bridge/inputs/plan_service.h"
 #include "ros_bridge/inputs/pose_source.h"
+#include "ros_bridge/inputs/replanner_listener.h"
+#include "ros_bridge/inputs/zone_source.h"
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/status_conversions.h"
 #include "ros_bridge/outputs/planner_outputs.h"
@@ -69,16 +71,20 @@ class GlobalPlannerNode {
                  [this](const PassingMessage& message) {
                    executive_.hear(message, ros::Time::now().toSec());
                  }),
-        followed_(node.subscribe("local_trajectory", 2, &GlobalPlannerNode::on_followed, this,
-                                 at_once())),
-        requests_(
-            node.subscribe("replan_request", 10, &GlobalPlannerNode::on_request, this, at_once())),
-        replanner_(node.subscribe("replanner_status", 10, &GlobalPlannerNode::on_replanner, this,
-                                  at_once())),
+        replanner_(node, {[this](const Motion& motion) { executive_.follow(motion); },
+                          [this] { executive_.request(); },
+                          [this](const GoalExecutive::Report& report) {
+                            planning_.hear_replanner(report, ros::Time::now().toSec());
+                          }}),
         pauses_(node.advertiseService("pause", &GlobalPlannerNode::on_pause, this)),
         inputs_(node, identity_, pose_.transforms(),
-                {[this](std::deque<Goal> goals) { take(std::move(goals)); },
-                 [this](const std::string& why) { stop(why); }, [this] { return refusal(); }}),
+                {[this](std::deque<Goal> goals, bool patrols) { take(std::move(goals), patrols); },
+                 [this](const std::string& why) { stop(why); },
+                 [this](const Goal& goal) {
+                   const std::string why = refusal();
+                   return why.empty() ? zones_.refusal({goal}) : why;
+                 }}),
+        zones_(node, identity_.map_frame, [this](bool were_known) { heed_zones(were_known); }),
         parameters_(values_,
                     [this](const ParameterTable& changed) { planning_.set_options(changed); }),
         loop_(node, identity_.name, values.number("period"), [this](ros::Time now) { step(now); }),
@@ -94,31 +100,19 @@ class GlobalPlannerNode {
  private:
   // --- what comes in ---
 
-  void on_followed(const mocha_ugv::Trajectory& message) {
-    try {
-      executive_.follow(from_message(message));
-    } catch (const std::exception& error) {
-      ++refused_;
-      ROS_WARN_THROTTLE(1.0, "Refused a message on local_trajectory: %s", error.what());
-    }
+  void take(std::deque<Goal> goals, bool patrols) {
+    executive_.take(std::move(goals), committed_.motion(), now_.toSec(), patrols);
   }
 
-  void on_request(const mocha_ugv::PlannerStatus& status) {
+  /// Goals in a zone that is not to be entered are given up, plans are made anew; a robot in such a
+  /// zone that has no goal leaves it.
+  void heed_zones(bool may_leave) {
+    const std::string why = zones_.refusal(executive_.goals().left());
+    if (!why.empty()) stop("the goal is given up: " + why);
     executive_.request();
-    request_ = status.message;
-  }
-
-  void on_replanner(const mocha_ugv::ReplannerStatus& message) {
-    try {
-      planning_.hear_replanner(from_message(message.status), ros::Time::now().toSec());
-    } catch (const std::exception& error) {
-      ++refused_;
-      ROS_WARN_THROTTLE(1.0, "Refused a message on replanner_status: %s", error.what());
-    }
-  }
-
-  void take(std::deque<Goal> goals) {
-    executive_.take(std::move(goals), committed_.motion(), now_.toSec());
+    const bool rests = executive_.idle() && executive_.state() != ExecutiveState::kPaused;
+    if (may_leave && rests && !stop_.stopped() && !zones_.exit().empty())
+      take({Goal{zones_.exit().back(), std::nullopt}}, false);
   }
 
   bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
@@ -158,7 +152,10 @@ class GlobalPlannerNode {
       return false;
     }
     if (!executive_.idle()) inputs_.feedback(*reading.state, now_);
+    const auto before = executive_.goals().progress();
     show(planning_.step(now_.toSec(), *reading.state, committed_.motion(), scenes()));
+    if (!executive_.idle() && !(executive_.goals().progress() == before))
+      ROS_INFO("%s: reached %s", identity_.name.c_str(), before.words().c_str());
     return true;
   }
 
@@ -180,17 +177,20 @@ class GlobalPlannerNode {
   /// while there is no map.
   SceneSource scenes() {
     if (!map_.available()) return {};
-    return [this, peers = peers_.obstacles()](const std::vector<Vector2>& places) {
-      return PlanningScene{map_.static_map(places, kMapBorder_m), peers, [this, places] {
-                             return map_.field(DistanceField::Solid::kOccupiedOrUnknown, places,
-                                               kMapBorder_m);
-                           }};
+    return [this, peers = peers_.obstacles(),
+            slow = zones_.speed_zones(model_)](const std::vector<Vector2>& places) {
+      const auto unseen = [this, places] {
+        return map_.field(DistanceField::Solid::kOccupiedOrUnknown, places, kMapBorder_m);
+      };
+      return PlanningScene{map_.static_map(places, kMapBorder_m), peers, unseen, slow};
     };
   }
 
   /// The way to the charger is not for those to stop whose goals are refused.
   void stop(const std::string& why) {
-    if (refusal().empty()) drop(why);
+    if (!refusal().empty()) return;
+    inputs_.finish(false, why);
+    drop(why);
   }
 
   void drop(const std::string& why) {
@@ -202,20 +202,18 @@ class GlobalPlannerNode {
   std::string refusal() const { return stop_.stopped() ? stop_.reason() : battery_.reason(); }
 
   PlanService::Work work_on(const PlanService::Request& request) {
-    PlanResult refusal;
-    refusal.reason = PlanReason::kInvalidInput;
     const bool from_here = request.start.header.frame_id.empty();
     const auto goal = inputs_.to_goal(request.goal);
     const auto start = from_here ? std::nullopt : inputs_.to_goal(request.start);
-    if (!goal || (!from_here && !start)) {
-      refusal.message = "start or goal is not usable: " + inputs_.refusal();
-      return [refusal](const auto&) { return refusal; };
-    }
-    if (!map_.available() || (from_here && committed_.motion().empty())) {
-      refusal.reason = map_.available() ? PlanReason::kNoPose : PlanReason::kNoMap;
-      refusal.message = map_.available() ? "the robot's state is not known yet" : "no map yet";
-      return [refusal](const auto&) { return refusal; };
-    }
+    if (!goal || (!from_here && !start))
+      return PlanService::refusal(PlanReason::kInvalidInput,
+                                  "start or goal is not usable: " + inputs_.refusal());
+    const std::string kept_out = zones_.refusal({*goal});
+    if (!kept_out.empty())
+      return PlanService::refusal(PlanReason::kGoalOccupied, "the goal: " + kept_out);
+    if (!map_.available()) return PlanService::refusal(PlanReason::kNoMap, "no map yet");
+    if (from_here && committed_.motion().empty())
+      return PlanService::refusal(PlanReason::kNoPose, "the robot's state is not known yet");
     const double now_s = now_.toSec();
     const Motion from =
         start ? Motion(now_s, {StandPhase{{start->position, start->yaw_rad.value_or(0.0)}, 0.1}})
@@ -255,7 +253,7 @@ class GlobalPlannerNode {
   }
 
   void report(PlanReason reason, const Violation& violation, const std::string& text) {
-    outputs_.report(reason, violation, text, now_);
+    outputs_.report(reason, violation, text, executive_.goals().progress(), now_);
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -272,11 +270,11 @@ class GlobalPlannerNode {
     status.add("turns on the spot in (m)", turning_room_m(model_));
     outputs_.diagnose(status);
     status.add("switches to another class of paths", class_switches_);
-    status.add("last request", request_);
+    status.add("last request", replanner_.last_request());
     status.add("parameter changes refused", parameters_.refused());
-    status.add("messages refused", refused_ + committed_.refused() + inputs_.refused() +
+    status.add("messages refused", replanner_.refused() + committed_.refused() + inputs_.refused() +
                                        map_.refused() + peers_.refused() + pose_.refused() +
-                                       passing_.refused());
+                                       passing_.refused() + zones_.refused());
   }
 
   const RobotIdentity identity_;
@@ -294,15 +292,12 @@ class GlobalPlannerNode {
   PlannerOutputs outputs_;
   PassingMessages passing_;
   ros::Time now_;
-  std::string request_;
   int class_switches_ = 0;
-  int refused_ = 0;
-  ros::Subscriber followed_;
-  ros::Subscriber requests_;
-  ros::Subscriber replanner_;
+  ReplannerListener replanner_;
   ros::ServiceServer pauses_;
   diagnostic_updater::Updater diagnostics_;
   GoalInputs inputs_;
+  ZoneSource zones_;
   LiveParameters parameters_;
   StepLoop loop_;
   PlanService service_;

@@ -14,6 +14,7 @@
 #include "ros_bridge/inputs/peer_source.h"
 #include "ros_bridge/inputs/pose_source.h"
 #include "ros_bridge/inputs/prediction_source.h"
+#include "ros_bridge/inputs/zone_source.h"
 #include "ros_bridge/messages/committed_trajectory_conversions.h"
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/status_conversions.h"
@@ -51,6 +52,7 @@ class LocalReplannerNode {
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         map_(node, identity_.map_frame),
         peers_(node, identity_.name, identity_.map_frame),
+        zones_(node, identity_.map_frame),
         predictions_(node, identity_.map_frame),
         risk_(RiskOptions::from(values, model_)),
         local_(node, identity_, model_, values.number("prediction_horizon")),
@@ -138,6 +140,7 @@ class LocalReplannerNode {
         local_scene(map_.static_map({here}, kMapBorder_m),
                     map_.field(DistanceField::Solid::kOccupiedOrUnknown, {here}, kMapBorder_m));
     scene.peers = peers_.obstacles();
+    scene.speed_zones = zones_.speed_zones(model_);
     const Predictions& predictions = predictions_.newest();
     confidence_ = confidence_of_each(predictions, here, risk_);
     scene.confident = confident_discs(predictions, confidence_, risk_);
@@ -217,7 +220,7 @@ class LocalReplannerNode {
     status.add("proposals refused", replanning_.refused());
     status.add("last refusal", replanning_.refusal());
     status.add("messages refused", refused_messages_ + map_.refused() + peers_.refused() +
-                                       pose_.refused() + predictions_.refused());
+                                       pose_.refused() + predictions_.refused() + zones_.refused());
     for (const auto& [name, value] : MarginBudget::of(model_).listed()) status.add(name, value);
   }
 
@@ -230,6 +233,7 @@ class LocalReplannerNode {
   PoseSource pose_;
   MapSource map_;
   PeerSource peers_;
+  ZoneSource zones_;
   PredictionSource predictions_;
   RiskOptions risk_;
   double confidence_ = 0.0;  // that the newest risk asks of each prediction

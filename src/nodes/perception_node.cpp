@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
@@ -25,6 +26,7 @@
 #include "ros_bridge/inputs/peer_motions.h"
 #include "ros_bridge/inputs/scan_queue.h"
 #include "ros_bridge/inputs/sensor_watch.h"
+#include "ros_bridge/inputs/zone_controls.h"
 #include "ros_bridge/messages/map_conversions.h"
 #include "ros_bridge/messages/prediction_conversions.h"
 #include "ros_bridge/messages/sensor_conversions.h"
@@ -37,7 +39,6 @@
 #include "ros_bridge/runtime/transport.h"
 #include "world/margin_budget.h"
 #include "world/robot_model.h"
-#include "world/world_file.h"
 
 namespace mocha {
 namespace {
@@ -59,7 +60,8 @@ class PerceptionNode {
         timeout_s_(values.number("scan_timeout")),
         queue_(robot_.map_frame, values.number("integration_rate"), timeout_s_),
         listener_(transforms_, node, false, at_once()),
-        maps_(node, robot_.map_frame, keep_out(values)),
+        maps_(node, robot_.map_frame),
+        zones_(node, robot_, model_, values),
         cells_(node.advertise<sensor_msgs::PointCloud2>("occupied_cells", 1)),
         moving_(node.advertise<mocha_ugv::PredictedObstacles>("predicted_obstacles", 5)),
         scans_(node.subscribe("scan", 20, &PerceptionNode::on_scan, this, at_once())),
@@ -68,7 +70,9 @@ class PerceptionNode {
             node.subscribe("fleet/trajectories", 10, &PerceptionNode::on_fleet, this, at_once())),
         services_{node.advertiseService("save_map", &PerceptionNode::on_save, this),
                   node.advertiseService("load_map", &PerceptionNode::on_load, this),
-                  node.advertiseService("clear_map", &PerceptionNode::on_clear, this)},
+                  node.advertiseService("clear_map", &PerceptionNode::on_clear, this),
+                  node.advertiseService("move_base/clear_costmaps",
+                                        &PerceptionNode::on_clear_costmaps, this)},
         parameters_(values_),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
     if (!values.text("map_file").empty()) map_.load(values.text("map_file"));
@@ -80,14 +84,10 @@ class PerceptionNode {
     diagnostics_.add("sensor faults", &sensors_, &SensorWatch::diagnose);
     diagnostics_.add("map", this, &PerceptionNode::diagnose_map);
     diagnostics_.add("moving things", this, &PerceptionNode::diagnose_moving);
+    diagnostics_.add("zones", &zones_, &ZoneControls::diagnose);
   }
 
  private:
-  static std::vector<Polygon> keep_out(const ParameterTable& values) {
-    const std::string& file = values.text("keep_out_file");
-    return file.empty() ? std::vector<Polygon>() : load_world(file, config_path("")).keep_out;
-  }
-
   void on_scan(const sensor_msgs::LaserScan& scan) {
     queue_.add(scan, ros::Time::now(), refusals_);
   }
@@ -113,6 +113,7 @@ class PerceptionNode {
     for (const Measurement& measurement : queue_.take_ready(transforms_, now, refusals_)) {
       integrate(measurement);
     }
+    zones_.step(now, base_at({}), map_, maps_);
     maps_.publish(map_, now, stamp_, values_.number("map_rate"), values_.number("map_border"));
     publish_cells();
     refusals_.warn();
@@ -132,6 +133,7 @@ class PerceptionNode {
   void integrate(const Measurement& measurement) {
     try {
       const auto base = base_at(measurement.last);
+      robot_seen_ = base.has_value();
       clear_peers(measurement.last);
       if (const auto* scan = std::get_if<PlanarScan>(&measurement.data)) {
         auto beams = to_beams(smoothed(*scan, values_.number("smoothing_reach")), measurement.poses,
@@ -166,8 +168,7 @@ class PerceptionNode {
   }
 
   std::optional<Pose> base_at(ros::Time time) {
-    robot_seen_ = transforms_.canTransform(robot_.map_frame, robot_.base_frame, time);
-    if (!robot_seen_) return std::nullopt;
+    if (!transforms_.canTransform(robot_.map_frame, robot_.base_frame, time)) return std::nullopt;
     return planar_pose(
         transforms_.lookupTransform(robot_.map_frame, robot_.base_frame, time).transform);
   }
@@ -209,6 +210,12 @@ class PerceptionNode {
       filter_.clear();
       if (const auto base = base_at({})) map_.see_robot(*base, start_ground_.under_body(), {});
     });
+  }
+
+  /// As move_base has it.
+  bool on_clear_costmaps(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+    std_srvs::Trigger call;
+    return on_clear(call.request, call.response) && call.response.success;
   }
 
   template <class Response, class Work>
@@ -290,6 +297,7 @@ class PerceptionNode {
   tf2_ros::TransformListener listener_;
   diagnostic_updater::Updater diagnostics_;
   MapOutputs maps_;
+  ZoneControls zones_;
   ros::Publisher cells_;
   ros::Publisher moving_;
   ros::Subscriber scans_;

@@ -9,6 +9,7 @@
 #include "world/obstacle_field.h"
 #include "world/robot_model.h"
 #include "world/speed_margin.h"
+#include "world/speed_zones.h"
 
 namespace mocha {
 
@@ -20,6 +21,9 @@ namespace mocha {
 /// Speed, acceleration, yaw rate and direction of drives; yaw rate and yaw acceleration of turns in
 /// place.
 Violation check_limits(const Motion& motion, const MotionLimits& limits, double from_s);
+
+/// Speed in the zones. Motions within 1 mm/s of a zone's limit may be refused, too.
+Violation check_speed_zones(const Motion& motion, const SpeedZones& zones, double from_s);
 
 /// What the footprint keeps to the obstacles of the field at a pose [m], never overstated; below 0
 /// where it overlaps them, or its cover does.

@@ -29,8 +29,10 @@ Violation certify(const Motion& motion, const Footprint& footprint, const Scene&
       std::isfinite(requirement.from_s) ? requirement.from_s : motion.start_time();
   First first;
   if (requirement.limits) {
-    first.consider(
-        check_limits(motion, *requirement.limits, std::max(from_s, requirement.limits_from_s)));
+    const double limits_from_s = std::max(from_s, requirement.limits_from_s);
+    first.consider(check_limits(motion, *requirement.limits, limits_from_s));
+    if (scene.speed_zones)
+      first.consider(check_speed_zones(motion, *scene.speed_zones, limits_from_s));
   }
   first.consider(check_clearance_or_leaving(motion, footprint, *scene.obstacles,
                                             requirement.obstacle_margin, requirement.leaving,

@@ -57,7 +57,7 @@ const char* to_text(RequirementName name);
 /// What a motion must keep in order to be certified. A value: the named ones come from
 /// Requirements, and a caller sets the stretch of time.
 struct Requirement {
-  std::optional<MotionLimits> limits;  ///< none: not asked
+  std::optional<MotionLimits> limits;  ///< with those of speed zones; none: not asked
   SpeedMargin obstacle_margin;         ///< of the footprint, to occupied space
   /// Of the footprint, to space that was never seen; none: such space counts as free.
   std::optional<SpeedMargin> unseen_margin;

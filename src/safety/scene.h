@@ -5,6 +5,7 @@
 
 #include "world/moving_obstacle.h"
 #include "world/obstacle_field.h"
+#include "world/speed_zones.h"
 
 namespace mocha {
 
@@ -18,7 +19,8 @@ struct Scene {
   std::vector<std::shared_ptr<const MovingObstacle>> confident = {};
   /// ... and discs on their most likely course; empty where `confident` stands for both.
   std::vector<std::shared_ptr<const MovingObstacle>> likely = {};
-  double predicted_until_s = 0.0;  ///< later, predictions say nothing
+  double predicted_until_s = 0.0;                      ///< later, predictions say nothing
+  std::shared_ptr<const SpeedZones> speed_zones = {};  ///< null: none
 };
 
 }  // namespace mocha

@@ -31,6 +31,8 @@ Wording wording(ViolatedTerm term) {
       return {"wheel speed", "m/s", false, ""};
     case ViolatedTerm::kSpeedBackward:
       return {"speed backward", "m/s", false, ""};
+    case ViolatedTerm::kZoneSpeed:
+      return {"speed in zone", "m/s", false, ""};
     case ViolatedTerm::kNothing:
       break;
   }
@@ -50,7 +52,10 @@ std::string in_words(const BasicViolation<D>& violation) {
   if (!violation) return "no violation";
   const Wording words = wording(violation.term);
   std::string quantity = words.quantity;
-  if (!violation.peer.empty()) quantity += " to " + violation.peer;
+  if (violation.term == ViolatedTerm::kZoneSpeed)
+    quantity += " `" + violation.peer + "`";
+  else if (!violation.peer.empty())
+    quantity += " to " + violation.peer;
   if (std::isinf(violation.value)) quantity = words.jump + quantity;
   const int digits = decimals(violation.value, violation.limit);
   char text[256];

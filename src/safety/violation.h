@@ -16,6 +16,7 @@ enum class ViolatedTerm {
   kUnseenSpace,    ///< cannot stop inside space that was seen free
   kWheelSpeed,     ///< [m/s] of the faster wheel
   kSpeedBackward,  ///< [m/s] of a base that cannot drive backward
+  kZoneSpeed,      ///< [m/s] in a speed zone
 };
 
 /// The first moment at which something that moves in D dimensions breaks a limit; false if there is
@@ -31,7 +32,7 @@ struct BasicViolation {
   /// velocity or heading jump.
   double value = 0.0;
   double limit = 0.0;  ///< in the unit of the term; a minimum for distances, a maximum otherwise
-  std::string peer;    ///< kSeparation: name of the moving obstacle
+  std::string peer;    ///< kSeparation: name of the moving obstacle; kZoneSpeed: of the zone
 
   explicit operator bool() const { return term != ViolatedTerm::kNothing; }
 };

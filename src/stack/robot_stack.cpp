@@ -113,7 +113,7 @@ RobotStack::Messages RobotStack::pursue(double now_s, const RobotState& measured
                                         const PlanningScene& scene) {
   refresh_peers(now_s);
   pursued_ = planning_.step(now_s, measured, committed(), [&](const std::vector<Vector2>&) {
-    return PlanningScene{scene.static_map, peers_, scene.unseen};
+    return PlanningScene{scene.static_map, peers_, scene.unseen, scene.speed_zones};
   });
   if (pursued_.plan) replanning_.set_plan(*pursued_.plan, pursued_.kind);
   Messages messages;

@@ -25,16 +25,6 @@ Circle read_circle(const YamlReader& reader) {
   return {Vector2(values[0].number(), values[1].number()), values[2].positive()};
 }
 
-/// A last corner that repeats the first only says that the polygon is closed, which all are.
-Polygon read_polygon(const YamlReader& reader) {
-  Polygon polygon{reader.points()};
-  auto& corners = polygon.corners;
-  if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
-  const std::string fault = fault_of(polygon);
-  if (!fault.empty()) reader.refuse(fault);
-  return polygon;
-}
-
 /// There from the first of its keyframes to the last only.
 Mover read_keyframed(const YamlReader& reader) {
   for (const char* key : {"speed", "loop", "path"}) {
@@ -190,8 +180,7 @@ Mover along_path(double radius_m, double speed_mps, bool loop, std::vector<Vecto
 
 World load_world(const std::string& path, const std::string& config_directory) {
   const YamlReader reader = YamlReader::file(path);
-  reader.allow_keys(
-      {"bounds", "optimal_time", "circles", "polygons", "keep_out", "moving", "robots"});
+  reader.allow_keys(kWorldKeys);
   const auto list = [&](const char* key) {
     return reader.has(key) ? reader.at(key).items() : std::vector<YamlReader>{};
   };
@@ -199,8 +188,8 @@ World load_world(const std::string& path, const std::string& config_directory) {
   world.bounds = read_bounds(reader.at("bounds"));
   if (reader.has("optimal_time")) world.optimal_time_s = reader.at("optimal_time").positive();
   for (const auto& item : list("circles")) world.circles.push_back(read_circle(item));
-  for (const auto& item : list("polygons")) world.polygons.push_back(read_polygon(item));
-  for (const auto& item : list("keep_out")) world.keep_out.push_back(read_polygon(item));
+  for (const auto& item : list("polygons")) world.polygons.push_back(item.polygon());
+  world.zones = read_zones(reader);
   for (const auto& item : list("moving")) world.moving.push_back(read_mover(item));
   for (const auto& item : list("robots")) {
     const WorldRobot robot = read_robot(item, world, config_directory);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <initializer_list>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -9,8 +10,13 @@
 #include "world/goal.h"
 #include "world/obstacle.h"
 #include "world/robot_model.h"
+#include "world/zones.h"
 
 namespace mocha {
+
+/// All that a world file may hold.
+inline constexpr std::initializer_list<const char*> kWorldKeys = {
+    "bounds", "optimal_time", "circles", "polygons", "keep_out", "speed_zones", "moving", "robots"};
 
 /// A world file cannot be used. what() names file, key and value in one line.
 class WorldError : public std::runtime_error {
@@ -57,7 +63,7 @@ struct World {
       optimal_time_s;  ///< of BARN worlds: they count as reached within 1 m of the goal
   std::vector<Circle> circles;
   std::vector<Polygon> polygons;
-  std::vector<Polygon> keep_out;  ///< not solid, but not to be entered
+  Zones zones;  ///< not solid
   std::vector<Mover> moving;
   std::vector<WorldRobot> robots;
 };

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "world/world_file.h"
@@ -40,16 +42,22 @@ YamlReader::YamlReader(std::string file, std::string key, YAML::Node node)
     : file_(std::move(file)), key_(std::move(key)), node_(std::move(node)) {}
 
 YamlReader YamlReader::file(const std::string& path) {
+  const std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw WorldError(path + ": cannot be read");
+  return document(text.str(), path);
+}
+
+YamlReader YamlReader::document(const std::string& text, const std::string& source) {
   YAML::Node root;
   try {
-    root = YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    throw WorldError(path + ": cannot be read");
+    root = YAML::Load(text);
   } catch (const YAML::Exception& error) {
-    throw WorldError(path + ": is not valid YAML: " + one_line(error.what()));
+    throw WorldError(source + ": is not valid YAML: " + one_line(error.what()));
   }
-  if (!root.IsMap()) throw WorldError(path + ": is not a map of names to values");
-  return YamlReader(path, "", root);
+  if (!root.IsMap()) throw WorldError(source + ": is not a map of names to values");
+  return YamlReader(source, "", root);
 }
 
 void YamlReader::allow_keys(std::initializer_list<const char*> keys) const {
@@ -130,6 +138,15 @@ std::vector<Vector2> YamlReader::points() const {
   std::vector<Vector2> list;
   for (const YamlReader& item : items()) list.push_back(item.point());
   return list;
+}
+
+Polygon YamlReader::polygon() const {
+  Polygon polygon{points()};
+  auto& corners = polygon.corners;
+  if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+  const std::string fault = fault_of(polygon);
+  if (!fault.empty()) refuse(fault);
+  return polygon;
 }
 
 void YamlReader::refuse(const std::string& why) const {

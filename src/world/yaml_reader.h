@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "trajectory/piecewise_polynomial.h"
+#include "world/obstacle.h"
 
 namespace mocha {
 
@@ -16,6 +16,8 @@ class YamlReader {
  public:
   /// The whole file, which must be a map.
   static YamlReader file(const std::string& path);
+  /// The same of a text; `source` stands for the file in errors.
+  static YamlReader document(const std::string& text, const std::string& source);
 
   /// Refuses keys that are not listed, or stand twice, and anything that is not a map.
   void allow_keys(std::initializer_list<const char*> keys) const;
@@ -34,6 +36,8 @@ class YamlReader {
   std::string path() const;             ///< of a file; relative ones begin where this file is
   Vector2 point() const;                ///< [x, y]
   std::vector<Vector2> points() const;  ///< [[x, y], ...]
+  /// A simple one. A last corner that repeats the first only says that it is closed, which all are.
+  Polygon polygon() const;
 
   /// Throws WorldError: "<file>: <key> = <value>: <why>".
   [[noreturn]] void refuse(const std::string& why) const;

@@ -32,7 +32,8 @@ Task world_task(const std::string& path, const std::string& config) {
     throw std::runtime_error(path + ": has no robot with a goal");
   std::vector<Obstacle> obstacles(world.circles.begin(), world.circles.end());
   obstacles.insert(obstacles.end(), world.polygons.begin(), world.polygons.end());
-  obstacles.insert(obstacles.end(), world.keep_out.begin(), world.keep_out.end());
+  const std::vector<Polygon> keep_out = kept_out_of(world.zones);
+  obstacles.insert(obstacles.end(), keep_out.begin(), keep_out.end());
   const auto field = std::make_shared<PrimitiveField<2>>(std::move(obstacles), 1.0);
   const WorldRobot& robot = world.robots.front();
   return {std::make_shared<PrimitiveStaticMap>(field, world.bounds), robot.model, robot.start,

@@ -13,6 +13,7 @@
 #include "optimization/one_sample.h"
 #include "optimization/turning_penalty.h"
 #include "optimization/wheel_penalty.h"
+#include "optimization/zone_speed_penalty.h"
 #include "safety/circle_field.h"
 #include "trajectory/rover_braking.h"
 
@@ -75,6 +76,38 @@ TEST(Cubic, IsZeroUpToZero) {  // paper (31)
   EXPECT_EQ(cubic(0.0).slope, 0.0);
   EXPECT_DOUBLE_EQ(cubic(2.0).value, 8.0);
   EXPECT_DOUBLE_EQ(cubic(2.0).slope, 12.0);
+}
+
+std::shared_ptr<const SpeedZones> slow_square(double since_s) {
+  const Zone zone{"slow", Polygon{{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}}, 0.4};
+  return SpeedZones::of({zone}, load_robot_model("config", "rover"), since_s);
+}
+
+TEST(ZoneSpeedPenalty, HasTheValuesOfHand) {
+  const ZoneSpeedPenalty penalty(10.0, slow_square(-100.0), 0.0, 1.0, 0.5);
+  EXPECT_EQ(value_of(penalty, sample_at(kZero, {0.4, 0.0}, kZero)), 0.0);
+  EXPECT_NEAR(value_of(penalty, sample_at(kZero, {0.0, 0.8}, kZero)), 10.0 * 27.0, 1e-9);
+  const double rim = 1.0 + slow_square(0.0)->reach_m();
+  // w^2 = 0.16 + 4 * 0.5 * 0.08 = 0.32
+  EXPECT_NEAR(value_of(penalty, sample_at({rim + 0.08, 0.0}, {0.8, 0.0}, kZero)), 10.0, 1e-9);
+  EXPECT_EQ(value_of(penalty, sample_at({rim + 0.25, 0.0}, {0.8, 0.0}, kZero)), 0.0);
+  EXPECT_EQ(penalty.wanted(piece_of(sample_at({9.0, 0.0}, {0.8, 0.0}, kZero)).bounds), kNone);
+  EXPECT_EQ(penalty.wanted(piece_of(sample_at(kZero, {0.3, 0.0}, kZero)).bounds), kNone);
+}
+
+TEST(ZoneSpeedPenalty, GradientIsExact) {
+  const ZoneSpeedPenalty in_force(3.0, slow_square(-100.0), 0.0, 0.97, 0.5);
+  const ZoneSpeedPenalty comes(3.0, slow_square(-SpeedZones::kNotice_s), 0.0, 0.97, 0.5);
+  RandomSamples samples;
+  int counted = 0;
+  for (int i = 0; i < 300; ++i) {
+    Sample sample = samples.next(0.9);
+    sample.time_s *= 0.2;
+    counted += value_of(in_force, sample) > 0.0;
+    expect_gradient(in_force, sample, 1e-6, 1e-4);
+    expect_gradient(comes, sample, 1e-6, 1e-4);
+  }
+  EXPECT_GT(counted, 100);
 }
 
 TEST(DynamicsPenalty, HasTheValuesOfHand) {  // paper (32)

@@ -11,8 +11,10 @@ from geometry_msgs.msg import PoseStamped
 from mocha_ugv.msg import PlannerStatus
 from mocha_ugv.srv import PlanTrajectory
 from nav_msgs.msg import Path
-from std_srvs.srv import SetBool
+from nav_msgs.srv import GetPlan
+from std_srvs.srv import Empty, SetBool
 
+from map_listener import MapListener
 from simulated_robot import SimulatedRobot, pose, wrap
 
 LANE_Y = -1.5  # free from end to end
@@ -27,6 +29,12 @@ class GoalsTest(unittest.TestCase):
         cls.robot = SimulatedRobot()
         cls.waypoints = rospy.Publisher("/ugv1/waypoints", Path, queue_size=1)
         cls.plan = rospy.ServiceProxy("/ugv1/plan", PlanTrajectory)
+        cls.patrols = rospy.Publisher("/ugv1/patrol", Path, queue_size=1)
+        cls.make_plan = rospy.ServiceProxy("/ugv1/move_base/make_plan", GetPlan)
+        cls.clear_costmaps = rospy.ServiceProxy("/ugv1/move_base/clear_costmaps", Empty)
+        cls.statuses = []
+        rospy.Subscriber("/ugv1/planner_status", PlannerStatus, cls.statuses.append)
+        cls.maps = MapListener()
         cls.pause = rospy.ServiceProxy("/ugv1/pause", SetBool)
         cls.robot.start()
 
@@ -51,6 +59,7 @@ class GoalsTest(unittest.TestCase):
         answer = plan(PoseStamped(), pose(0.0, LANE_Y))
         self.assertTrue(answer.success, answer.status.message)
         self.assertEqual(answer.status.reason, PlannerStatus.SOLVED)
+        self.assertRegex(answer.message, r"^reaches \(0\.0, -1\.5\): \d+\.\d m in \d+\.\d s; classes of paths: \d+, certified: \d+")
         phases = answer.trajectory.phases
         self.assertLess(math.dist((phases[0].x[0], phases[0].y[0]), place), 0.1)
         self.assertLess(math.dist((phases[-1].x[-1], phases[-1].y[-1]), (0.0, LANE_Y)), 0.1)
@@ -60,6 +69,43 @@ class GoalsTest(unittest.TestCase):
         refused = plan(PoseStamped(), pose(float("nan"), 0.0))
         self.assertFalse(refused.success)
         self.assertEqual(refused.status.reason, PlannerStatus.INVALID_INPUT)
+        self.assertRegex(refused.message, "^no plan: invalid input: .*not finite")
+        self.check_stands()
+
+    def test_services_of_move_base(self):
+        place = self.robot.place()
+        path = self.make_plan(PoseStamped(), pose(0.0, LANE_Y), 0.0).plan
+        self.assertEqual(path.header.frame_id, "map")
+        ends = [(each.pose.position.x, each.pose.position.y) for each in (path.poses[0], path.poses[-1])]
+        self.assertLess(math.dist(ends[0], place), 0.1)
+        self.assertLess(math.dist(ends[1], (0.0, LANE_Y)), 0.1)
+        self.assertEqual(self.make_plan(PoseStamped(), pose(float("nan"), 0.0), 0.0).plan.poses, [])
+        before = len(self.maps.grids)
+        self.clear_costmaps()
+        self.robot.run_until(lambda: len(self.maps.grids) > before, 3.0, "a cleared map is published")
+        self.check_stands()
+
+    def test_patrol_until_there_is_another_goal(self):
+        places = [(-3.0, -2.5), (-4.2, -1.0)]
+        path = Path(poses=[pose(*place) for place in places])
+        path.header.frame_id = "map"
+        self.patrols.publish(path)
+        for lap in (1, 2):
+            for i, place in enumerate(places):
+                self.robot.run_until(lambda: self.robot.distance_to(*place) < 0.15 and self.robot.standing(), 30.0,
+                                     "waypoint %d of lap %d" % (i + 1, lap))
+                self.robot.run(0.5)
+        self.assertTrue(self.robot.said("reached waypoint 2 of 2, lap 2"))
+        named = [(status.waypoint, status.waypoints, status.lap) for status in self.statuses]
+        for each in ((1, 2, 1), (2, 2, 1), (1, 2, 2), (2, 2, 2)):
+            self.assertIn(each, named)
+        self.assertTrue(any(status.message.startswith("waypoint 2 of 2, lap 2: ") for status in self.statuses))
+        self.patrols.publish(Path())
+        self.robot.run_until(self.robot.standing, 5.0, "it stands")
+        self.check_stands()
+        self.assertEqual(self.statuses[-1].waypoint, 0)
+        self.patrols.publish(Path(header=path.header, poses=path.poses[:1]))
+        self.robot.run_until(lambda: self.robot.said("a patrol needs at least two waypoints"), 3.0, "it is refused")
         self.check_stands()
 
     def test_goal_with_heading(self):

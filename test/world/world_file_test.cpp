@@ -87,8 +87,8 @@ robots:
   EXPECT_EQ(world.circles[1].radius_m, 0.25);
   ASSERT_EQ(world.polygons.size(), 1u);
   EXPECT_EQ(world.polygons[0].corners[2], Vector2(5.0, -2.0));
-  ASSERT_EQ(world.keep_out.size(), 1u);
-  EXPECT_EQ(world.keep_out[0].corners.size(), 4u);  // closed explicitly
+  ASSERT_EQ(world.zones.size(), 1u);
+  EXPECT_EQ(world.zones[0].area.corners.size(), 4u);  // closed explicitly
   ASSERT_EQ(world.moving.size(), 4u);
   EXPECT_EQ(world.moving[0].after_last, AfterLast::kRepeats);
   ASSERT_EQ(world.moving[0].keyframes.size(), 3u);

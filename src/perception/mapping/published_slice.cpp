@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mocha {
 namespace {
@@ -18,11 +19,24 @@ CornerWindow grown_for(const CornerWindow& cells, const CornerWindow& needed, in
 
 }  // namespace
 
+void PublishedSlice::mark(std::vector<Polygon> keep_out, Strip open) {
+  keep_out_ = std::move(keep_out);
+  open_ = std::move(open);
+  marks_changed_ = true;
+}
+
 PublishedSlice::Change PublishedSlice::update(OccupancyMap& map, double border_m) {
   const double cell_m = map.options().resolution_m;
   const bool is_same_map = map.replaced() == replaced_;
   std::vector<CornerWindow> changes = map.take_changes();
-  if (!is_same_map) find_zones(cell_m);
+  const CornerWindow marked_before = zones_around_;
+  const bool is_marked_anew = std::exchange(marks_changed_, false);
+  if (!is_same_map || is_marked_anew) find_zones(cell_m);
+  if (is_marked_anew) {
+    for (const CornerWindow& marked : {marked_before, zones_around_}) {
+      if (!marked.empty()) changes.push_back(marked);
+    }
+  }
   const int border = static_cast<int>(std::ceil(border_m / cell_m));
   const CornerWindow needed = map.known_cells().grown(border).united(zones_around_);
   const int headroom = static_cast<int>(std::ceil(kHeadroom_m / cell_m));
@@ -66,6 +80,7 @@ void PublishedSlice::find_zones(double resolution_m) {
     for (int y = 0; y < raster.height; ++y) {
       for (int x = 0; x < raster.width; ++x) {
         if (raster.at(x, y) != OccupancyGrid::kOccupied) continue;
+        if (open_.covers(raster.cell_centre(x, y))) continue;
         const Run run{first.y() + y, first.x() + x, first.x() + x};
         const bool goes_on =
             !zones_.empty() && zones_.back().y == run.y && zones_.back().x1 + 1 == run.x0;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "perception/mapping/occupancy_map.h"
+#include "perception/mapping/zone_exit.h"
 #include "world/corner_window.h"
 #include "world/obstacle.h"
 #include "world/occupancy_grid.h"
@@ -19,13 +20,15 @@ class PublishedSlice {
     std::vector<CornerWindow> windows;  ///< else: cells of the grid, both ends included
   };
 
-  /// Zones look occupied, seen or not.
-  explicit PublishedSlice(std::vector<Polygon> keep_out = {}) : keep_out_(std::move(keep_out)) {}
+  /// From the next update on, these areas look occupied, seen or not, but for an open strip.
+  void mark(std::vector<Polygon> keep_out, Strip open = {});
 
   /// At least `border_m` of unknown cells are around what is known. The grid grows by more than it
   /// must, so that a map that is being made does not change its size with every scan.
   Change update(OccupancyMap& map, double border_m);
 
+  /// Whether areas are marked or opened that the grid does not show yet.
+  bool marks_changed() const { return marks_changed_; }
   const OccupancyGrid& grid() const { return grid_; }
 
  private:
@@ -38,6 +41,8 @@ class PublishedSlice {
   void copy(const OccupancyMap& map, const CornerWindow& cells);
 
   std::vector<Polygon> keep_out_;
+  Strip open_;
+  bool marks_changed_ = false;
   std::vector<Run> zones_;
   CornerWindow zones_around_{0, 0, -1, -1};
   OccupancyGrid grid_;

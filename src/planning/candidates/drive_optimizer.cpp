@@ -11,8 +11,10 @@
 #include "optimization/obstacle_penalty.h"
 #include "optimization/turning_penalty.h"
 #include "optimization/wheel_penalty.h"
+#include "optimization/zone_speed_penalty.h"
 #include "planning/candidates/path_clearance.h"
 #include "planning/candidates/start_maneuver.h"
+#include "planning/candidates/timed_guide.h"
 
 namespace mocha {
 namespace {
@@ -67,58 +69,10 @@ void undo(const Effort& effort, OptimizedTrajectory<2, 3>& found) {
   for (auto& [name, value] : found.terms) {
     if (name == "obstacle" || name == "clearance") value /= effort.obstacle_weight;
     if (name == "moving") value /= effort.moving_weight;
-    if (name == "dynamics" || name == "turning" || name == "wheels") value /= effort.limit_weight;
+    if (name == "dynamics" || name == "turning" || name == "wheels" || name == "zones")
+      value /= effort.limit_weight;
     found.cost += value;
   }
-}
-
-/// The path of a query whose times are given, and beyond its ends on with the velocities there.
-class TimedGuide {
- public:
-  explicit TimedGuide(const DriveQuery& query) : query_(query) {}
-
-  double duration_s() const { return query_.times_s.back(); }
-
-  /// Averaged over `window_s` about t. So speed and direction change gradually, also from and to
-  /// what they are at the ends.
-  Vector2 smooth(double t, double window_s) const {
-    constexpr int kParts = 16;
-    Vector2 sum = Vector2::Zero();
-    for (int i = 0; i <= kParts; ++i) sum += at(t + window_s * (i - kParts / 2) / kParts);
-    return sum / (kParts + 1);
-  }
-
- private:
-  Vector2 at(double t) const {
-    if (t <= 0.0) return query_.path.front() + t * query_.start.col(1);
-    if (t >= duration_s()) {
-      const Vector2 velocity = query_.rejoin ? Vector2(query_.rejoin->col(1)) : Vector2::Zero();
-      return query_.path.back() + (t - duration_s()) * velocity;
-    }
-    const auto later = std::upper_bound(query_.times_s.begin(), query_.times_s.end(), t);
-    const std::size_t i = later - query_.times_s.begin();
-    const double share = (t - query_.times_s[i - 1]) / (*later - query_.times_s[i - 1]);
-    return query_.path[i - 1] + share * (query_.path[i] - query_.path[i - 1]);
-  }
-
-  const DriveQuery& query_;
-};
-
-/// Knots at even times of a path whose times are given.
-InitialKnots<2> even_knots(const DriveQuery& query, int pieces, double window_s) {
-  const TimedGuide guide(query);
-  const double whole_s = guide.duration_s();
-  const Vector2 off_start = query.path.front() - guide.smooth(0.0, window_s);
-  const Vector2 off_end = query.path.back() - guide.smooth(whole_s, window_s);
-  InitialKnots<2> knots;
-  knots.path.resize(2, pieces + 1);
-  knots.durations_s.setConstant(pieces, whole_s / pieces);
-  for (int k = 0; k <= pieces; ++k) {
-    const double share = static_cast<double>(k) / pieces;
-    knots.path.col(k) =
-        guide.smooth(share * whole_s, window_s) + (1.0 - share) * off_start + share * off_end;
-  }
-  return knots;
 }
 
 }  // namespace
@@ -213,6 +167,11 @@ std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQu
   penalties.push_back(
       std::make_unique<TurningPenalty>(options_.weight_turning * effort.limit_weight,
                                        kShareOfYawRate * limits.max_yaw_rate, kSoftSpeed));
+  if (query.speed_zones) {
+    penalties.push_back(std::make_unique<ZoneSpeedPenalty>(
+        options_.weight_dynamics * effort.limit_weight, query.speed_zones, query.start_time_s,
+        kShareOfSpeed * effort.speed, limits.max_acceleration));
+  }
   if (!limits.wheels_are_ample()) {
     MotionLimits wheels = limits;
     wheels.max_wheel_speed *= kShareOfWheelSpeed;
@@ -265,9 +224,13 @@ InitialKnots<2> DriveOptimizer::initial_knots(const DriveQuery& query,
   MotionLimits limits = limits_of(query);
   limits.max_speed *= effort.speed;
   if (query.times_s.empty()) {
-    return spread_knots<2>(query.path, query.start.col(1).norm(), limits,
-                           effort.spacing * knot_spacing_m(query.path, field),
-                           [&](const Vector2& place) { return fastest_at(place, field); });
+    return spread_knots<2>(
+        query.path, query.start.col(1).norm(), limits,
+        effort.spacing * knot_spacing_m(query.path, field), [&](const Vector2& place) {
+          const double fastest = fastest_at(place, field);
+          return query.speed_zones ? std::min(fastest, query.speed_zones->fastest_at(place))
+                                   : fastest;
+        });
   }
   const double piece_s = effort.spacing * options_.knot_spacing_m / limits.max_speed;
   const double pieces = std::ceil(query.times_s.back() / piece_s);

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "world/obstacle_field.h"
 #include "world/robot_model.h"
 #include "world/speed_margin.h"
+#include "world/speed_zones.h"
 
 namespace mocha {
 
@@ -34,7 +36,8 @@ struct DriveQuery {
   /// Of a drive that was found before and nearly serves; the first attempt begins there instead of
   /// on the path.
   std::optional<InitialKnots<2>> found_before = std::nullopt;
-  int direction = 1;  ///< +1 forward, -1 backward
+  int direction = 1;                                   ///< +1 forward, -1 backward
+  std::shared_ptr<const SpeedZones> speed_zones = {};  ///< null: none
 };
 
 /// How hard the optimiser tries to satisfy the constraints; raised step by step where a result is

@@ -21,6 +21,7 @@ double slow_down(const Violation& violation) {
   const double excess = kSlowDownSlack * violation.value / violation.limit;
   switch (violation.term) {
     case ViolatedTerm::kSpeed:
+    case ViolatedTerm::kZoneSpeed:
     case ViolatedTerm::kYawRate:
     case ViolatedTerm::kWheelSpeed:
       return excess;

@@ -9,6 +9,7 @@
 #include "topology/static_map/static_map.h"
 #include "trajectory/motion.h"
 #include "world/moving_obstacle.h"
+#include "world/speed_zones.h"
 
 namespace mocha {
 
@@ -18,6 +19,7 @@ struct PlanningScene {
   std::vector<std::shared_ptr<const MovingObstacle>> peers;
   /// Makes the field of what was not seen free, for a robot that sets off; empty: all was seen.
   std::function<std::shared_ptr<const ObstacleField<2>>()> unseen = {};
+  std::shared_ptr<const SpeedZones> speed_zones = {};  ///< null: none
 };
 
 /// From where, from when and to where. Map frame, absolute times.

@@ -55,8 +55,9 @@ void GoalExecutive::begin_goal(ExecutiveEvent event) {
   passing_.begin_goal();
 }
 
-void GoalExecutive::take(std::deque<Goal> goals, const Motion& committed, double now_s) {
-  goals_.set(std::move(goals), now_s);
+void GoalExecutive::take(std::deque<Goal> goals, const Motion& committed, double now_s,
+                         bool patrols) {
+  goals_.set(std::move(goals), now_s, patrols);
   const bool brakes = has_to_brake(goals_.asked().position, committed, now_s);
   begin_goal(brakes ? E::kGoalBehind : E::kGoalGiven);
 }

@@ -47,7 +47,8 @@ class GoalExecutive {
 
   /// Goals to be reached in order, at least one, instead of those there were. Where the first lies
   /// ahead of the motion in force, the robot keeps rolling until it is planned to; else it brakes.
-  void take(std::deque<Goal> goals, const Motion& committed, double now_s);
+  /// In a patrol, the first follows the last, until there are others or none.
+  void take(std::deque<Goal> goals, const Motion& committed, double now_s, bool patrols = false);
   /// Plans anew as soon as possible; what is under way for another reason is given up.
   void request();
   /// What is driven instead of what was planned, around something that moves; counts only if it
@@ -74,6 +75,7 @@ class GoalExecutive {
 
   ExecutiveState state() const { return state_; }
   bool idle() const { return goals_.empty(); }
+  const GoalQueue& goals() const { return goals_; }
   /// The plan at hand; empty if there is none.
   const Motion& plan() const { return errand_.plan; }
 

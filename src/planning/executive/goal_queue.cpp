@@ -18,8 +18,15 @@ GoalOptions GoalOptions::from(const ParameterTable& values) {
           values.number("goal_timeout"), values.number("goal_search_radius")};
 }
 
-void GoalQueue::set(std::deque<Goal> goals, double now_s) {
+std::string GoalQueue::Progress::words() const {
+  if (goals < 2) return "";
+  std::string text = "waypoint " + std::to_string(goal) + " of " + std::to_string(goals);
+  return lap == 0 ? text : text + ", lap " + std::to_string(lap);
+}
+
+void GoalQueue::set(std::deque<Goal> goals, double now_s, bool patrols) {
   goals_ = std::move(goals);
+  progress_ = {1, static_cast<int>(goals_.size()), patrols ? 1 : 0};
   begin(now_s);
 }
 
@@ -34,6 +41,14 @@ void GoalQueue::begin(double now_s) {
   nearest_m_ = std::numeric_limits<double>::infinity();
   progress_at_.reset();
   progress_s_ = now_s;
+}
+
+/// The next goal counts.
+void GoalQueue::pass_on() {
+  if (progress_.lap > 0) goals_.push_back(goals_.front());
+  goals_.pop_front();
+  if (progress_.lap > 0 && progress_.goal == progress_.goals) ++progress_.lap;
+  progress_.goal = progress_.goal % progress_.goals + 1;
 }
 
 void GoalQueue::note_progress(double now_s, const Vector2& position) {
@@ -56,7 +71,7 @@ GoalQueue::Event GoalQueue::update(double now_s, const RobotState& state) {
   const bool aligned = !goal.yaw_rad || std::abs(wrap_angle(*goal.yaw_rad - state.pose.yaw_rad)) <=
                                             options_.yaw_tolerance_rad;
   if (counts && there && aligned && stands(state)) {
-    goals_.pop_front();
+    pass_on();
     begin(now_s);
     return goals_.empty() ? Event::kAllReached : Event::kReached;
   }

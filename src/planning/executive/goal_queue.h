@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <optional>
+#include <string>
 
 #include "config/parameter_table.h"
 #include "control/robot_state.h"
@@ -29,8 +30,21 @@ class GoalQueue {
   /// For the goals that are there and those to come.
   void set_options(const GoalOptions& options) { options_ = options; }
 
-  /// Replaces all goals.
-  void set(std::deque<Goal> goals, double now_s);
+  /// Which of the goals counts now, from 1, and in which lap of a patrol; 0 without any.
+  struct Progress {
+    int goal = 0;
+    int goals = 0;
+    int lap = 0;  ///< 0: it is no patrol
+
+    /// "waypoint 2 of 4, lap 1"; empty for a goal that is the only one.
+    std::string words() const;
+    bool operator==(const Progress& other) const {
+      return goal == other.goal && goals == other.goals && lap == other.lap;
+    }
+  };
+
+  /// Replaces all goals. In a patrol, the first follows the last, without end.
+  void set(std::deque<Goal> goals, double now_s, bool patrols = false);
   void clear() { goals_.clear(); }
   bool empty() const { return goals_.empty(); }
   /// The goal that counts now, as it was given; the queue must not be empty.
@@ -41,7 +55,9 @@ class GoalQueue {
   void move_current(const Vector2& position) { instead_ = position; }
   /// The robot makes room for others: that is no lack of progress.
   void wait(double now_s) { progress_s_ = now_s; }
-  std::size_t remaining() const { return goals_.size(); }
+  /// Those that are still to be visited, in order.
+  const std::deque<Goal>& left() const { return goals_; }
+  Progress progress() const { return goals_.empty() ? Progress{} : progress_; }
 
   /// Arrival is standing within the tolerances, at the goal or at a place that counts for it; then
   /// the next goal counts. Progress is coming nearer to the goal than ever, or being half a metre
@@ -51,9 +67,11 @@ class GoalQueue {
  private:
   void note_progress(double now_s, const Vector2& position);
   void begin(double now_s);
+  void pass_on();
 
   GoalOptions options_;
   std::deque<Goal> goals_;
+  Progress progress_;
   std::optional<Vector2> instead_;
   double nearest_m_ = 0.0;
   std::optional<Vector2> progress_at_;

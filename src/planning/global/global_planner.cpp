@@ -86,7 +86,7 @@ PlanResult GlobalPlanner::turn_only(const PlanQuery& query, const PlanningScene&
   Motion motion(query.start_time_s, std::move(phases));
   PlanResult result;
   result.goal = query.goal;
-  result.violation = certify_plan(motion, robot_, scene.static_map->field(), query.start_time_s);
+  result.violation = certify_plan(motion, robot_, scene, query.start_time_s);
   if (result.violation) {
     result.reason = PlanReason::kNotCertified;
     result.message = describe(result.violation);

@@ -33,17 +33,19 @@ double set_off_s(const Motion& motion, double arm_m) {
   return motion.switch_time(t);
 }
 
-Scene scene_of(const ObstacleField<2>& obstacles) {
+Scene still_scene(const PlanningScene& around) {
   Scene scene;
-  scene.obstacles = std::shared_ptr<const ObstacleField<2>>(&obstacles, [](const auto*) {});
+  scene.obstacles =
+      std::shared_ptr<const ObstacleField<2>>(around.static_map, &around.static_map->field());
+  scene.speed_zones = around.speed_zones;
   return scene;
 }
 
 /// The first violation of a plan from rest, for as long as nothing more will have been seen.
 Violation certify_setting_off(const Motion& motion, const RobotModel& robot,
-                              const ObstacleField<2>& obstacles,
+                              const PlanningScene& around,
                               std::shared_ptr<const ObstacleField<2>> unseen, double from_s) {
-  Scene scene = scene_of(obstacles);
+  Scene scene = still_scene(around);
   scene.unseen = std::move(unseen);
   const Requirements requirements(robot);
   Requirement required = requirements[RequirementName::kPlan];
@@ -82,9 +84,9 @@ Violation certify_in_turn(const Motion& motion, const RobotModel& robot, const P
 
 }  // namespace
 
-Violation certify_plan(const Motion& motion, const RobotModel& robot,
-                       const ObstacleField<2>& obstacles, double from_s) {
-  return certify(motion, robot.footprint, scene_of(obstacles),
+Violation certify_plan(const Motion& motion, const RobotModel& robot, const PlanningScene& scene,
+                       double from_s) {
+  return certify(motion, robot.footprint, still_scene(scene),
                  Requirements(robot)[RequirementName::kPlan].from(from_s));
 }
 
@@ -110,6 +112,7 @@ DriveQuery GlobalRules::drive(const Seed& seed, const StartManeuver& start_maneu
   drive.direction = start_maneuver.direction;
   drive.start_time_s = query_.start_time_s + start_maneuver.duration_s;
   drive.duration_cost = DurationCost::total(options_.weight_duration);
+  drive.speed_zones = scene_.speed_zones;
   if (seed.driven)
     drive.found_before =
         remaining_knots(query_.driven, drive.start_time_s, drive.start, start_maneuver.path.back());
@@ -149,13 +152,12 @@ bool GlobalRules::assemble(const StartManeuver& start_maneuver, const PlanarPath
 }
 
 void GlobalRules::certify(PlanCandidate& candidate) const {
-  const ObstacleField<2>& obstacles = scene_.static_map->field();
   const double from_s = query_.start_time_s;
-  candidate.violation = certify_plan(candidate.motion, robot_, obstacles, from_s);
+  candidate.violation = certify_plan(candidate.motion, robot_, scene_, from_s);
   if (!candidate.violation && !query_.along.empty())
     candidate.violation = certify_in_turn(candidate.motion, robot_, scene_, from_s);
   if (!candidate.violation && unseen_) {
-    candidate.violation = certify_setting_off(candidate.motion, robot_, obstacles, unseen_, from_s);
+    candidate.violation = certify_setting_off(candidate.motion, robot_, scene_, unseen_, from_s);
   }
   candidate.met = candidate.violation ? RequirementName::kNone : wanted();
 }

@@ -8,8 +8,8 @@
 namespace mocha {
 
 /// The first violation of a plan on the map from a time on; no violation if it may be driven.
-Violation certify_plan(const Motion& motion, const RobotModel& robot,
-                       const ObstacleField<2>& obstacles, double from_s);
+Violation certify_plan(const Motion& motion, const RobotModel& robot, const PlanningScene& scene,
+                       double from_s);
 
 /// How plans to the goal are made of drives: from rest or under way to rest at the goal, with a
 /// turn there if a heading is asked for, certified on the map (kPlan). A robot that rests sets off

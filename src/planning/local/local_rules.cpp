@@ -74,6 +74,7 @@ DriveQuery LocalRules::drive(const Seed& seed, const StartManeuver& start_maneuv
   drive.rejoin = back_.rejoin_point.state;
   drive.duration_cost = DurationCost::with_horizon(options_.weight_delay, mu_s);
   drive.limits = required.limits;
+  drive.speed_zones = scene_.speed_zones;
   return drive;
 }
 
@@ -115,6 +116,7 @@ bool LocalRules::may_be_mended(const Violation& violation) const {
     case ViolatedTerm::kSeparation:
       return violation.limit - violation.value < kLack_m;
     case ViolatedTerm::kSpeed:
+    case ViolatedTerm::kZoneSpeed:
     case ViolatedTerm::kAcceleration:
       return violation.value < kExcess * violation.limit;
     default:

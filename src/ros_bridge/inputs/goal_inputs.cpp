@@ -16,7 +16,10 @@ GoalInputs::GoalInputs(ros::NodeHandle& node, RobotIdentity robot,
       transforms_(transforms),
       handlers_(std::move(handlers)),
       simple_goals_(node.subscribe("move_base_simple/goal", 2, &GoalInputs::on_simple_goal, this)),
-      waypoints_(node.subscribe("waypoints", 2, &GoalInputs::on_waypoints, this)),
+      waypoints_(node.subscribe<nav_msgs::Path>(
+          "waypoints", 2, [this](const nav_msgs::Path::ConstPtr& path) { on_list(*path, false); })),
+      patrols_(node.subscribe<nav_msgs::Path>(
+          "patrol", 2, [this](const nav_msgs::Path::ConstPtr& path) { on_list(*path, true); })),
       action_(node, "move_base", false) {
   action_.registerGoalCallback([this] { on_action_goal(); });
   action_.registerPreemptCallback([this] { on_action_cancel(); });
@@ -47,8 +50,9 @@ std::optional<Goal> GoalInputs::to_goal(const geometry_msgs::PoseStamped& stampe
 }
 
 std::optional<Goal> GoalInputs::accept(const geometry_msgs::PoseStamped& pose) {
-  const std::string why = handlers_.refusal();
-  if (why.empty()) return to_goal(pose);
+  const auto goal = to_goal(pose);
+  const std::string why = goal ? handlers_.refusal(*goal) : "";
+  if (why.empty()) return goal;
   refuse(why);
   return std::nullopt;
 }
@@ -63,10 +67,10 @@ void GoalInputs::on_simple_goal(const geometry_msgs::PoseStamped& pose) {
   const auto goal = accept(pose);
   if (!goal) return;
   finish(false, "preempted by a goal on move_base_simple/goal");
-  handlers_.take({*goal});
+  handlers_.take({*goal}, false);
 }
 
-void GoalInputs::on_waypoints(const nav_msgs::Path& path) {
+void GoalInputs::on_list(const nav_msgs::Path& path, bool patrols) {
   std::deque<Goal> goals;
   for (geometry_msgs::PoseStamped pose : path.poses) {
     if (pose.header.frame_id.empty()) pose.header.frame_id = path.header.frame_id;
@@ -74,22 +78,23 @@ void GoalInputs::on_waypoints(const nav_msgs::Path& path) {
     if (!goal) return;
     goals.push_back(*goal);
   }
+  if (patrols && goals.size() == 1) return refuse("a patrol needs at least two waypoints");
   finish(false, "preempted by a list of waypoints");
   if (goals.empty()) {
     handlers_.stop("the list of waypoints is empty");
   } else {
-    handlers_.take(std::move(goals));
+    handlers_.take(std::move(goals), patrols);
   }
 }
 
 void GoalInputs::on_action_goal() {
   const auto goal = accept(action_.acceptNewGoal()->target_pose);
   if (goal) {
-    handlers_.take({*goal});
+    handlers_.take({*goal}, false);
     return;
   }
   action_.setAborted({}, "the goal is not usable: " + refusal_);
-  handlers_.stop("the new goal is not usable");
+  handlers_.stop("the new goal is not usable: " + refusal_);
 }
 
 void GoalInputs::on_action_cancel() {

@@ -18,15 +18,16 @@
 
 namespace mocha {
 
-/// Every way to give a robot a goal: the action `move_base`, the topics `move_base_simple/goal` and
-/// `waypoints`. The newest one counts. A quaternion of zeros means any heading.
+/// Every way to give a robot a goal: the action `move_base`, the topics `move_base_simple/goal`,
+/// `waypoints` and `patrol`, a list that begins anew at its end. The newest one counts. A
+/// quaternion of zeros means any heading.
 class GoalInputs {
  public:
   struct Handlers {
-    std::function<void(std::deque<Goal>)> take;    ///< new goals, to be visited in order
-    std::function<void(const std::string&)> stop;  ///< no goal any more, and why
-    /// Why no goal is taken now, whatever it is; empty where one is.
-    std::function<std::string()> refusal;
+    std::function<void(std::deque<Goal>, bool patrols)> take;  ///< new goals, in their order
+    std::function<void(const std::string&)> stop;              ///< no goal any more, and why
+    /// Why a goal is not taken now; empty where it is.
+    std::function<std::string(const Goal&)> refusal;
   };
 
   /// `transforms` must outlive this.
@@ -45,10 +46,10 @@ class GoalInputs {
 
  private:
   void on_simple_goal(const geometry_msgs::PoseStamped& pose);
-  void on_waypoints(const nav_msgs::Path& path);
+  void on_list(const nav_msgs::Path& path, bool patrols);
   void on_action_goal();
   void on_action_cancel();
-  /// As to_goal(), unless no goal is taken now.
+  /// As to_goal(), unless the goal is not taken now.
   std::optional<Goal> accept(const geometry_msgs::PoseStamped& pose);
   void refuse(const std::string& why);
 
@@ -59,6 +60,7 @@ class GoalInputs {
   std::string refusal_;
   ros::Subscriber simple_goals_;
   ros::Subscriber waypoints_;
+  ros::Subscriber patrols_;
   actionlib::SimpleActionServer<move_base_msgs::MoveBaseAction> action_;
 };
 

@@ -17,6 +17,7 @@ static_assert(static_cast<int>(ViolatedTerm::kSeparation) == Status::SEPARATION)
 static_assert(static_cast<int>(ViolatedTerm::kUnseenSpace) == Status::UNSEEN_SPACE);
 static_assert(static_cast<int>(ViolatedTerm::kWheelSpeed) == Status::WHEEL_SPEED);
 static_assert(static_cast<int>(ViolatedTerm::kSpeedBackward) == Status::SPEED_BACKWARD);
+static_assert(static_cast<int>(ViolatedTerm::kZoneSpeed) == Status::ZONE_SPEED);
 using EffortMessage = mocha_ugv::PlanningEffort;
 static_assert(static_cast<int>(Parameterisation::kCamouflage) == EffortMessage::CAMOUFLAGE);
 static_assert(static_cast<int>(Parameterisation::kWaypoints) == EffortMessage::WAYPOINTS);
@@ -82,8 +83,7 @@ Status to_message(PlanReason reason, const Violation& violation, const std::stri
 
 GoalExecutive::Report from_message(const Status& status) {
   if (status.reason > Status::PAUSED) throw std::invalid_argument("has a reason that is none");
-  if (status.violated > Status::SPEED_BACKWARD)
-    throw std::invalid_argument("violates an unknown term");
+  if (status.violated > Status::ZONE_SPEED) throw std::invalid_argument("violates an unknown term");
   GoalExecutive::Report report;
   report.reason = static_cast<PlanReason>(status.reason);
   report.message = status.message;

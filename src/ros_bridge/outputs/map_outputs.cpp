@@ -13,9 +13,8 @@ constexpr int kQueue = 1000;  // updates that wait for a slow subscriber
 
 }  // namespace
 
-MapOutputs::MapOutputs(ros::NodeHandle& node, std::string frame, std::vector<Polygon> keep_out)
+MapOutputs::MapOutputs(ros::NodeHandle& node, std::string frame)
     : frame_(std::move(frame)),
-      slice_(std::move(keep_out)),
       maps_(node.advertise<nav_msgs::OccupancyGrid>(
           "map", 1, [this](const ros::SingleSubscriberPublisher& newcomer) { serve(newcomer); })),
       updates_(node.advertise<map_msgs::OccupancyGridUpdate>("map_updates", kQueue)) {}
@@ -25,7 +24,9 @@ void MapOutputs::publish(OccupancyMap& map, ros::Time now, ros::Time measured, d
   const double since_s = (now - published_).toSec();
   const bool has_changed = map.version() != version_;
   const bool is_fresh = measured > measured_ && since_s >= kMapPeriod_s;
-  if (!(has_changed || is_fresh) || since_s < 1.0 / rate) return;
+  const bool is_due = (has_changed || is_fresh) && since_s >= 1.0 / rate;
+  const bool is_marked_anew = slice_.marks_changed() && !stamp_.isZero();
+  if (!is_due && !is_marked_anew) return;
   measured_ = measured.isZero() ? now : measured;
   stamp_ = std::max(measured_, stamp_ + ros::Duration(0, 1));
   published_ = now;

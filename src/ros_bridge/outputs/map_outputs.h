@@ -6,6 +6,7 @@
 #include <ros/single_subscriber_publisher.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "perception/mapping/published_slice.h"
@@ -19,8 +20,14 @@ namespace mocha {
 /// without cells announces a whole map with its stamp.
 class MapOutputs {
  public:
-  /// Maps are in `frame`; zones to keep out of look occupied in them.
-  MapOutputs(ros::NodeHandle& node, std::string frame, std::vector<Polygon> keep_out);
+  /// Maps are in `frame`.
+  MapOutputs(ros::NodeHandle& node, std::string frame);
+
+  /// These areas look occupied from now on, but for an open strip; what changes is published at
+  /// once.
+  void mark(std::vector<Polygon> keep_out, Strip open) {
+    slice_.mark(std::move(keep_out), std::move(open));
+  }
 
   /// Publishes what has changed at most `rate` times a second, and now and then that nothing has,
   /// as long as measurements come in: the newest is of the time `measured`, or zero.

@@ -4,6 +4,10 @@
 #include <mocha_ugv/PlannerStatus.h>
 #include <nav_msgs/Path.h>
 
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/status_conversions.h"
 #include "ros_bridge/rviz/candidate_drawing.h"
@@ -13,6 +17,25 @@ namespace mocha {
 namespace {
 
 constexpr double kPathStep_s = 0.1;  // of what is drawn
+
+/// What a person wants to know of a plan.
+std::string summary(const PlanResult& result) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1);
+  if (result.reason != PlanReason::kSolved) {
+    text << "no plan: " << to_text(result.reason) << ": " << result.message;
+    return text.str();
+  }
+  const auto certified =
+      std::count_if(result.candidates.begin(), result.candidates.end(),
+                    [](const PlanCandidate& each) { return each.reason == PlanReason::kSolved; });
+  text << "reaches (" << result.goal.x() << ", " << result.goal.y()
+       << "): " << result.motion.length_m() << " m in "
+       << result.motion.end_time() - result.motion.start_time()
+       << " s; classes of paths: " << result.candidates.size() << ", certified: " << certified
+       << "; " << result.message;
+  return text.str();
+}
 
 }  // namespace
 
@@ -52,6 +75,7 @@ mocha_ugv::PlanTrajectory::Response PlannerOutputs::answer(const PlanResult& res
                                                            ros::Time now) const {
   mocha_ugv::PlanTrajectory::Response response;
   response.success = result.reason == PlanReason::kSolved;
+  response.message = summary(result);
   response.status =
       to_message(result.reason, result.violation, result.message, identity_.map_frame, now);
   if (!result.motion.empty()) response.trajectory = planned(result.motion, now);
@@ -92,12 +116,17 @@ void PlannerOutputs::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
   status.add("parameterisation of the last plan", to_text(record_.last().parameterisation));
 }
 
-void PlannerOutputs::report(PlanReason reason, const Violation& violation, const std::string& text,
-                            ros::Time now) {
+void PlannerOutputs::report(PlanReason reason, const Violation& violation, const std::string& what,
+                            const GoalQueue::Progress& progress, ros::Time now) {
+  const std::string goal = progress.words();
+  const std::string text = goal.empty() ? what : goal + ": " + what;
   const bool news = reason != reason_ || text != text_;
   reason_ = reason;
   text_ = text;
   mocha_ugv::PlannerStatus status = to_message(reason, violation, text, identity_.map_frame, now);
+  status.waypoint = progress.goal;
+  status.waypoints = progress.goals;
+  status.lap = progress.lap;
   status.effort = to_message(record_);
   statuses_.publish(status);
   if (!news || reason == PlanReason::kSolved) return;

@@ -32,9 +32,10 @@ class PlannerOutputs {
 
   void show_candidates(const PlanResult& result, const Goal& goal, ros::Time now);
 
-  /// Publishes the status; news are logged as well, but for a success.
+  /// Publishes the status, which names the goal of several; news are logged as well, but for a
+  /// success.
   void report(PlanReason reason, const Violation& violation, const std::string& text,
-              ros::Time now);
+              const GoalQueue::Progress& progress, ros::Time now);
   /// How many plans there were, and what they took.
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   /// The last report.

@@ -106,8 +106,9 @@ TEST_F(PublishedSliceTest, AMapThatIsReplacedIsLaidOutAnew) {
 }
 
 TEST_F(PublishedSliceTest, ZonesStayOccupiedWhateverIsSeen) {
-  PublishedSlice slice({Polygon{{{-1.0, 1.0}, {-1.0, 2.0}, {-2.0, 2.0}, {-2.0, 1.0}}},
-                        Polygon{{{9.0, 1.0}, {9.5, 1.0}, {9.5, 2.0}}}});
+  PublishedSlice slice;
+  slice.mark({Polygon{{{-1.0, 1.0}, {-1.0, 2.0}, {-2.0, 2.0}, {-2.0, 1.0}}},
+              Polygon{{{9.0, 1.0}, {9.5, 1.0}, {9.5, 2.0}}}});
   EXPECT_TRUE(slice.update(map, kBorder_m).whole);
   EXPECT_EQ(at(slice, {-1.5, 1.5}), OccupancyGrid::kOccupied);
   EXPECT_EQ(at(slice, {9.45, 1.05}), OccupancyGrid::kOccupied);
@@ -116,6 +117,34 @@ TEST_F(PublishedSliceTest, ZonesStayOccupiedWhateverIsSeen) {
   EXPECT_FALSE(slice.update(map, kBorder_m).whole);
   EXPECT_EQ(at(slice, {-1.5, 1.5}), OccupancyGrid::kOccupied);
   EXPECT_EQ(at(slice, {-2.5, 2.51}), OccupancyGrid::kFree);
+}
+
+TEST_F(PublishedSliceTest, ZonesComeAndGoAsChangesOfTheGrid) {
+  PublishedSlice slice;
+  slice.update(map, kBorder_m);
+  OccupancyGrid held = slice.grid();
+  const OccupancyGrid without = held;
+  const auto change_to = [&](const std::vector<Polygon>& areas, const Strip& open) {
+    slice.mark(areas, open);
+    EXPECT_TRUE(slice.marks_changed());
+    const PublishedSlice::Change change = slice.update(map, kBorder_m);
+    EXPECT_FALSE(slice.marks_changed());
+    EXPECT_FALSE(change.whole);
+    for (const CornerWindow& window : change.windows) apply(cut_out(slice.grid(), window), held);
+    EXPECT_EQ(held.cells, slice.grid().cells);
+  };
+  const Polygon square{{{-2.0, -2.0}, {2.0, -2.0}, {2.0, 2.0}, {-2.0, 2.0}}};
+  const Polygon elsewhere{{{3.0, 3.0}, {4.0, 3.0}, {4.0, 4.0}}};
+  change_to({square}, {});
+  EXPECT_EQ(at(slice, {0.01, 0.01}), OccupancyGrid::kOccupied);
+  change_to({square}, {{{0.0, 0.0}, {3.0, 0.0}}, 0.5});
+  EXPECT_NE(at(slice, {1.01, 0.31}), OccupancyGrid::kOccupied);
+  EXPECT_EQ(at(slice, {1.01, 0.71}), OccupancyGrid::kOccupied);
+  change_to({elsewhere}, {});
+  EXPECT_NE(at(slice, {1.01, 0.71}), OccupancyGrid::kOccupied);
+  EXPECT_EQ(at(slice, {3.91, 3.51}), OccupancyGrid::kOccupied);
+  change_to({}, {});
+  EXPECT_EQ(held.cells, without.cells);
 }
 
 }  // namespace

@@ -42,6 +42,34 @@ TEST_F(GoalQueueTest, HeadingCountsWhereOneIsAskedForAndWrapsRound) {
   EXPECT_EQ(queue.update(2.0, at(5.0, -M_PI + 0.1)), Event::kAllReached);
 }
 
+TEST_F(GoalQueueTest, APatrolBeginsAnewAtItsEnd) {
+  queue.set({goal(1.0), goal(2.0), goal(3.0)}, 0.0, true);
+  double t = 1.0;
+  for (const int lap : {1, 2, 3}) {
+    for (const int number : {1, 2, 3}) {
+      EXPECT_EQ(queue.progress().goal, number);
+      EXPECT_EQ(queue.progress().goals, 3);
+      EXPECT_EQ(queue.progress().lap, lap);
+      EXPECT_EQ(queue.asked().position.x(), number);
+      EXPECT_EQ(queue.update(t += 1.0, at(number)), Event::kReached);
+    }
+  }
+  EXPECT_EQ(queue.progress().words(), "waypoint 1 of 3, lap 4");
+  queue.set({goal(5.0)}, t);
+  EXPECT_EQ(queue.progress().words(), "");
+  EXPECT_EQ(queue.update(t += 1.0, at(5.0)), Event::kAllReached);
+}
+
+TEST_F(GoalQueueTest, ProgressCountsTheGoalsOfAList) {
+  EXPECT_EQ(queue.progress().goals, 0);
+  queue.set({goal(1.0), goal(2.0)}, 0.0);
+  EXPECT_EQ(queue.progress().words(), "waypoint 1 of 2");
+  EXPECT_EQ(queue.update(1.0, at(1.0)), Event::kReached);
+  EXPECT_EQ(queue.progress().words(), "waypoint 2 of 2");
+  EXPECT_EQ(queue.update(2.0, at(2.0)), Event::kAllReached);
+  EXPECT_EQ(queue.progress().words(), "");
+}
+
 TEST_F(GoalQueueTest, NewRulesCountForTheGoalsThatAreThere) {
   queue.set({goal(5.0)}, 0.0);
   EXPECT_EQ(queue.update(1.0, at(4.5)), Event::kNone);
@@ -62,7 +90,7 @@ TEST_F(GoalQueueTest, VisitsGoalsInOrder) {
   queue.set({goal(1.0), goal(2.0), goal(1.0)}, 0.0);
   EXPECT_EQ(queue.update(1.0, at(2.0)), Event::kNone);  // not its turn yet
   EXPECT_EQ(queue.update(2.0, at(1.0)), Event::kReached);
-  EXPECT_EQ(queue.remaining(), 2u);
+  EXPECT_EQ(queue.left().size(), 2u);
   EXPECT_EQ(queue.current().position.x(), 2.0);
   EXPECT_EQ(queue.update(3.0, at(2.0)), Event::kReached);
   EXPECT_EQ(queue.update(4.0, at(1.0)), Event::kAllReached);

@@ -43,7 +43,7 @@ TEST_F(PlanningBudget, StoppedAnywhereItHasAProvedMotionOrSaysThatTimeIsUp) {
     const PlanResult result = plan(grid);
     solved += result.reason == PlanReason::kSolved;
     if (result.reason == PlanReason::kSolved) {
-      EXPECT_FALSE(certify_plan(result.motion, rover(), static_map_of(grid)->field(), kStart_s));
+      EXPECT_FALSE(certify_plan(result.motion, rover(), {static_map_of(grid), {}}, kStart_s));
     } else {
       EXPECT_EQ(result.reason, PlanReason::kBudgetExhausted) << result.message;
     }

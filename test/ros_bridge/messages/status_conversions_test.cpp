@@ -48,7 +48,7 @@ TEST(StatusConversions, ComeBackAsTheyWere) {
   status.reason = mocha_ugv::PlannerStatus::PAUSED + 1;
   EXPECT_THROW(from_message(status), std::invalid_argument);
   status.reason = mocha_ugv::PlannerStatus::PAUSED;
-  status.violated = mocha_ugv::PlannerStatus::SPEED_BACKWARD + 1;
+  status.violated = mocha_ugv::PlannerStatus::ZONE_SPEED + 1;
   EXPECT_THROW(from_message(status), std::invalid_argument);
 }
 
