@@ -57,6 +57,7 @@ TOPICS = {
     "passing_instruction": "what this robot, as the leader, asks of others, for robots to pass each other",
     "passing_intent": "where this robot is to get, said to those that it meets",
     "passing_markers": "for rviz: the order of passing that the robot keeps to",
+    "patrol": "a list of goals, one after the other, again and again",
     "planner_markers": "for rviz: the ways of all classes with their costs",
     "planner_status": "what keeps the robot from its goal, in one sentence, whichever node knows",
     "points": "points of a 3-D sensor, mapped beside the scans",
@@ -71,6 +72,7 @@ TOPICS = {
     "waypoints": "a list of goals, one after the other",
     "wheels/cmd_vel": "the same for the simulated wheels of an emulated base",
     "wheels/odom": "what the simulated wheels of an emulated base have turned",
+    "zones": "the zones that are in force: not to be entered, or slowly only",
 }
 
 SERVICES = {
@@ -79,8 +81,11 @@ SERVICES = {
     "emergency_stop": "`true` stops this robot at once, `false` resets it",
     "fleet/emergency_stop": "the same for the whole fleet, at any of its robots",
     "global_localization": "forgets where the robot is, and searches the whole map",
+    "move_base/clear_costmaps": "the same as `clear_map`, as move_base has it",
+    "move_base/make_plan": "the path of a plan that is not driven, as move_base has it",
     "load_map": "takes another map from a file",
     "pause": "`true` brakes at once and keeps the goals, `false` goes on to them",
     "plan": "a plan that is not driven",
+    "set_zones": "takes other zones that are not to be entered, or slowly only",
     "save_map": "writes the map to a file: `.bt`, `.ot`, or `.yaml` with a PGM beside it",
 }

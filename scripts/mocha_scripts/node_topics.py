@@ -109,8 +109,8 @@ def transforms_of(root, node):
 
 
 def launched_transforms(root):
-    """What others publish that launch/robot.launch starts: mounts of the robot's description, and static ones."""
-    launch = (root / "launch/robot.launch").read_text()
+    """What others publish that launch/robot.launch starts, or agent.launch for it: mounts of the robot's description, and static ones."""
+    launch = "".join((root / "launch" / name).read_text() for name in ("robot.launch", "agent.launch"))
     if 'type="robot_state_publisher"' in launch:
         mount = re.search(r'<parent link="(\w+)"/>\s*<child link="(\w+)"/>', (root / "scripts/robot_description").read_text())
         yield "robot_state_publisher", mount.groups()

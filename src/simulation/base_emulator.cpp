@@ -12,7 +12,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kMostWheelSpeed = 2.0;  // [m/s]
-constexpr double kMostPwm = 255.0;
 constexpr std::size_t kLongestLine = 4096;
 constexpr double kAccelerometer = 8192.0 / 9.80665;     // counts per m/s^2, range of 4 g
 constexpr double kGyroBias = 0.012;                     // [rad/s]

@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/time_slack.h"
+
 namespace mocha {
 namespace {
 
 constexpr double kPulse_m = M_PI * 0.08 / 660.0;
 constexpr double kLoop_s = 0.001;
 constexpr double kControlPeriod_s = 0.1;
-constexpr double kTimeSlack_s = 1e-6;
 constexpr double kProportional = 20.0;  // [1 / (m/s)]
 constexpr double kIntegral = 2000.0;    // [1 / m]
 constexpr double kDeadBand = 23.0;
-constexpr double kMostPwm = 255.0;
 constexpr double kTopSpeed = 1.3;        // [m/s]
-constexpr double kStandingSpeed = 0.01;  // [m/s] below, friction holds the wheel
+constexpr double kHeldSpeed = 0.01;  // [m/s] below, friction holds the wheel
 
 }  // namespace
 
@@ -47,7 +47,7 @@ double WheelDrive::follow_speed(double now_s, double wanted) {
 }
 
 double WheelDrive::follow_pwm(double pwm) const {
-  const bool stands = std::abs(speed_) < kStandingSpeed;
+  const bool stands = std::abs(speed_) < kHeldSpeed;
   const double holding = stands ? options_.breakaway_pwm : options_.friction_pwm;
   if (std::abs(pwm) <= holding) return 0.0;
   const double friction = std::copysign(options_.friction_pwm, stands ? pwm : speed_);

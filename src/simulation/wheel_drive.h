@@ -2,6 +2,9 @@
 
 namespace mocha {
 
+/// The firmware's full output, of both signs.
+constexpr double kMostPwm = 255.0;
+
 /// One side of a Waveshare UGV Rover: its encoder, the firmware's speed control, motor and gearbox.
 /// It says what the rim heads for; the inertia on the way there is the vehicle's.
 ///
