@@ -84,6 +84,10 @@ std::vector<OneField> one_by_one(const Scene& open) {
   const double passes_s = time_at(ahead(), 4.0);
   add("limits", straight_drive(kNow_s, {0.0, 0.0}, 0.0, 8.0, 1.2, 0.5), ViolatedTerm::kSpeed,
       [](Requirement& r) { r.limits.reset(); });
+  const Zone slow{"slow", Polygon{{{3.0, -1.0}, {5.0, -1.0}, {5.0, 1.0}, {3.0, 1.0}}}, 0.3};
+  add("limits", ahead(), ViolatedTerm::kZoneSpeed, [](Requirement& r) {
+    r.limits.reset();
+  }).speed_zones = SpeedZones::of({slow}, load_robot_model("config", "rover"), kNow_s - 60.0);
   add("obstacle_margin", ahead(), ViolatedTerm::kClearance, [](Requirement& r) {
     r.obstacle_margin = 0.0;
   }).obstacles = field({{{4.0, 0.85}, 0.5}});
