@@ -19,9 +19,9 @@ add_dependencies(mocha_rviz_panel ${PROJECT_NAME}_generate_messages_cpp ${catkin
 install(TARGETS mocha_rviz_panel LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 install(FILES rviz/plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/rviz)
 
-if(CATKIN_ENABLE_TESTING)
+if(rostest_FOUND)
   catkin_add_gtest(test_rviz_panel test/rviz_panel/robot_words_test.cpp test/rviz_panel/background_calls_test.cpp)
-  target_link_libraries(test_rviz_panel mocha_rviz_panel)
+  target_link_libraries(test_rviz_panel mocha_rviz_panel gtest gtest_main)
   # A real rviz, used by a real mouse.
   add_executable(rviz_panel_clicks EXCLUDE_FROM_ALL test/rviz_panel/panel_clicks.cpp test/rviz_panel/rviz_window.cpp)
   target_include_directories(rviz_panel_clicks PRIVATE test)

@@ -62,7 +62,7 @@ class GlobalPlannerNode {
                  LowBattery::Options::from(
                      values, neighbour_parameters("base_driver").number("low_battery")),
                  {[this](const std::string& why) { inputs_.finish(false, why), drop(why); },
-                  [this](const Goal& goal) { take({goal}); }}),
+                  [this](const Goal& goal) { take({goal}, false); }}),
         pose_(node, identity_, values.number("max_pose_age"), values.number("max_transform_age")),
         peers_(node, identity_.name, identity_.map_frame),
         committed_(node, identity_.name),

@@ -10,7 +10,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 def build(name):
     """The path of benchmark_NAME, built if need be."""
-    subprocess.run([os.path.join(ROOT, "scripts/build"), f"benchmark_{name}"], check=True)
+    subprocess.run([os.path.join(ROOT, "scripts/build"), "--test", f"benchmark_{name}"], check=True)
     folder = os.environ.get("MOCHA_BUILD", os.path.join(ROOT, "_build"))
     return os.path.join(folder, "devel/lib/mocha_ugv", f"benchmark_{name}")
 

@@ -6,6 +6,7 @@
 #include <rviz/view_manager.h>
 #include <rviz/visualization_manager.h>
 
+#include <QCheckBox>
 #include <QElapsedTimer>
 #include <QProcess>
 #include <QPushButton>
@@ -54,7 +55,9 @@ void RvizWindow::click(QWidget& widget, QPoint at) {
 
 void RvizWindow::click(const QString& name) {
   QWidget& widget = find<QWidget>(name);
-  click(widget, widget.rect().center());
+  const int middle_px = widget.height() / 2;  // of a box to be ticked, only what is drawn counts
+  click(widget,
+        qobject_cast<QCheckBox*>(&widget) ? QPoint(middle_px, middle_px) : widget.rect().center());
 }
 
 void RvizWindow::click_row(const QString& table, int row) {
