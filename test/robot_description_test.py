@@ -80,7 +80,7 @@ class RobotDescription(unittest.TestCase):
     def test_a_polygon_is_drawn_by_its_sides(self):
         script = importlib.machinery.SourceFileLoader("robot_description", str(ROOT / "scripts/robot_description")).load_module()
         values = {**values_of("rover"), "footprint": "polygon", "footprint_corners": "[[0.3, 0.0], [-0.1, 0.2], [-0.1, -0.2]]"}
-        drawn = script.bare("wedge", values).findall("link[@name='base_link']/visual")
+        drawn = script.bare("wedge", values).findall("link[@name='base_link']/visual")[:-1]  # without what says which way it looks
         self.assertEqual(len(drawn), 3)
         for visual, (x, y) in zip(drawn, [(0.1, 0.1), (-0.1, 0.0), (0.1, -0.1)]):
             for number, expected in zip(numbers(visual.find("origin").get("xyz")), (x, y)):
@@ -107,6 +107,13 @@ class RobotDescription(unittest.TestCase):
             model.with_suffix(".urdf").write_text((ROOT / "urdf/waveshare_rover.urdf").read_text())
             self.assertGreater(len(ElementTree.fromstring(described(str(model), "ugv7").stdout)), len(bare))
         self.assertIn("mine.yaml", described(str(model), "ugv7").stderr)
+
+    def test_values_of_its_own_are_drawn_instead_of_the_models(self):
+        own = ElementTree.fromstring(described("waveshare_rover", "ugv7", "{footprint: disc, footprint_radius: 0.4}").stdout)
+        self.assertEqual(extents(own.find("link[@name='ugv7/base_link']")), [0.4, 0.4])
+        moved = ElementTree.fromstring(described("waveshare_rover", "ugv7", "{lidar_x: 0.05}").stdout)
+        self.assertGreater(len(moved), len(own))
+        self.assertEqual(numbers(moved.find("joint[@name='lidar_mount']/origin").get("xyz"))[0], 0.05)
 
     def test_says_which_model_it_does_not_know(self):
         result = described("no_such_robot", "ugv7")

@@ -32,33 +32,41 @@ RobotTable::RobotTable(QWidget* parent) : QTableWidget(0, 3, parent) {
   setObjectName("robots");
   prepare(*this, {"Robot", "Does", "Why"});
   setSelectionMode(SingleSelection);
-  connect(this, &QTableWidget::itemSelectionChanged, this, &RobotTable::chosen_changed);
+  connect(this, &QTableWidget::itemSelectionChanged, this, [this] {
+    const QList<QTableWidgetItem*> items = selectedItems();
+    if (!items.empty()) choose(items.front()->row());
+  });
 }
 
 void RobotTable::show_rows(const std::vector<Row>& rows) {
-  const std::string before = chosen();
-  const bool same_robots = rowCount() == static_cast<int>(rows.size());
+  int chosen_row = 0;
   {
     const QSignalBlocker silence(this);
     setRowCount(static_cast<int>(rows.size()));
-    int chosen_row = rows.empty() ? -1 : 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const auto& [name, words] = rows[i];
-      const int row = static_cast<int>(i);
-      set_cell(*this, row, 0, name, colour_of(words.mood));
-      set_cell(*this, row, 1, words.doing, colour_of(words.mood));
-      set_cell(*this, row, 2, words.why, colour_of(words.mood));
-      if (name == before) chosen_row = row;
+    int row = 0;
+    for (const auto& [name, words] : rows) {
+      const QColor colour = colour_of(words.mood);
+      set_cell(*this, row, 0, name, colour);
+      set_cell(*this, row, 1, words.doing, colour);
+      set_cell(*this, row, 2, words.why, colour);
+      if (name == chosen_) chosen_row = row;
+      ++row;
     }
-    if (chosen_row >= 0 && (!same_robots || chosen() != before || before.empty()))
-      selectRow(chosen_row);
+    if (row > 0) selectRow(chosen_row);
   }
-  if (chosen() != before) Q_EMIT chosen_changed();
+  if (!rows.empty()) choose(chosen_row);
 }
 
-std::string RobotTable::chosen() const {
-  const QList<QTableWidgetItem*> items = selectedItems();
-  return items.empty() ? "" : item(items.front()->row(), 0)->text().toStdString();
+/// The colour of the row still says how the robot is.
+void RobotTable::choose(int row) {
+  QPalette colours = palette();
+  colours.setColor(QPalette::Highlight, item(row, 0)->background().color().darker(130));
+  colours.setColor(QPalette::HighlightedText, Qt::black);
+  setPalette(colours);
+  const std::string name = item(row, 0)->text().toStdString();
+  if (name == chosen_) return;
+  chosen_ = name;
+  Q_EMIT chosen_changed();
 }
 
 }  // namespace mocha

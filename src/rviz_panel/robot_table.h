@@ -23,10 +23,15 @@ class RobotTable : public QTableWidget {
   /// In this order. The choice stays with its robot; where there is none yet, the first is chosen.
   void show_rows(const std::vector<Row>& rows);
   /// Name of the chosen robot; empty where there is none.
-  std::string chosen() const;
+  const std::string& chosen() const { return chosen_; }
 
  Q_SIGNALS:
   void chosen_changed();
+
+ private:
+  void choose(int row);
+
+  std::string chosen_;
 };
 
 }  // namespace mocha

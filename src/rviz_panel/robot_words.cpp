@@ -42,7 +42,7 @@ RobotWords words_of(const RobotNews& news, ros::Time now) {
   if (news.replanner && !keeps_to_plan(*news.replanner)) {
     return {RobotMood::kEvading, news.replanner->doing, news.replanner->status.message};
   }
-  return {RobotMood::kDriving, news.state, ""};
+  return {RobotMood::kDriving, news.state, news.planner ? news.planner->message : ""};
 }
 
 }  // namespace mocha

@@ -26,11 +26,14 @@ class SimulationSpeed : public QWidget {
 
  private:
   void ask_for(double rate);
+  /// What the simulator is told at its start, which may be none of the choices.
+  void show_rate(double rate);
 
   BackgroundCalls& calls_;
   std::function<void(std::string)> say_;
   QComboBox* wished_;
   QLabel* measured_;
+  bool knows_rate_ = false;
   ros::Time last_;
   ros::WallTime last_wall_;
 };

@@ -25,7 +25,7 @@ WaypointList::WaypointList(QWidget* parent)
       shown_(new QListWidget) {
   gathers_->setObjectName("gather");
   shown_->setObjectName("waypoints");
-  shown_->setMaximumHeight(90);
+  shown_->setMaximumHeight(70);
   auto* layout = new QGridLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(gathers_, 0, 0, 1, 4);

@@ -12,6 +12,7 @@ RobotNews driving() {
   news.heard = kNow;
   news.state = "driving";
   news.planner.emplace().reason = mocha_ugv::PlannerStatus::SOLVED;
+  news.planner->message = "waypoint 1 of 2";
   news.replanner.emplace().row = mocha_ugv::ReplannerStatus::FOLLOW;
   news.stop.emplace().stopped = false;
   news.localization.emplace().state = mocha_ugv::Localization::LOCALIZED;
@@ -22,7 +23,7 @@ TEST(RobotWords, SaysWhatARobotDoes) {
   const RobotWords words = words_of(driving(), kNow);
   EXPECT_EQ(words.mood, RobotMood::kDriving);
   EXPECT_EQ(words.doing, "driving");
-  EXPECT_EQ(words.why, "");
+  EXPECT_EQ(words.why, "waypoint 1 of 2");
 }
 
 TEST(RobotWords, TheWorstComesFirst) {
