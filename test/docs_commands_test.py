@@ -36,10 +36,13 @@ NOT_RUN = {
     "cd mocha_ugv": "is where the scripts are run here",
     "sudo reboot": "would",
     "journalctl -fu mocha_ugv": "needs the service on a robot",
-    "ROS_MASTER_URI=http://ugv3:11311 ROS_NAMESPACE=ugv3 rviz -d rviz/robot.rviz": "needs a display and a robot",
+    "ROS_MASTER_URI=http://ugv3:11311 rosrun mocha_ugv fleet_view": "needs a display and a robot; test/rviz_panel_test.py has both",
+    ". _build/devel/setup.bash": "is done where this test runs",
     ". ~/mocha_ugv/_build/devel/setup.bash": "is done where this test runs",
     "cd ~/my_robot": "is where all of the walkthrough runs here",
 }
+
+SPILL = "{zones: [{name: spill, area: {points: [{x: 2, y: 1}, {x: 4, y: 1}, {x: 4, y: 2}]}, max_speed: 0}]}"
 
 # What is run in place of what stands there, and why.
 USER = "daemon" if getpass.getuser() == "root" else getpass.getuser()
@@ -271,6 +274,15 @@ def look_after_a_robot(take):
         desk.run(take(set_live + "/fleet_simulator sensor_fault scan_frozen"))
         desk.run("rosrun dynamic_reconfigure dynparam get /fleet_simulator", "'sensor_fault': 'scan_frozen'")
         desk.run(set_live + "/fleet_simulator sensor_fault none")
+        (desk.home / "zones.yaml").write_text(files("docs/on_a_robot.md")["zones.yaml"])
+        zones = desk.start("rostopic echo /ugv3/zones/zones")
+        for given, name in (("{path: /home/pi/zones.yaml}", "stairs"), (SPILL, "spill")):
+            desk.run(take(f"rosservice call /ugv3/set_zones '{given}'"), "success: True")
+            desk.await_words(zones, lambda text, name=name: f'name: "{name}"' in text, f"says nothing of {name}")
+        desk.run(take("rosservice call /ugv3/set_zones '{}'"), "success: True")
+        desk.run(take("rostopic pub -1 /ugv3/patrol nav_msgs/Path '{header: {frame_id: map}, poses: [{pose: {position: {x: 1.0}}}, "
+                      "{pose: {position: {x: 6.0, y: 3.4}}}]}'"))
+        desk.await_words(sentences, lambda text: "waypoint 1 of 2" in text, "does not patrol")
         desk.run(take("rosservice call /ugv3/save_map /home/pi/flat.bt"), "success: True")
         if not (desk.home / "flat.bt").stat().st_size:
             raise AssertionError("the map is empty")
@@ -293,8 +305,13 @@ def start_nodes(take):
         desk.launch(take("roslaunch mocha_ugv agent.launch robot:=ugv1 model:=my_robot.yaml lcm_url:=udpm://239.255.76.67:7667?ttl=1 "
                          "fleet_key:=$HOME/fleet.key"))
         desk.end(desk.launch(take("roslaunch mocha_ugv agent.launch robot:=ugv3 model:=my_robot.yaml")))
-        desk.launch(take("roslaunch mocha_ugv agent.launch robot:=ugv3 parameters:=mine.yaml"))
+        stack = desk.launch(take("roslaunch mocha_ugv agent.launch robot:=ugv3 parameters:=mine.yaml"))
         desk.run("rosparam get /ugv3/local_replanner/horizon", "5.0")
+        desk.end(stack)
+        desk.launch(take("roslaunch mocha_ugv robot.launch robot:=ugv3 cmd_vel_topic:=cmd_vel_planned"))
+        desk.start(take("ROS_NAMESPACE=ugv3 rosrun topic_tools mux cmd_vel cmd_vel_planned cmd_vel_joystick mux:=cmd_vel_mux"))
+        wait_until(lambda: "/ugv3/mux" in desk.nodes() or any("mux" in node for node in desk.nodes()), "no mux")
+        desk.run(take("rosservice call /ugv3/cmd_vel_mux/select cmd_vel_joystick"), "prev_topic")
         desk.run(take("rosparam set /use_sim_time false"))
 
 

@@ -2,11 +2,15 @@
 
 #include <QColor>
 #include <QHeaderView>
+#include <algorithm>
 
 #include "rviz_panel/cells.h"
 
 namespace mocha {
 namespace {
+
+constexpr int kLeastRows = 2;  // in sight
+constexpr int kMostRows = 10;  // of more, some are scrolled to
 
 QColor colour_of(RobotMood mood) {
   switch (mood) {
@@ -53,6 +57,8 @@ void RobotTable::show_rows(const std::vector<Row>& rows) {
       ++row;
     }
     if (row > 0) selectRow(chosen_row);
+    const int rows_shown = std::clamp(row, kLeastRows, kMostRows);
+    setMinimumHeight((rows_shown + 1) * verticalHeader()->defaultSectionSize() + 2 * frameWidth());
   }
   if (!rows.empty()) choose(chosen_row);
 }
