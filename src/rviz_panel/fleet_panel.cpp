@@ -6,10 +6,12 @@
 #include <tf2/LinearMath/Quaternion.h>
 #include <tf2_geometry_msgs/tf2_geometry_msgs.h>
 
+#include <QCollator>
 #include <QHBoxLayout>
 #include <QPushButton>
 #include <QTimer>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "rviz_panel/fleet_goal_tool.h"
@@ -167,6 +169,11 @@ void FleetPanel::refresh() {
   if (refreshes_ % 2 == 0) speed_->measure();
   std::vector<RobotTable::Row> rows;
   for (const auto& [name, robot] : robots_) rows.push_back({name, robot->words(ros::Time::now())});
+  QCollator by_number{QLocale(QLocale::English)};  // ugv2 before ugv10
+  by_number.setNumericMode(true);
+  std::sort(rows.begin(), rows.end(), [&by_number](const auto& a, const auto& b) {
+    return by_number.compare(QString::fromStdString(a.name), QString::fromStdString(b.name)) < 0;
+  });
   table_->show_rows(rows);
   RobotClient* robot = chosen();
   candidates_->show_candidates(robot ? robot->candidates() : std::vector<mocha_ugv::Candidate>());
