@@ -1,0 +1,18 @@
+# The Python module mocha_planner (src/python), where pybind11 is installed.
+set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE})
+find_package(Python3 COMPONENTS Interpreter Development QUIET)
+find_package(pybind11 CONFIG QUIET)
+if(NOT pybind11_FOUND OR NOT Python3_Development_FOUND OR CMAKE_CROSSCOMPILING)
+  message(STATUS "mocha_planner: left out, as pybind11-dev or python3-dev is not installed, or it is for another machine")
+  return()
+endif()
+
+set(python_path ${CATKIN_GLOBAL_PYTHON_DESTINATION})
+file(GLOB sources CONFIGURE_DEPENDS src/python/*.cpp)
+pybind11_add_module(mocha_planner NO_EXTRAS ${sources})
+mocha_compile_by_room(mocha_planner ${sources})
+target_link_libraries(mocha_planner PRIVATE mocha_stack)
+file(RELATIVE_PATH config /${python_path} /${CATKIN_PACKAGE_SHARE_DESTINATION}/config)
+target_compile_definitions(mocha_planner PRIVATE MOCHA_CONFIG_FROM_MODULE="${config}")
+set_target_properties(mocha_planner PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${python_path})
+install(TARGETS mocha_planner LIBRARY DESTINATION ${python_path})
