@@ -3,20 +3,21 @@
 add_library(mocha_core INTERFACE)
 add_library(mocha_ugv::core ALIAS mocha_core)
 set(devel ${CATKIN_DEVEL_PREFIX})
-file(MAKE_DIRECTORY ${devel}/${CATKIN_PACKAGE_INCLUDE_DESTINATION} ${devel}/${CATKIN_PACKAGE_SHARE_DESTINATION})
 foreach(folder ${MOCHA_FOLDERS})
   # A shared library may be made of it.
   set_target_properties(mocha_${folder} PROPERTIES EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ON)
   target_compile_options(mocha_${folder} PRIVATE -fno-semantic-interposition)
   target_link_libraries(mocha_core INTERFACE mocha_${folder})
-  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src/${folder} ${devel}/${CATKIN_PACKAGE_INCLUDE_DESTINATION}/${folder} SYMBOLIC)
   install(DIRECTORY src/${folder} DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION} FILES_MATCHING PATTERN "*.h")
   install(TARGETS mocha_${folder} EXPORT mocha_ugv ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 endforeach()
-file(CREATE_LINK ${PROJECT_SOURCE_DIR}/config ${devel}/${CATKIN_PACKAGE_SHARE_DESTINATION}/config SYMBOLIC)
 
-# Headers are named <mocha_ugv/world/goal.h>, and name each other "world/goal.h".
-target_include_directories(mocha_core INTERFACE $<BUILD_INTERFACE:${devel}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}>
+# Headers are named <mocha_ugv/world/goal.h>, and name each other "world/goal.h". The link is not in devel/include, which catkin installs.
+set(headers ${CMAKE_CURRENT_BINARY_DIR}/headers)
+file(MAKE_DIRECTORY ${headers} ${devel}/${CATKIN_PACKAGE_SHARE_DESTINATION})
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src ${headers}/${PROJECT_NAME} SYMBOLIC)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/config ${devel}/${CATKIN_PACKAGE_SHARE_DESTINATION}/config SYMBOLIC)
+target_include_directories(mocha_core INTERFACE $<BUILD_INTERFACE:${headers}>
   $<INSTALL_INTERFACE:${CATKIN_GLOBAL_INCLUDE_DESTINATION}> $<INSTALL_INTERFACE:${CATKIN_PACKAGE_INCLUDE_DESTINATION}>)
 # What of the headers is compiled elsewhere computes the same numbers.
 target_compile_options(mocha_core INTERFACE ${MOCHA_ARITHMETIC})

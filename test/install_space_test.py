@@ -110,8 +110,9 @@ class InstallSpace(unittest.TestCase):
         self.assertTrue((built / "devel/lib/libuser.so").exists())
 
     def test_nothing_leads_back_to_the_sources(self):
-        for path in (self.prefix / "lib/cmake/mocha_ugv").iterdir():
-            self.assertNotIn(str(EXAMPLES.parent), path.read_text(), path)
+        leads_back = [path for path in self.prefix.rglob("*") if self.prefix not in path.resolve().parents]
+        leads_back += [path for path in (self.prefix / "lib/cmake").rglob("*.cmake") if str(EXAMPLES.parent) in path.read_text()]
+        self.assertEqual(leads_back, [])
 
     def test_python_module_is_found(self):
         if not list(pathlib.Path(BUILD).glob("devel/lib/python3/dist-packages/mocha_planner*")):
