@@ -16,6 +16,7 @@ endfunction()
 
 # mocha_folder(NAME LIBRARIES...): the static library mocha_NAME from all sources below src/NAME.
 # A folder without sources becomes an interface library, so that the layering can be stated in one place.
+# MOCHA_FOLDERS names them all.
 function(mocha_folder name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
   if(MOCHA_LEFT_OUT)
@@ -31,6 +32,7 @@ function(mocha_folder name)
     add_library(mocha_${name} INTERFACE)
     set(scope INTERFACE)
   endif()
-  target_include_directories(mocha_${name} ${scope} ${PROJECT_SOURCE_DIR}/src)
+  target_include_directories(mocha_${name} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
   target_link_libraries(mocha_${name} ${scope} ${ARGN})
+  set(MOCHA_FOLDERS ${MOCHA_FOLDERS} ${name} PARENT_SCOPE)
 endfunction()

@@ -6,6 +6,10 @@ endforeach()
 
 add_test(NAME install_space COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/install_space_test.py ${CMAKE_BINARY_DIR})
 
+if(TARGET mocha_planner)
+  add_test(NAME python_module COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/python/mocha_planner_test.py $<TARGET_FILE_DIR:mocha_planner>)
+endif()
+
 include(cmake/core_tests.cmake)
 mocha_gtest(ros_bridge)
 

@@ -19,7 +19,7 @@ LEVELS = [["config", "trajectory"],
           ["optimization", "topology"],
           ["planning"],
           ["stack"],
-          ["ros_bridge"],
+          ["ros_bridge", "python"],
           ["nodes", "rviz_panel"]]
 LEVEL = {folder: level for level, folders in enumerate(LEVELS) for folder in folders}
 # The same for the rooms of a folder.
@@ -50,6 +50,7 @@ ROOMS = {
     "planning/maneuvers": "One maneuver a file: each only generates candidate motions.",
     "planning/passing": "In which order robots that stand in each other's way pass, and by which places.",
     "planning/replanner": "Which maneuver is driven, proved how, promised how.",
+    "python": "Planning from Python: what is handed over, checked, and handed back.",
     "ros_bridge/inputs": "What is heard from topics and services, checked, until a node asks for it.",
     "ros_bridge/messages": "Conversions between messages and the core's types.",
     "ros_bridge/network": "The fleet's messages on topics or LCM.",
@@ -77,6 +78,7 @@ LIBRARIES = {
     "ROS": (r"(ros|rosbag|rosconsole|tf2\w*|actionlib|message_filters|dynamic_reconfigure|laser_geometry|diagnostic_\w+"
             r"|xmlrpcpp|\w+_msgs|std_srvs|mocha_ugv)/|XmlRpc", r"(ros_bridge|nodes|rviz_panel)/"),
     "Qt and rviz": (r"Q[A-Z]\w+$|rviz/|pluginlib/", r"rviz_panel/"),
+    "pybind11": (r"pybind11/", r"python/"),
     "OctoMap": (r"octomap", r"perception/"),
     "CGAL": (r"CGAL/", r"topology/roadmaps/apollonius_roadmap\.cpp"),
     "Ceres": (r"ceres/", r"perception/localization/scan_matcher\.cpp"),
@@ -233,6 +235,8 @@ class Architecture(unittest.TestCase):
             ("src/control/a.h", "#include <geometry_msgs/Twist.h>", "ROS has no business"),
             ("src/planning/local/a.h", "#include <mocha_ugv/Trajectory.h>", "ROS has no business"),
             ("src/ros_bridge/inputs/a.h", "#include <octomap/OcTree.h>", "OctoMap has no business"),
+            ("src/stack/a.h", "#include <pybind11/numpy.h>", "pybind11 has no business"),
+            ("src/python/a.h", '#include "ros_bridge/messages/b.h"', "python may not include ros_bridge"),
             ("src/topology/roadmaps/apollonius_roadmap.h", "#include <CGAL/Apollonius_graph_2.h>", "CGAL has no business"),
             ("src/fleet/protocol/commitment_protocol.h", "#include <lcm/lcm-cpp.hpp>", "LCM has no business"),
             ("src/base/a.h", "#include <boost/asio/serial_port.hpp>", "Boost.Asio has no business"),

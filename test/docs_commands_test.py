@@ -40,6 +40,7 @@ NOT_RUN = {
     ". _build/devel/setup.bash": "is done where this test runs",
     ". ~/mocha_ugv/_build/devel/setup.bash": "is done where this test runs",
     "cd ~/my_robot": "is where all of the walkthrough runs here",
+    "scripts/build": "has been done where this test runs",
 }
 
 SPILL = "{zones: [{name: spill, area: {points: [{x: 2, y: 1}, {x: 4, y: 1}, {x: 4, y: 2}]}, max_speed: 0}]}"
@@ -59,6 +60,7 @@ INSTEAD = (
     (r"bag:=FILE", "bag:=out/drive.bag"),
     (r"^roscore$", "roscore -p $PORT"),
     (r"^python3", "/usr/bin/python3"),
+    (r"~/mocha_ugv/examples", f"{ROOT}/examples"),
 )
 
 
@@ -339,7 +341,20 @@ def install(take):
             raise AssertionError(f"it does not use the map:\n{settings.read_text()}")
 
 
-SCENES = (walk_through, look_after_a_robot, start_nodes, drive_and_replay, install)
+def use_the_library(take):
+    """docs/library.md: the examples in C++ and Python."""
+    with Desk("library") as desk:
+        desk.run(take("cmake -S ~/mocha_ugv/examples/cpp -B plan_build"))
+        desk.run(take("cmake --build plan_build"), patience_s=300.0)
+        said = desk.run(take("plan_build/plan"))
+        shown = re.search(r"^```text\n(.*?)^```$", (ROOT / "docs/library.md").read_text(), re.DOTALL | re.MULTILINE).group(1)
+        # Which ways cannot win any more depends on how fast others were.
+        if [line for line in said.splitlines() if line[:3].strip()] != [line for line in shown.splitlines() if line[:3].strip()]:
+            raise AssertionError(f"docs/library.md shows other words than these:\n{said}")
+        desk.run(take("python3 ~/mocha_ugv/examples/python/plan.py plan.png"), "-> cost")
+
+
+SCENES = (walk_through, look_after_a_robot, start_nodes, drive_and_replay, install, use_the_library)
 
 
 class Commands(unittest.TestCase):

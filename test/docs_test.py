@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Checks README.md and the pages of docs/: how long README is, that links lead somewhere, that every page is linked to, and that the commands name scripts,
-options, launch files, arguments and nodes that exist. Each rule is also tried on a planted fault."""
+options, launch files, arguments and nodes that exist, and that examples are shown as they are. Each rule is also tried on a planted fault."""
 import functools
 import pathlib
 import re
@@ -51,6 +51,14 @@ def link_faults(texts):
 def lost_pages(texts):
     linked = {path for page, _, path, _ in links(texts) if path != page}
     return sorted(page for page in texts if page != "README.md" and page not in linked)
+
+
+def example_faults(texts):
+    """What docs/library.md shows of the examples has to stand there."""
+    written = {line.strip() for path in (ROOT / "examples").rglob("*.*") for line in path.read_text().splitlines()}
+    for language, box in BOX.findall(texts["docs/library.md"]):
+        if language in ("cmake", "cpp", "python"):
+            yield from (f"docs/library.md: no example says {line}" for line in box.splitlines() if line.strip() not in written | {"..."})
 
 
 def long_readme(texts):
@@ -142,6 +150,9 @@ class Docs(unittest.TestCase):
         self.check(link_faults, "README.md", ("docs/safety.md", "docs/safely.md"), "there is no docs/safely.md")
         self.check(link_faults, "docs/architecture.md", ("#where-things-are", "#where-all-is"), "no heading is ../README.md#where-all-is")
         self.check(link_faults, "docs/own_robot.md", ("## Models", "## Kinds"), "docs/on_a_robot.md: no heading is own_robot.md#models")
+
+    def test_examples_are_shown_as_they_are(self):
+        self.check(example_faults, "docs/library.md", ("find_package(mocha_ugv REQUIRED)\n", "find_package(mocha REQUIRED)\n"), "no example says find_package(mocha REQUIRED)")
 
     def test_every_page_is_linked_to(self):
         self.assertEqual(lost_pages(pages()), [])

@@ -7,6 +7,13 @@
 
 namespace mocha {
 
+int8_t cell_of_probability(int8_t percent) {
+  constexpr int kOccupiedFrom = 65;
+  constexpr int kFreeUpTo = 25;
+  if (percent >= kOccupiedFrom) return OccupancyGrid::kOccupied;
+  return percent >= 0 && percent <= kFreeUpTo ? OccupancyGrid::kFree : OccupancyGrid::kUnknown;
+}
+
 GridUpdate cut_out(const OccupancyGrid& grid, const CornerWindow& window) {
   GridUpdate update{window.x0, window.y0, window.columns(), window.rows(), {}};
   update.cells.reserve(static_cast<std::size_t>(update.width) * update.height);

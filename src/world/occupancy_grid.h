@@ -28,6 +28,10 @@ struct OccupancyGrid {
   }
 };
 
+/// The cell that is meant by how likely it is occupied [%], as nav_msgs/OccupancyGrid has it:
+/// kOccupied from 65 on, kFree from 0 to 25, else kUnknown.
+int8_t cell_of_probability(int8_t percent);
+
 /// New values of some of a map's cells, row by row from the cell (x, y).
 struct GridUpdate {
   int x = 0;

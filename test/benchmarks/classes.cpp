@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "perception/mapping/map_image.h"
-#include "planning/global/global_planner.h"
 #include "planning/global/global_rules.h"
-#include "topology/static_map/grid_static_map.h"
+#include "stack/map_planner.h"
 #include "topology/static_map/primitive_static_map.h"
 #include "world/margin_budget.h"
 #include "world/world_file.h"
@@ -42,24 +41,17 @@ Task world_task(const std::string& path, const std::string& config) {
 
 Task map_task(const std::string& path, const std::string& config, const Vector2& start,
               const Vector2& goal) {
-  const OccupancyGrid map = grown_to_hold(load_map_image(path), {start, goal}, 1.0);
-  const auto field = std::make_shared<DistanceField>(map, DistanceField::Solid::kOccupied);
   const Vector2 ahead = goal - start;
-  return {std::make_shared<GridStaticMap>(field),
+  return {static_map_of(load_map_image(path), {start, goal}),
           load_robot_model(config, "rover"),
           {start, std::atan2(ahead.y(), ahead.x())},
           goal};
 }
 
-PlanQuery query_of(const Task& task) {
-  PlanQuery query;
-  query.committed = Motion(-1.0, {StandPhase{task.start, 0.1}});
-  query.goal = task.goal;
-  return query;
-}
-
 std::vector<PlanCandidate> plan_all(const Task& task, const PlannerOptions& options) {
-  return GlobalPlanner(task.robot, options).plan(query_of(task), {task.static_map, {}}).candidates;
+  return GlobalPlanner(task.robot, options)
+      .plan(from_standing(task.start, {task.goal, {}}), {task.static_map, {}})
+      .candidates;
 }
 
 /// What is found from the straight line, as planners do that know one class only.
@@ -67,7 +59,7 @@ PlanCandidate plan_straight(const Task& task, const PlannerOptions& options) {
   const std::vector<Vector2> line = {task.start.position, task.goal};
   const StartManeuvers start_maneuvers(task.robot.limits, options.smooth_start_rad);
   const Seed straight{start_maneuvers.from_rest({}, task.start, line), {}, {}, 0.0, false};
-  const PlanQuery query = query_of(task);
+  const PlanQuery query = from_standing(task.start, {task.goal, {}});
   const PlanningScene scene{task.static_map, {}};
   const DriveOptimizer optimizer(task.robot, options, MarginBudget::of(task.robot).static_margin());
   const GlobalRules rules(task.robot, options, query, scene);

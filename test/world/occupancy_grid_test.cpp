@@ -21,6 +21,15 @@ int occupied(const OccupancyGrid& grid) {
   return count;
 }
 
+TEST(OccupancyGrid, CellsAreTheirProbabilities) {
+  const std::pair<int, int8_t> cells[] = {
+      {-128, OccupancyGrid::kUnknown}, {-1, OccupancyGrid::kUnknown}, {0, OccupancyGrid::kFree},
+      {25, OccupancyGrid::kFree},      {26, OccupancyGrid::kUnknown}, {64, OccupancyGrid::kUnknown},
+      {65, OccupancyGrid::kOccupied},  {100, OccupancyGrid::kOccupied}};
+  for (const auto& [percent, cell] : cells)
+    EXPECT_EQ(cell_of_probability(static_cast<int8_t>(percent)), cell) << percent;
+}
+
 TEST(OccupancyGrid, FillsEveryCellThatAPolygonTouches) {
   OccupancyGrid grid = free_grid(20, 20);
   const Polygon triangle{{{-0.55, -0.55}, {0.55, -0.55}, {-0.55, 0.55}}};

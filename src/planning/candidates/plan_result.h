@@ -30,6 +30,9 @@ enum class PlanReason {
   kPaused = 14
 };
 
+/// In a word or two, such as "goal occupied".
+const char* to_text(PlanReason reason);
+
 /// One path that was optimised, certified or not.
 struct PlanCandidate {
   Signature signature;
@@ -47,6 +50,9 @@ struct PlanCandidate {
   bool driven = false;  ///< began on a path of the class that is being driven; at most one does
   bool selected = false;
 };
+
+/// What became of a candidate: the first violation in words, if any, else the reason.
+std::string outcome(const PlanCandidate& candidate);
 
 /// What was selected among candidates, or why nothing.
 struct Selection {

@@ -11,18 +11,11 @@
 namespace mocha {
 namespace {
 
-constexpr int kOccupiedFrom = 65;
-constexpr int kFreeUpTo = 25;
 constexpr std::size_t kMostCells = 100'000'000;
-
-std::int8_t cell_of(std::int8_t value) {
-  if (value >= kOccupiedFrom) return OccupancyGrid::kOccupied;
-  return value >= 0 && value <= kFreeUpTo ? OccupancyGrid::kFree : OccupancyGrid::kUnknown;
-}
 
 std::vector<std::int8_t> cells_of(const std::vector<std::int8_t>& values) {
   std::vector<std::int8_t> cells(values.size());
-  std::transform(values.begin(), values.end(), cells.begin(), cell_of);
+  std::transform(values.begin(), values.end(), cells.begin(), cell_of_probability);
   return cells;
 }
 

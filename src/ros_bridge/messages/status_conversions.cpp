@@ -27,42 +27,6 @@ static_assert(static_cast<int>(Row::kDetourLikely) == ReplannerStatus::DETOUR_LI
 static_assert(static_cast<int>(Row::kSidestepLikely) == ReplannerStatus::SIDESTEP_LIKELY);
 static_assert(static_cast<int>(Row::kLastResort) == ReplannerStatus::LAST_RESORT);
 
-const char* to_text(PlanReason reason) {
-  switch (reason) {
-    case PlanReason::kSolved:
-      return "solved";
-    case PlanReason::kNoGoal:
-      return "no goal";
-    case PlanReason::kNoMap:
-      return "no map";
-    case PlanReason::kNoPose:
-      return "no pose";
-    case PlanReason::kInvalidInput:
-      return "invalid input";
-    case PlanReason::kStartOccupied:
-      return "start occupied";
-    case PlanReason::kGoalOccupied:
-      return "goal occupied";
-    case PlanReason::kNoPath:
-      return "no path";
-    case PlanReason::kNotCertified:
-      return "not certified";
-    case PlanReason::kBudgetExhausted:
-      return "budget exhausted";
-    case PlanReason::kPeerConflict:
-      return "peer conflict";
-    case PlanReason::kBraking:
-      return "braking";
-    case PlanReason::kCannotWin:
-      return "cannot win";
-    case PlanReason::kEmergencyStop:
-      return "emergency stop";
-    case PlanReason::kPaused:
-      return "paused";
-  }
-  return "unknown";
-}
-
 Status to_message(PlanReason reason, const Violation& violation, const std::string& text,
                   const std::string& frame, ros::Time stamp) {
   Status status;
@@ -143,9 +107,7 @@ mocha_ugv::Candidate to_message(const PlanCandidate& candidate, const std::strin
     message.terms.push_back(term);
   }
   message.status =
-      to_message(candidate.reason, candidate.violation,
-                 candidate.violation ? describe(candidate.violation) : to_text(candidate.reason),
-                 frame, stamp);
+      to_message(candidate.reason, candidate.violation, outcome(candidate), frame, stamp);
   message.status.effort.evaluations = candidate.evaluations;
   message.status.effort.parameterisation = static_cast<uint8_t>(candidate.parameterisation);
   if (!candidate.motion.empty()) {

@@ -30,7 +30,4 @@ mocha_ugv::PlanningEffort to_message(const PlanningRecord& record);
 /// "camouflage", "waypoints", or "nothing".
 const char* to_text(Parameterisation parameterisation);
 
-/// The reason in a word, such as "goal occupied".
-const char* to_text(PlanReason reason);
-
 }  // namespace mocha
