@@ -116,7 +116,8 @@ TEST_F(FleetPanelClicks, DriveAFleet) {
   // The simulation's speed.
   auto& speed = window_->find<QComboBox>("speed");
   window_->click("speed");
-  window_->click(*speed.view(), speed.view()->visualRect(speed.model()->index(0, 0)).center());
+  window_->click(*speed.view(),
+                 speed.view()->visualRect(speed.model()->index(speed.findData(0.1), 0)).center());
   ASSERT_TRUE(until([this] {
     double rate = 0.0;
     return node_.getParam("/fleet_simulator/rate", rate) && rate == 0.1;
