@@ -1,10 +1,4 @@
 # The tests of the core: one gtest binary a folder (test/NAME/*_test.cpp), and the fuzzers.
-# What most of them include is compiled once; -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON does without.
-add_library(mocha_test_headers OBJECT EXCLUDE_FROM_ALL test/precompiled.cpp)
-target_link_libraries(mocha_test_headers Eigen3::Eigen)
-target_precompile_headers(mocha_test_headers PRIVATE <gtest/gtest.h> <algorithm> <cmath> <functional> <map> <memory> <optional> <random> <sstream>
-  <string> <vector> <Eigen/Dense>)
-
 function(mocha_gtest folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/test/${folder}/*_test.cpp)
   if(MOCHA_LEFT_OUT)
@@ -13,7 +7,6 @@ function(mocha_gtest folder)
   catkin_add_gtest(test_${folder} ${sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
   target_link_libraries(test_${folder} mocha_${folder} gtest gtest_main)
   target_include_directories(test_${folder} PRIVATE ${PROJECT_SOURCE_DIR}/test)
-  target_precompile_headers(test_${folder} REUSE_FROM mocha_test_headers)
 endfunction()
 
 foreach(folder config trajectory world camouflage safety perception fleet control base simulation topology optimization planning stack)
