@@ -125,7 +125,7 @@ def requirement_faults(page, header):
 
 
 # What docs/troubleshooting.md explains: the words of an enumeration, and where they are.
-EXPLAINED = (("PlanReason", "src/ros_bridge/messages/status_conversions.cpp"), ("Row", LADDER + ".cpp"), ("M", "src/control/tracker_mode.cpp"),
+EXPLAINED = (("PlanReason", "src/planning/candidates/plan_result.cpp"), ("Row", LADDER + ".cpp"), ("M", "src/control/tracker_mode.cpp"),
              ("Refusal", "src/fleet/protocol/commitment_event.cpp"))
 
 

@@ -23,8 +23,9 @@ int occupied(const OccupancyGrid& grid) {
 
 TEST(OccupancyGrid, CellsAreTheirProbabilities) {
   const std::pair<int, int8_t> cells[] = {
-      {-128, OccupancyGrid::kUnknown}, {-1, OccupancyGrid::kUnknown}, {0, OccupancyGrid::kFree},
-      {25, OccupancyGrid::kFree},      {26, OccupancyGrid::kUnknown}, {64, OccupancyGrid::kUnknown},
+      {-128, OccupancyGrid::kUnknown}, {-1, OccupancyGrid::kUnknown},
+      {0, OccupancyGrid::kFree},       {25, OccupancyGrid::kFree},
+      {26, OccupancyGrid::kUnknown},   {64, OccupancyGrid::kUnknown},
       {65, OccupancyGrid::kOccupied},  {100, OccupancyGrid::kOccupied}};
   for (const auto& [percent, cell] : cells)
     EXPECT_EQ(cell_of_probability(static_cast<int8_t>(percent)), cell) << percent;
