@@ -148,7 +148,7 @@ class GlobalPlannerNode {
   bool go_on() {
     const PoseReading reading = pose_.read(now_);
     if (!reading.state) {
-      if (!executive_.idle()) report(PlanReason::kNoPose, {}, reading.missing);
+      show(planning_.wait_for_pose(now_.toSec(), reading.missing));
       return false;
     }
     if (!executive_.idle()) inputs_.feedback(*reading.state, now_);

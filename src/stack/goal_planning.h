@@ -43,6 +43,8 @@ class GoalPlanning {
   /// makes them.
   GoalExecutive::Output step(double now_s, const RobotState& measured, const Motion& committed,
                              const SceneSource& scene);
+  /// The same while the pose is not known: `missing` says what it lacks.
+  GoalExecutive::Output wait_for_pose(double now_s, const std::string& missing);
   /// Makes a plan to somewhere, whatever the executive is about; on any thread.
   PlanRunner::Work work_on(const PlanQuery& query, const SceneSource& scene) const;
 
