@@ -258,6 +258,7 @@ class FleetSimulatorNode {
     status.add("missing nodes", missing);
     status.add("refused commands", refused_commands_);
     status.add("sensor fault", values_.text("sensor_fault"));
+    parameters_.diagnose(status);
   }
 
   ParameterTable values_;

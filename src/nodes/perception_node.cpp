@@ -248,7 +248,7 @@ class PerceptionNode {
       status.summary(DiagnosticStatus::OK, "scans enter the map");
     }
     status.add("scans waiting for their transforms", queue_.waiting());
-    status.add("parameter changes refused", parameters_.refused());
+    parameters_.diagnose(status);
     for (const auto& [reason, times] : refusals_.counts()) status.add("refused: " + reason, times);
   }
 
