@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "ros_bridge/runtime/node_help.h"
 #include "ros_bridge/runtime/node_start.h"
 #include "ros_bridge/runtime/parameters.h"
+#include "ros_bridge/runtime/simulated_time.h"
 #include "ros_bridge/runtime/transport.h"
 #include "ros_bridge/rviz/world_markers.h"
 #include "simulation/world_simulator.h"
@@ -295,8 +297,10 @@ int main(int argc, char** argv) {
   // Without it there is nothing to wait for: launch files end with it.
   const mocha::NodeStart start(argc, argv, "fleet_simulator", 0, mocha::NodeStart::Fault::kEnds);
   ros::NodeHandle node;
+  std::optional<mocha::SimulatedTime> time;
   std::unique_ptr<mocha::FleetSimulatorNode> simulator;
   const auto make = [&] {
+    time.emplace();
     const auto values = mocha::read_parameters(ros::NodeHandle("~"), "fleet_simulator");
     if (!ros::Time::isSimTime()) {
       ROS_WARN("/use_sim_time is not true: on the machine's clock, waiting for no node");
