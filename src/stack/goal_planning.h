@@ -60,6 +60,7 @@ class GoalPlanning {
   GoalExecutive executive_;
   DelayCause cause_;
   GoalExecutive::Report said_;
+  const double planning_time_s_;
   double goal_timeout_s_;
   bool stopped_ = false;
   int heeded_ = 0;  // stops
