@@ -4,6 +4,7 @@ include(CMakeFindDependencyMacro)
 foreach(dependency Eigen3 octomap TBB yaml-cpp)
   find_dependency(${dependency} CONFIG)
 endforeach()
+find_dependency(PNG)
 if(NOT TARGET mocha_ugv::core)  # in a workspace, catkin_make may be building it
   include(${CMAKE_CURRENT_LIST_DIR}/mocha_ugvTargets.cmake)
 endif()

@@ -40,6 +40,9 @@ def drive(world, names, out, *, rate=1.0, seed=1, rviz=False, record=True, lcm_u
             if not session.alive():
                 why = session.last_words()
                 break
+            why = session.fault()
+            if why is not None:
+                break
             if referee.elapsed_s() > limit_s:
                 why = f"the limit of {limit_s:.0f} simulated seconds is over"
                 break

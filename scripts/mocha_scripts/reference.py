@@ -48,7 +48,7 @@ def common_rows(topics):
         writers = [node for node in meanings.NODES if name in topics[node].writes]
         others = [node for node in meanings.NODES if node not in writers]
         kind = topics[writers[0]].writes[name]
-        yield [f"`{name}`", message_link(kind), meanings.TOPICS[name], code(writers) if len(writers) < len(others) else f"all but {code(others)}"]
+        yield [f"`{name}`", message_link(kind), meanings.TOPICS[name], code(writers) if len(writers) < len(others) else f"all but {code(others)}" if others else "all"]
 
 
 def topics_page(topics):

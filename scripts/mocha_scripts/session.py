@@ -1,10 +1,13 @@
 """A ROS session of its own: a master on a free port and one roslaunch in it, both ended together."""
 import os
+import re
 import signal
 import socket
 import subprocess
 import tempfile
 import time
+
+COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 
 def free_port():
@@ -53,12 +56,18 @@ class Session:
     def alive(self):
         return self._process.poll() is None
 
+    def fault(self):
+        """What the first node says that cannot work; none where all can. roslaunch goes on with such a node, which stays and does nothing."""
+        return self._first_line("[FATAL]")
+
     def last_words(self):
         """The complaint with which a session ended by itself."""
-        self._log.flush()
+        return self.fault() or self._first_line("[ERROR]", "Error") or "roslaunch ended; see " + self.log_path
+
+    def _first_line(self, *marks):
         with open(self.log_path) as log:
-            lines = [line.strip() for line in log if "[FATAL]" in line or "[ERROR]" in line or "Error" in line]
-        return lines[0] if lines else "roslaunch ended; see " + self.log_path
+            whole = (line for line in log if line.endswith("\n"))
+            return next((COLOUR.sub("", line).strip() for line in whole if any(mark in line for mark in marks)), None)
 
     def close(self):
         for process in self._extra + [self._process]:

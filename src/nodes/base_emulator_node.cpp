@@ -11,6 +11,7 @@
 
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/runtime/node_help.h"
+#include "ros_bridge/runtime/node_start.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/robot_identity.h"
 #include "ros_bridge/runtime/step_loop.h"
@@ -121,7 +122,7 @@ BaseEmulator::Options firmware_options(const ParameterTable& values) {
   const double breakaway_pwm = values.number("breakaway_pwm");
   const double friction_pwm = values.number("friction_pwm");
   if (breakaway_pwm < friction_pwm) {
-    throw ParameterError("base_emulator: breakaway_pwm = " + std::to_string(breakaway_pwm) +
+    throw ParameterError("breakaway_pwm = " + std::to_string(breakaway_pwm) +
                          ", allowed is no less than friction_pwm");
   }
   return {values.flag("holds_emergency_stop"),
@@ -218,18 +219,17 @@ class BaseEmulatorNode {
 
 int main(int argc, char** argv) {
   if (mocha::prints_help(argc, argv, "base_emulator")) return 0;
-  ros::init(argc, argv, "base_emulator");
+  const mocha::NodeStart start(argc, argv, "base_emulator");
   ros::NodeHandle node;
-  try {
-    mocha::BaseEmulatorNode emulator(node,
-                                     mocha::read_parameters(ros::NodeHandle("~"), "base_emulator"));
+  std::unique_ptr<mocha::BaseEmulatorNode> emulator;
+  const auto make = [&] {
+    emulator = std::make_unique<mocha::BaseEmulatorNode>(
+        node, mocha::read_parameters(ros::NodeHandle("~"), "base_emulator"));
+  };
+  return start.run(make, [&] {
     while (ros::ok()) {
       ros::getGlobalCallbackQueue()->callAvailable(mocha::kListenPeriod);
-      emulator.listen();
+      emulator->listen();
     }
-  } catch (const std::exception& error) {
-    ROS_FATAL("base_emulator: %s", error.what());
-    return 1;
-  }
-  return 0;
+  });
 }

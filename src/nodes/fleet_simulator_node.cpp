@@ -5,7 +5,8 @@
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <cmath>
-#include <exception>
+#include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -16,7 +17,9 @@
 #include "ros_bridge/runtime/live_parameters.h"
 #include "ros_bridge/runtime/lockstep.h"
 #include "ros_bridge/runtime/node_help.h"
+#include "ros_bridge/runtime/node_start.h"
 #include "ros_bridge/runtime/parameters.h"
+#include "ros_bridge/runtime/simulated_time.h"
 #include "ros_bridge/runtime/transport.h"
 #include "ros_bridge/rviz/world_markers.h"
 #include "simulation/world_simulator.h"
@@ -257,6 +260,7 @@ class FleetSimulatorNode {
     status.add("missing nodes", missing);
     status.add("refused commands", refused_commands_);
     status.add("sensor fault", values_.text("sensor_fault"));
+    parameters_.diagnose(status);
   }
 
   ParameterTable values_;
@@ -290,17 +294,18 @@ class FleetSimulatorNode {
 
 int main(int argc, char** argv) {
   if (mocha::prints_help(argc, argv, "fleet_simulator")) return 0;
-  ros::init(argc, argv, "fleet_simulator");
+  // Without it there is nothing to wait for: launch files end with it.
+  const mocha::NodeStart start(argc, argv, "fleet_simulator", 0, mocha::NodeStart::Fault::kEnds);
   ros::NodeHandle node;
-  try {
+  std::optional<mocha::SimulatedTime> time;
+  std::unique_ptr<mocha::FleetSimulatorNode> simulator;
+  const auto make = [&] {
+    time.emplace();
     const auto values = mocha::read_parameters(ros::NodeHandle("~"), "fleet_simulator");
     if (!ros::Time::isSimTime()) {
       ROS_WARN("/use_sim_time is not true: on the machine's clock, waiting for no node");
     }
-    mocha::FleetSimulatorNode(node, values).run();
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    return 1;
-  }
-  return 0;
+    simulator = std::make_unique<mocha::FleetSimulatorNode>(node, values);
+  };
+  return start.run(make, [&] { simulator->run(); });
 }

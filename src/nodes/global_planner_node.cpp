@@ -148,7 +148,7 @@ class GlobalPlannerNode {
   bool go_on() {
     const PoseReading reading = pose_.read(now_);
     if (!reading.state) {
-      if (!executive_.idle()) report(PlanReason::kNoPose, {}, reading.missing);
+      show(planning_.wait_for_pose(now_.toSec(), reading.missing));
       return false;
     }
     if (!executive_.idle()) inputs_.feedback(*reading.state, now_);
@@ -271,7 +271,7 @@ class GlobalPlannerNode {
     outputs_.diagnose(status);
     status.add("switches to another class of paths", class_switches_);
     status.add("last request", replanner_.last_request());
-    status.add("parameter changes refused", parameters_.refused());
+    parameters_.diagnose(status);
     status.add("messages refused", replanner_.refused() + committed_.refused() + inputs_.refused() +
                                        map_.refused() + peers_.refused() + pose_.refused() +
                                        passing_.refused() + zones_.refused());

@@ -1,13 +1,9 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <mocha_ugv/FleetTrajectories.h>
-#include <mocha_ugv/LoadMap.h>
 #include <mocha_ugv/PredictedObstacles.h>
-#include <mocha_ugv/SaveMap.h>
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
-#include <std_srvs/Empty.h>
-#include <std_srvs/Trigger.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
@@ -23,6 +19,7 @@
 #include "perception/sensor/range_smoothing.h"
 #include "perception/tracking/moving_object_filter.h"
 #include "perception/tracking/peer_tracks.h"
+#include "ros_bridge/inputs/map_files.h"
 #include "ros_bridge/inputs/peer_motions.h"
 #include "ros_bridge/inputs/scan_queue.h"
 #include "ros_bridge/inputs/sensor_watch.h"
@@ -68,14 +65,10 @@ class PerceptionNode {
         points_(node.subscribe("points", 5, &PerceptionNode::on_points, this, at_once())),
         fleet_(
             node.subscribe("fleet/trajectories", 10, &PerceptionNode::on_fleet, this, at_once())),
-        services_{node.advertiseService("save_map", &PerceptionNode::on_save, this),
-                  node.advertiseService("load_map", &PerceptionNode::on_load, this),
-                  node.advertiseService("clear_map", &PerceptionNode::on_clear, this),
-                  node.advertiseService("move_base/clear_costmaps",
-                                        &PerceptionNode::on_clear_costmaps, this)},
+        map_files_(node, map_, [this](bool is_cleared) { take_map(is_cleared); }),
         parameters_(values_),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
-    if (!values.text("map_file").empty()) map_.load(values.text("map_file"));
+    if (!values.text("map_file").empty()) map_files_.load(values.text("map_file"));
     if (!model_.lidar.sees_all_round())
       ROS_INFO("%s: what its lidar cannot see where it starts is free up to %.2f m away",
                robot_.name.c_str(), start_ground_.reach_m());
@@ -193,43 +186,11 @@ class PerceptionNode {
     cells_published_ = now_;
   }
 
-  bool on_save(mocha_ugv::SaveMap::Request& request, mocha_ugv::SaveMap::Response& response) {
-    return answer(response, "saved " + request.path, [&] { map_.save(request.path); });
-  }
-
-  bool on_load(mocha_ugv::LoadMap::Request& request, mocha_ugv::LoadMap::Response& response) {
-    return answer(response, "loaded " + request.path, [&] {
-      map_.load(request.path);
-      filter_.clear();
-    });
-  }
-
-  bool on_clear(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-    return answer(response, "cleared", [&] {
-      map_.clear();
-      filter_.clear();
-      if (const auto base = base_at({})) map_.see_robot(*base, start_ground_.under_body(), {});
-    });
-  }
-
-  /// As move_base has it.
-  bool on_clear_costmaps(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-    std_srvs::Trigger call;
-    return on_clear(call.request, call.response) && call.response.success;
-  }
-
-  template <class Response, class Work>
-  bool answer(Response& response, const std::string& done, Work work) {
-    try {
-      work();
-      response.success = true;
-      response.message = done;
-    } catch (const std::exception& error) {
-      response.success = false;
-      response.message = error.what();
-      ROS_ERROR("%s", error.what());
-    }
-    return true;
+  /// What moved and stood in the map before means nothing in this one.
+  void take_map(bool is_cleared) {
+    filter_.clear();
+    if (!is_cleared) return;
+    if (const auto base = base_at({})) map_.see_robot(*base, start_ground_.under_body(), {});
   }
 
   void diagnose_sensors(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -248,7 +209,7 @@ class PerceptionNode {
       status.summary(DiagnosticStatus::OK, "scans enter the map");
     }
     status.add("scans waiting for their transforms", queue_.waiting());
-    status.add("parameter changes refused", parameters_.refused());
+    parameters_.diagnose(status);
     for (const auto& [reason, times] : refusals_.counts()) status.add("refused: " + reason, times);
   }
 
@@ -303,7 +264,7 @@ class PerceptionNode {
   ros::Subscriber scans_;
   ros::Subscriber points_;
   ros::Subscriber fleet_;
-  std::vector<ros::ServiceServer> services_;
+  MapFiles map_files_;
   LiveParameters parameters_;
   StepLoop loop_;
 };

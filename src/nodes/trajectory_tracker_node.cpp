@@ -191,7 +191,7 @@ class TrajectoryTrackerNode {
     if (refused_ > 0) status.add("last refused message", refusal_);
     status.add("refused motions", tracker_.refused());
     if (tracker_.refused() > 0) status.add("last refused motion", tracker_.refusal());
-    status.add("refused parameter changes", parameters_.refused());
+    parameters_.diagnose(status);
     status.add("refused odometry", pose_.refused());
   }
 

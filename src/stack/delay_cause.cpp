@@ -1,5 +1,7 @@
 #include "stack/delay_cause.h"
 
+#include <sstream>
+
 namespace mocha {
 namespace {
 
@@ -11,6 +13,14 @@ bool is_complaint(PlanReason reason) {
 
 }  // namespace
 
+void DelayCause::hear_planning_time(double took_s, double allowed_s) {
+  std::ostringstream words;
+  words.precision(2);
+  if (took_s > allowed_s)
+    words << "; planning took " << took_s << " s, planning_time is " << allowed_s << " s";
+  lateness_ = words.str();
+}
+
 void DelayCause::hear_replanner(const Report& said, double now_s) {
   if (complains_) complained_until_s_ = now_s;
   complains_ = is_complaint(said.reason);
@@ -21,7 +31,10 @@ void DelayCause::hear_replanner(const Report& said, double now_s) {
 
 DelayCause::Report DelayCause::cause(bool has_plan, double now_s) const {
   const bool counts = complains_ || now_s < complained_until_s_ + kLingers_s;
-  return has_plan && counts ? complaint_ : planner_;
+  if (!has_plan || !counts) return planner_;
+  Report late = complaint_;
+  late.message += lateness_;
+  return late;
 }
 
 }  // namespace mocha

@@ -28,6 +28,7 @@ GoalPlanning::GoalPlanning(const RobotModel& robot, const ParameterTable& values
       planner_(std::make_shared<GlobalPlanner>(robot, PlannerOptions::from(values))),
       executive_(GoalExecutiveOptions::from(values, handover_s), robot,
                  PassingPolicy(name, priority, robot, PlannerOptions::from(values))),
+      planning_time_s_(values.number("planning_time")),
       goal_timeout_s_(GoalOptions::from(values).timeout_s) {}
 
 void GoalPlanning::set_options(const ParameterTable& values) {
@@ -61,9 +62,20 @@ GoalExecutive::Output GoalPlanning::step(double now_s, const RobotState& measure
   const bool has_plan = !executive_.plan().empty();
   GoalExecutive::Output output = executive_.step(now_s, measured, committed, planner);
   if (output.report && output.report->reason == PlanReason::kNoMap && !scene)
-    output.report->message = "no map on " + map_name_ + " yet";
+    output.report->message = "no map on " + map_name_ + " yet: does perception run?";
+  if (output.planned) cause_.hear_planning_time(output.planned->result.took_s, planning_time_s_);
   if (output.report) cause_.hear_planner(*output.report);
   explain(has_plan, now_s, output);
+  return output;
+}
+
+GoalExecutive::Output GoalPlanning::wait_for_pose(double now_s, const std::string& missing) {
+  GoalExecutive::Output output;
+  if (executive_.idle()) return output;
+  output = executive_.wait_for_pose(now_s);
+  const bool gives_up = output.ending != GoalExecutive::Ending::kNone;
+  output.report = GoalExecutive::Report{
+      PlanReason::kNoPose, {}, (gives_up ? no_progress_for(goal_timeout_s_) : "") + missing};
   return output;
 }
 

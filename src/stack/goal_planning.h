@@ -43,6 +43,8 @@ class GoalPlanning {
   /// makes them.
   GoalExecutive::Output step(double now_s, const RobotState& measured, const Motion& committed,
                              const SceneSource& scene);
+  /// The same while the pose is not known: `missing` says what it lacks.
+  GoalExecutive::Output wait_for_pose(double now_s, const std::string& missing);
   /// Makes a plan to somewhere, whatever the executive is about; on any thread.
   PlanRunner::Work work_on(const PlanQuery& query, const SceneSource& scene) const;
 
@@ -58,6 +60,7 @@ class GoalPlanning {
   GoalExecutive executive_;
   DelayCause cause_;
   GoalExecutive::Report said_;
+  const double planning_time_s_;
   double goal_timeout_s_;
   bool stopped_ = false;
   int heeded_ = 0;  // stops

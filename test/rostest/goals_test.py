@@ -112,6 +112,16 @@ class GoalsTest(unittest.TestCase):
         self.robot.arrive(-3.0, LANE_Y, math.pi / 2)
         self.assertLess(abs(wrap(self.robot.truth.pose.theta - math.pi / 2)), 0.15)
 
+    def test_goal_in_another_frame(self):
+        """Nothing is wrong with it, and nothing is said to be."""
+        since = self.robot.now
+        ahead = pose(0.4, 0.0, frame="ugv1/base_link")
+        place, heading = self.robot.place(), self.robot.truth.pose.theta
+        self.robot.simple_goals.publish(ahead)
+        goal = place[0] + 0.4 * math.cos(heading), place[1] + 0.4 * math.sin(heading)
+        self.robot.run_until(lambda: self.robot.distance_to(*goal) < 0.2 and self.robot.standing(), 20.0, "it is 0.4 m farther")
+        self.assertFalse(self.robot.said("[cC]anTransform|timeout", since), self.robot.report())
+
     def test_goal_of_rviz(self):
         self.robot.simple_goals.publish(pose(-1.5, LANE_Y, 0.0))
         self.robot.run_until(lambda: self.robot.distance_to(-1.5, LANE_Y) < 0.15 and self.robot.standing(), 30.0,

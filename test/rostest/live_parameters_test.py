@@ -116,6 +116,14 @@ class LiveParametersTest(unittest.TestCase):
         self.robot.run_until(lambda: self.robot.said("classes = 0: clamped to 1", since), PATIENCE_S, "the log says so")
         self.assertEqual(self.ways(), 1)
 
+    def test_why_a_change_was_refused_is_in_diagnostics(self):
+        for node in NODES:
+            with self.subTest(node):
+                request = Config(doubles=[DoubleParameter("gian", 1.0)])
+                with self.assertRaises(rospy.ServiceException):
+                    rospy.ServiceProxy("/ugv1/%s/set_parameters" % node, Reconfigure)(request)
+                self.robot.run_until(lambda: "gian" in self.diagnosed[node].get("last refused change", ""), PATIENCE_S, "diagnostics say why")
+
     def test_refused_as_a_whole(self):
         client = self.client()
         service = rospy.ServiceProxy("/ugv1/global_planner/set_parameters", Reconfigure)

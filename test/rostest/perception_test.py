@@ -21,7 +21,7 @@ from std_srvs.srv import Trigger
 
 from lockstep_clock import STEP_NS, LockstepClock
 from map_listener import MapListener
-from node_process import end, is_connected
+from node_process import end, is_connected, pid_of
 from waiting import wait_until
 
 HALF_ROOM = 2.0  # m
@@ -200,6 +200,10 @@ class PerceptionTest(unittest.TestCase):
         missing = rospy.ServiceProxy("/ugv1/load_map", LoadMap)(path + ".none.bt")
         self.assertFalse(missing.success)
         self.assertIn(path + ".none.bt", missing.message)
+        relative = os.path.relpath(path, os.readlink("/proc/%d/cwd" % pid_of("/ugv1/perception")))
+        for service, kind, word in (("save_map", SaveMap, "saved "), ("load_map", LoadMap, "loaded ")):
+            answer = rospy.ServiceProxy("/ugv1/" + service, kind)(relative)
+            self.assertEqual((answer.success, answer.message), (True, word + path))
 
     def malformed_scan(self):
         scan = scan_of_room()

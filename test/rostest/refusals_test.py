@@ -4,15 +4,21 @@
 import itertools
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
 
+import rosnode
 import rospkg
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+
+from node_process import pid_of
+from waiting import wait_until
 
 NODES = ("perception", "global_planner", "local_replanner", "trajectory_broadcaster", "trajectory_tracker",
          "fleet_simulator")
@@ -27,6 +33,35 @@ robots: [{name: ugv1, model: rover, start: [0.0, 0.0, 0.0], goal: [3.0, 0.0]}]
 NOT_A_NUMBER = WALLED_IN.replace("0.1, 0.0, 0.5", "3.0, .nan, 0.5")
 OWN_FOOTPRINT = WALLED_IN.replace("0.1, 0.0, 0.5", "3.0, 0.0, 0.5").replace("model: rover", "model: rover, radius: 0.5")
 MISSPELT = WALLED_IN.replace("circles", "circels")
+
+
+class Launched:
+    """A process in the background, and all that it says."""
+
+    def __init__(self, command):
+        self._log = tempfile.NamedTemporaryFile()
+        self._process = subprocess.Popen(command, stdout=self._log, stderr=subprocess.STDOUT, env=dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1"))
+
+    def words(self):
+        with open(self._log.name) as log:
+            return log.read()
+
+    def end(self):
+        self._process.send_signal(signal.SIGINT)
+        self._process.wait(PATIENCE_S)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.end()
+
+
+def answers(node):
+    try:
+        return bool(pid_of(node))
+    except (rosnode.ROSNodeException, OSError):
+        return False
 
 
 class RefusalsTest(unittest.TestCase):
@@ -60,6 +95,18 @@ class RefusalsTest(unittest.TestCase):
             rospy.delete_param("/use_sim_time")
             node.terminate()
             node.communicate(timeout=PATIENCE_S)
+
+    def test_a_simulation_takes_its_clock_with_it(self):
+        rospy.set_param("/use_sim_time", True)
+        try:
+            with Launched(["rosrun", "mocha_ugv", "fleet_simulator", "_lockstep_nodes:=''", "_world:=" + ROOT + "/config/worlds/empty.yaml"]):
+                wait_until(lambda: answers("/fleet_simulator"), "it is there", PATIENCE_S)
+                self.assertTrue(rospy.get_param("/use_sim_time"))
+                self.check_node("fleet_simulator", ["another node with the name /fleet_simulator"], "__ns:=/", "__name:=fleet_simulator")
+                self.assertTrue(rospy.get_param("/use_sim_time"), "the other one still runs")
+            self.assertFalse(rospy.get_param("/use_sim_time"))
+        finally:
+            rospy.delete_param("/use_sim_time")
 
     def test_misspelt_parameters(self):
         for node in NODES:
@@ -125,11 +172,67 @@ class RefusalsTest(unittest.TestCase):
         finally:
             rospy.delete_param("/ugv1/robot")
 
-    def check_demo(self, words, world):
+    def launch(self, *arguments):
+        """roslaunch, beside the one that runs this test."""
+        return Launched(["roslaunch", "--wait", ROOT + "/test/rostest/respawned.launch", *arguments])
+
+    def wait_until_said(self, node, words, times):
+        """In /diagnostics, as an error."""
+        heard = []
+
+        def hear(message):
+            heard.extend(status.message for status in message.status
+                         if status.name == node + ": start" and status.level == DiagnosticStatus.ERROR and words in status.message)
+
+        listener = rospy.Subscriber("/diagnostics", DiagnosticArray, hear)
+        try:
+            wait_until(lambda: len(heard) >= times, node + " says in /diagnostics: " + words, PATIENCE_S)
+        finally:
+            listener.unregister()
+
+    def test_roslaunch_does_not_start_them_again_and_again(self):
+        nodes = ("perception", "trajectory_tracker", "base_emulator")
+        with self.launch("robot:=ugv7", "nodes:=" + ",".join(nodes), "parameters:={%s}" % ", ".join(
+                node + ": {robot_model: hovercraft}" for node in nodes)) as launched:
+            for node in nodes:
+                self.wait_until_said("ugv7/" + node, "robots/hovercraft.yaml", 3)
+        self.assertEqual(launched.words().count("FATAL"), len(nodes), launched.words())
+        self.assertNotIn("escalating", launched.words(), "they end when they are told to")
+
+    def test_what_may_be_there_later_is_tried_again(self):
+        with self.launch("robot:=ugv7", "nodes:=trajectory_broadcaster", "parameters:={trajectory_broadcaster: {lcm_url: \"udpm://nowhere\"}}") as launched:
+            self.wait_until_said("ugv7/trajectory_broadcaster", "LCM cannot use it", 3)
+            wait_until(lambda: launched.words().count("FATAL") == 2, "another start", PATIENCE_S)
+
+    def test_a_living_node_keeps_its_name(self):
+        name = "/ugv8/trajectory_tracker"
+        arguments = ("robot:=ugv8", "nodes:=trajectory_tracker")
+        with self.launch(*arguments) as first:
+            wait_until(lambda: answers(name), "the first is there", PATIENCE_S)
+            pid = pid_of(name)
+            with self.launch(*arguments) as second:
+                self.wait_until_said(name[1:], "another node with the name " + name, 3)
+                self.assertEqual(pid_of(name), pid)
+                self.assertNotIn("FATAL", first.words())
+                self.assertEqual(second.words().count("FATAL"), 1, second.words())
+                self.check_node("trajectory_tracker", ["another node with the name"], "__ns:=ugv8", "__name:=trajectory_tracker")
+                first.end()
+                wait_until(lambda: answers(name) and pid_of(name) != pid, "the second takes the name that is free", PATIENCE_S)
+
+    def test_a_dead_node_does_not_keep_its_name(self):
+        name = "/ugv8/trajectory_tracker"
+        with self.launch("robot:=ugv8", "nodes:=trajectory_tracker") as launched:
+            wait_until(lambda: answers(name), "it is there", PATIENCE_S)
+            pid = pid_of(name)
+            os.kill(pid, signal.SIGKILL)
+            wait_until(lambda: answers(name) and pid_of(name) != pid, "it is there again", PATIENCE_S)
+        self.assertNotIn("FATAL", launched.words())
+
+    def check_demo(self, words, world, *arguments):
         """The demo with a master of its own. Its own script builds first; here, what it then runs."""
         out = tempfile.mkdtemp()
         command = ["/usr/bin/python3", "-m", "mocha_scripts.demo", "--headless", "--no-plots", "--rate", "0", "--world", world,
-                   "--out", out]
+                   "--out", out, *arguments]
         environment = dict(os.environ, PYTHONPATH=ROOT + "/scripts:" + os.environ["PYTHONPATH"], ROS_HOME=out)
         begun = time.monotonic()
         result = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
@@ -139,6 +242,9 @@ class RefusalsTest(unittest.TestCase):
             self.assertIn(word, result.stdout)
         self.assertNotIn("Traceback", result.stdout)
         self.assertLess(time.monotonic() - begun, PATIENCE_S)
+
+    def test_demo_with_a_map_that_is_not_there(self):
+        self.check_demo(["/no/such/map.bt: cannot be read", "FAILED"], ROOT + "/config/worlds/empty.yaml", "--map", "/no/such/map.bt")
 
     def test_demo_in_worlds_that_are_none(self):
         self.check_demo(["/no/such/world.yaml: cannot be read: No such file"], "/no/such/world.yaml")

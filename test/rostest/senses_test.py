@@ -69,7 +69,6 @@ class SensesTest(unittest.TestCase):
         for pattern in words:
             self.assertTrue(self.robot.said(pattern, since), (pattern, self.robot.report()))
         self.assertLess(self.robot.distance_to(*place), 0.01)
-        self.assertFalse(self.robot.done(), "it waits for what it misses")
 
     def begin_anew(self):
         """The nodes start again, and hear nothing."""
@@ -82,16 +81,21 @@ class SensesTest(unittest.TestCase):
     def test_it_does_not_set_off_without(self):
         self.begin_anew()
         self.check_does_not_move("perception: .*no scan on /through/scan for", "global_planner: .*no odometry on /through/odom yet")
+        self.assertFalse(self.robot.done(), "it waits for its pose")
         self.odometry.open = self.scan.open = True
         self.check_does_not_move("perception: .*no transform map <- ugv1/laser",
                                  "global_planner: .*no transform map -> ugv1/odom",
                                  "trajectory_tracker: .*no transform map -> ugv1/odom")
+        self.assertFalse(self.robot.done(), "it waits for its pose")
         self.scan.open = False
         self.robot.run(2.0)  # no scan is under way or waits for its transforms any more
         self.transforms.open = True
         self.check_does_not_move("perception: .*no scan on /through/scan for", "global_planner: .*no map on /ugv1/map yet",
                                  "local_replanner: .*map: none on /ugv1/map yet")
+        self.assertEqual(self.robot.outcome(), ("ABORTED", "no map on /ugv1/map yet: does perception run?"))
         self.scan.open = True
+        self.robot.run(1.0)
+        self.robot.send(*self.far_goal())
         self.robot.run_until(self.robot.done, 60.0, "it sets off when nothing is missing any more")
         self.assertEqual(self.robot.outcome()[0], "SUCCEEDED")
 

@@ -27,6 +27,15 @@ TEST_F(DelayCauseTest, WithoutAPlanThePlannerKnows) {
   EXPECT_EQ(cause_.cause(false, kNow_s).message, "no path");
 }
 
+TEST_F(DelayCauseTest, SaysThatAPlanCameTooLate) {
+  cause_.hear_replanner(said(PlanReason::kNotCertified, "does not join"), kNow_s);
+  cause_.hear_planning_time(0.9, 0.5);
+  EXPECT_EQ(cause_.cause(true, kNow_s).message,
+            "local replanner: does not join; planning took 0.9 s, planning_time is 0.5 s");
+  cause_.hear_planning_time(0.3, 0.5);
+  EXPECT_EQ(cause_.cause(true, kNow_s).message, "local replanner: does not join");
+}
+
 TEST_F(DelayCauseTest, WithAPlanTheLocalReplannerKnows) {
   cause_.hear_planner(said(PlanReason::kSolved, "solved"));
   EXPECT_EQ(cause_.cause(true, kNow_s).reason, PlanReason::kSolved);

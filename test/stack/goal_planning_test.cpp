@@ -56,9 +56,33 @@ TEST_F(GoalPlanningTest, WithoutAMapItSaysSo) {
   scene_ = nullptr;
   planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
   const auto output = step(kNow_s);
-  EXPECT_FALSE(output.plan);
+  ASSERT_TRUE(output.plan);
+  EXPECT_TRUE(output.plan->empty());
   ASSERT_TRUE(output.report);
   EXPECT_EQ(output.report->reason, PlanReason::kNoMap);
+}
+
+TEST_F(GoalPlanningTest, GivesAGoalUpWithoutAMapAndSaysSo) {
+  scene_ = nullptr;
+  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
+  step(kNow_s);
+  const auto output = step(kNow_s + values_.number("unreachable_timeout") + 0.1);
+  EXPECT_EQ(output.ending, GoalExecutive::Ending::kUnreachable);
+  ASSERT_TRUE(output.report);
+  EXPECT_EQ(output.report->reason, PlanReason::kNoMap);
+}
+
+TEST_F(GoalPlanningTest, SaysWhatThePoseLacksAndForHowLong) {
+  EXPECT_FALSE(planning_.wait_for_pose(kNow_s, "no odometry").report) << "has no goal";
+  planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
+  auto output = planning_.wait_for_pose(kNow_s + 59.0, "no odometry");
+  ASSERT_TRUE(output.report);
+  EXPECT_EQ(output.report->reason, PlanReason::kNoPose);
+  EXPECT_EQ(output.report->message, "no odometry");
+  output = planning_.wait_for_pose(kNow_s + 61.0, "no odometry");
+  EXPECT_EQ(output.ending, GoalExecutive::Ending::kNoProgress);
+  ASSERT_TRUE(output.report);
+  EXPECT_EQ(output.report->message, "no progress for 60 s: no odometry");
 }
 
 TEST_F(GoalPlanningTest, ForgetsItsGoalsWithEachNewEmergencyStop) {

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "perception/mapping/map_error.h"
+#include "perception/mapping/png_image.h"
 
 namespace mocha {
 namespace {
@@ -22,13 +23,6 @@ constexpr unsigned char kFreeGrey = 254;
 constexpr unsigned char kUnknownGrey = 205;
 constexpr double kMostPixels = 64e6;
 
-struct Image {
-  int width = 0;
-  int height = 0;
-  int white = 255;
-  std::string pixels;  // from the top row down
-};
-
 /// The next number of a PGM header; comments run from # to the end of the line.
 int header_number(std::istream& in) {
   std::string comment;
@@ -38,13 +32,12 @@ int header_number(std::istream& in) {
   return number;
 }
 
-Image load_image(const std::string& path) {
-  const std::string bytes = read_file(path);
+GreyImage read_pgm(const std::string& bytes, const std::string& path) {
   std::istringstream in(bytes);
   std::string magic(2, ' ');
   in.read(magic.data(), 2);
-  if (magic != "P5") throw MapError(path + ": is not a binary PGM image (P5)");
-  Image image;
+  if (magic != "P5") throw MapError(path + ": is neither a binary PGM image (P5) nor a PNG image");
+  GreyImage image;
   image.width = header_number(in);
   image.height = header_number(in);
   image.white = header_number(in);
@@ -60,6 +53,16 @@ Image load_image(const std::string& path) {
   }
   image.pixels = bytes.substr(begin, pixels);
   return image;
+}
+
+GreyImage load_image(const std::string& path) {
+  const std::string bytes = read_file(path);
+  if (!is_png(bytes)) return read_pgm(bytes, path);
+  try {
+    return read_png(bytes, kMostPixels);
+  } catch (const std::exception& error) {
+    throw MapError(path + ": " + error.what());
+  }
 }
 
 struct Description {
@@ -156,7 +159,7 @@ OccupancyGrid load_map_image(const std::string& yaml_path) {
   const Description description = read_description(yaml_path);
   const std::filesystem::path image_path =
       std::filesystem::path(yaml_path).parent_path() / description.image;
-  const Image image = load_image(image_path.string());
+  const GreyImage image = load_image(image_path.string());
   OccupancyGrid grid;
   grid.resolution_m = description.resolution_m;
   grid.origin = description.origin;
@@ -169,12 +172,21 @@ OccupancyGrid load_map_image(const std::string& yaml_path) {
       const double grey =
           static_cast<unsigned char>(image.pixels[row + x]) / static_cast<double>(image.white);
       const double occupancy = description.negate ? grey : 1.0 - grey;
-      grid.cells.push_back(occupancy > description.occupied_threshold ? OccupancyGrid::kOccupied
-                           : occupancy < description.free_threshold   ? OccupancyGrid::kFree
-                                                                      : OccupancyGrid::kUnknown);
+      const bool is_there = image.opaque.empty() || image.opaque[row + x] != 0;
+      grid.cells.push_back(!is_there                                    ? OccupancyGrid::kUnknown
+                           : occupancy > description.occupied_threshold ? OccupancyGrid::kOccupied
+                           : occupancy < description.free_threshold     ? OccupancyGrid::kFree
+                                                                        : OccupancyGrid::kUnknown);
     }
   }
   return grid;
+}
+
+Vector2 move_to_lattice(OccupancyGrid& grid) {
+  const Vector2 origin = grid.resolution_m * (grid.origin / grid.resolution_m).array().round();
+  const Vector2 shift = origin - grid.origin;
+  grid.origin = origin;
+  return shift;
 }
 
 }  // namespace mocha

@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <utility>
 
 #include "perception/mapping/cell_disc.h"
 #include "perception/mapping/grid_beam.h"
 #include "perception/mapping/map_image.h"
 #include "perception/mapping/octree_file.h"
+#include "perception/mapping/resampling.h"
 #include "perception/mapping/voxel_band.h"
 
 namespace mocha {
 namespace {
+
+constexpr double kSameCell_m = 1e-6;
 
 /// A place of the map in the frame of a body.
 Vector2 in_body(const Vector2& place, const Pose& base) {
@@ -32,7 +36,9 @@ void name_file(const std::string& path, Read read) {
 }  // namespace
 
 OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
-    : options_(options.checked()), voxels_(std::make_unique<VoxelBand>(options_)) {}
+    : largest_cell_m_(options.resolution_m),
+      options_(options.checked()),
+      voxels_(std::make_unique<VoxelBand>(options_)) {}
 
 OccupancyMap::~OccupancyMap() = default;
 
@@ -162,14 +168,23 @@ void OccupancyMap::save(const std::string& path) {
   write_file(path, voxels_->written(ending == ".bt"));
 }
 
-void OccupancyMap::load(const std::string& path) {
+std::string OccupancyMap::load(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
+  std::ostringstream notes;
   const auto replace_by = [&](double resolution_m, const auto& read) {
     name_file(path, [&] {
       OccupancyMapOptions options = options_;
       options.resolution_m = resolution_m;
       auto voxels = std::make_unique<VoxelBand>(options.checked());
       read(*voxels);
+      if (resolution_m > largest_cell_m_ + kSameCell_m) {
+        options.resolution_m = largest_cell_m_;
+        auto resampled = std::make_unique<VoxelBand>(options);
+        resample(*voxels, *resampled);
+        voxels = std::move(resampled);
+        notes << "; its cells of " << resolution_m << " m are resampled to " << largest_cell_m_
+              << " m";
+      }
       options_ = options;
       replace(std::move(voxels));
     });
@@ -178,11 +193,15 @@ void OccupancyMap::load(const std::string& path) {
     OctreeFile file = parse_octree_file(read_file(path), path);
     replace_by(file.resolution_m, [&](VoxelBand& voxels) { voxels.read_tree(std::move(file)); });
   } else if (ending == ".yaml") {
-    const OccupancyGrid grid = load_map_image(path);
+    OccupancyGrid grid = load_map_image(path);
+    const double shift_m = move_to_lattice(grid).norm();
+    if (shift_m > kSameCell_m)
+      notes << "; its origin is no multiple of its cells, and moved by " << shift_m << " m";
     replace_by(grid.resolution_m, [&](VoxelBand& voxels) { voxels.read_grid(grid); });
   } else {
     throw MapError(path + ": a map's name must end in .bt, .ot or .yaml");
   }
+  return notes.str();
 }
 
 void OccupancyMap::clear() { replace(std::make_unique<VoxelBand>(options_)); }

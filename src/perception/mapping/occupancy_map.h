@@ -27,7 +27,8 @@ class OccupancyMap {
   OccupancyMap(const OccupancyMap&) = delete;
   OccupancyMap& operator=(const OccupancyMap&) = delete;
 
-  /// As given, but for the size of the cells: that is the loaded map's, if one was loaded.
+  /// As given, but for the size of the cells: that is the loaded map's, if one of smaller cells was
+  /// loaded.
   const OccupancyMapOptions& options() const { return options_; }
 
   /// One planar scan; heights of the beams do not matter. Voxels that any beam hit are hit, others
@@ -92,11 +93,13 @@ class OccupancyMap {
   /// it). Throws MapError.
   void save(const std::string& path);
 
-  /// Replaces the map by a saved one and goes on with cells of its size, see options(). A planar
-  /// map enters at the scans' height; its origin is moved to the nearest multiple of its cells.
+  /// Replaces the map by a saved one and goes on with cells of its size, see options(); one of
+  /// larger cells than this map was made for is resampled to those, and what an octree knows beyond
+  /// the height band is forgotten then. A planar map enters at the scans' height; its origin is
+  /// moved to the nearest multiple of its cells. Returns in words what was not taken as it is.
   /// Throws MapError, leaving the map as it was, if the file is damaged or the size of its cells
   /// out of range.
-  void load(const std::string& path);
+  std::string load(const std::string& path);
 
   /// Forgets everything but the size of the cells.
   void clear();
@@ -104,6 +107,7 @@ class OccupancyMap {
  private:
   void replace(std::unique_ptr<VoxelBand> voxels);
 
+  const double largest_cell_m_;
   OccupancyMapOptions options_;
   std::unique_ptr<VoxelBand> voxels_;
   std::uint64_t version_before_ = 0;  // of the maps that voxels_ replaced

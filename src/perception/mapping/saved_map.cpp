@@ -8,9 +8,13 @@
 namespace mocha {
 
 OccupancyGrid load_saved_slice(const std::string& path, double min_height_m, double max_height_m) {
-  if (std::filesystem::path(path).extension() == ".yaml") return load_map_image(path);
+  if (std::filesystem::path(path).extension() == ".yaml") {
+    OccupancyGrid grid = load_map_image(path);
+    move_to_lattice(grid);  // as perception does
+    return grid;
+  }
   OccupancyMapOptions options;
-  options.resolution_m = 0.05;  // the file has its own
+  options.resolution_m = 1.0;  // the file has its own, which are no larger
   options.min_height_m = min_height_m;
   options.max_height_m = max_height_m;
   options.scan_height_m = 0.5 * (min_height_m + max_height_m);

@@ -136,6 +136,13 @@ GoalExecutive::Output GoalExecutive::step(double now_s, const RobotState& measur
   return output;
 }
 
+GoalExecutive::Output GoalExecutive::wait_for_pose(double now_s) {
+  Output output;
+  if (state_ == S::kPaused) goals_.wait(now_s);
+  if (!goals_.empty() && goals_.overdue(now_s)) give_up(Ending::kNoProgress, output);
+  return output;
+}
+
 GoalExecutive::Ending GoalExecutive::note_arrival(const Input& input) {
   // Keeping to an order and pausing do not count as lack of progress, nor a goal on the way as
   // reached.

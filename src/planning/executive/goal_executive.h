@@ -67,6 +67,10 @@ class GoalExecutive {
   Output step(double now_s, const RobotState& measured, const Motion& committed,
               const PlannerInterface& planner);
 
+  /// The same while nobody knows where the robot is, which may be found out: the goals are kept as
+  /// long as without progress.
+  Output wait_for_pose(double now_s);
+
   /// What would be asked now to get to `goal`; `committed` must not be empty.
   PlanQuery query_to(const Goal& goal, const Motion& committed, double now_s) const;
 

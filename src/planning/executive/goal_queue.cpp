@@ -75,7 +75,7 @@ GoalQueue::Event GoalQueue::update(double now_s, const RobotState& state) {
     begin(now_s);
     return goals_.empty() ? Event::kAllReached : Event::kReached;
   }
-  if (now_s - progress_s_ > options_.timeout_s) {
+  if (overdue(now_s)) {
     goals_.clear();
     return Event::kTimedOut;
   }

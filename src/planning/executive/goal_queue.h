@@ -55,6 +55,8 @@ class GoalQueue {
   void move_current(const Vector2& position) { instead_ = position; }
   /// The robot makes room for others: that is no lack of progress.
   void wait(double now_s) { progress_s_ = now_s; }
+  /// Without progress for too long.
+  bool overdue(double now_s) const { return now_s - progress_s_ > options_.timeout_s; }
   /// Those that are still to be visited, in order.
   const std::deque<Goal>& left() const { return goals_; }
   Progress progress() const { return goals_.empty() ? Progress{} : progress_; }

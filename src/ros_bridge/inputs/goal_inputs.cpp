@@ -11,7 +11,7 @@
 namespace mocha {
 
 GoalInputs::GoalInputs(ros::NodeHandle& node, RobotIdentity robot,
-                       const tf2_ros::Buffer& transforms, Handlers handlers)
+                       const tf2::BufferCore& transforms, Handlers handlers)
     : robot_(std::move(robot)),
       transforms_(transforms),
       handlers_(std::move(handlers)),
@@ -33,8 +33,9 @@ std::optional<Goal> GoalInputs::to_goal(const geometry_msgs::PoseStamped& stampe
     const bool any_heading = q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;
     if (any_heading) pose.pose.orientation = quaternion_of(0.0);
     if (!pose.header.frame_id.empty() && pose.header.frame_id != robot_.map_frame) {
-      pose.header.stamp = ros::Time(0);
-      pose = transforms_.transform(pose, robot_.map_frame);
+      const auto to_map =
+          transforms_.lookupTransform(robot_.map_frame, pose.header.frame_id, ros::Time(0));
+      tf2::doTransform(pose, pose, to_map);
     }
     const Pose in_map = from_message(pose.pose);
     if (!in_map.position.allFinite() || !std::isfinite(in_map.yaw_rad)) {

@@ -5,7 +5,7 @@
 #include <move_base_msgs/MoveBaseAction.h>
 #include <nav_msgs/Path.h>
 #include <ros/node_handle.h>
-#include <tf2_ros/buffer.h>
+#include <tf2/buffer_core.h>
 
 #include <deque>
 #include <functional>
@@ -31,7 +31,7 @@ class GoalInputs {
   };
 
   /// `transforms` must outlive this.
-  GoalInputs(ros::NodeHandle& node, RobotIdentity robot, const tf2_ros::Buffer& transforms,
+  GoalInputs(ros::NodeHandle& node, RobotIdentity robot, const tf2::BufferCore& transforms,
              Handlers handlers);
 
   /// In the map frame; nothing, counted and said, for what is not usable.
@@ -54,7 +54,7 @@ class GoalInputs {
   void refuse(const std::string& why);
 
   RobotIdentity robot_;
-  const tf2_ros::Buffer& transforms_;
+  const tf2::BufferCore& transforms_;
   Handlers handlers_;
   int refused_ = 0;
   std::string refusal_;

@@ -57,7 +57,7 @@ class PoseSource {
              double max_transform_age_s);
 
   PoseReading read(ros::Time now) const { return pose_.read(transforms_, now.toSec()); }
-  const tf2_ros::Buffer& transforms() const { return transforms_; }
+  const tf2::BufferCore& transforms() const { return transforms_; }
   int refused() const { return pose_.refused(); }
 
  private:

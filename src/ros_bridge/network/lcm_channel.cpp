@@ -4,10 +4,10 @@
 #include <ros/init.h>
 
 #include <boost/make_shared.hpp>
-#include <stdexcept>
 #include <utility>
 
 #include "fleet/wire/wire_format.h"
+#include "ros_bridge/runtime/unavailable_error.h"
 
 namespace mocha {
 namespace {
@@ -68,10 +68,10 @@ class LcmChannel::Arrivals : public std::enable_shared_from_this<Arrivals> {
 LcmChannel::LcmChannel(const std::string& url, std::function<void(const Bytes&)> handle)
     : lcm_(url), arrivals_(std::make_shared<Arrivals>(std::move(handle))) {
   const auto fail = [&] {
-    throw std::runtime_error("lcm_url = " + url +
-                             ": LCM cannot use it. Is it udpm://GROUP:PORT?ttl=1, and does the "
-                             "network have a route for multicast (ip route add 224.0.0.0/4 dev "
-                             "wlan0)?");
+    throw UnavailableError("lcm_url = " + url +
+                           ": LCM cannot use it. Is it udpm://GROUP:PORT?ttl=1, and does the "
+                           "network have a route for multicast (ip route add 224.0.0.0/4 dev "
+                           "wlan0)?");
   };
   if (!lcm_.good()) fail();
   lcm::Subscription* subscription = lcm_.subscribe(kChannel, &LcmChannel::on_datagram, this);

@@ -32,6 +32,7 @@ bool LiveParameters::on_request(dynamic_reconfigure::Reconfigure::Request& reque
     for (const std::string& note : notes) ROS_WARN("%s", note.c_str());
   } catch (const std::exception& error) {
     ++refused_;
+    refusal_ = error.what();
     ROS_ERROR("Refused new parameters: %s", error.what());
     return false;
   }
@@ -40,6 +41,11 @@ bool LiveParameters::on_request(dynamic_reconfigure::Reconfigure::Request& reque
   response.config = to_config(values_);
   updates_.publish(response.config);
   return true;
+}
+
+void LiveParameters::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  status.add("parameter changes refused", refused_);
+  if (refused_ > 0) status.add("last refused change", refusal_);
 }
 
 void LiveParameters::store(const std::string& name) const {

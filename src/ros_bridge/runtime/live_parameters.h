@@ -1,9 +1,11 @@
 #pragma once
 
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <string>
 
 #include "config/parameter_table.h"
 
@@ -15,8 +17,8 @@ namespace mocha {
 ///
 /// A request is done as a whole or not at all. Values out of range are clamped, and the log says
 /// so. Unknown names, parameters that are not live, wrong types, NaN and what the node refuses fail
-/// the request; they are counted, and the log says why. New values are also set as the node's
-/// private parameters, so that it has them again when it is started again.
+/// the request; they are counted, and log and diagnostics say why. New values are also set as the
+/// node's private parameters, so that it has them again when it is started again.
 class LiveParameters {
  public:
   /// `apply` makes the node work with new values; what it throws refuses them. Only then `values`
@@ -25,8 +27,8 @@ class LiveParameters {
       ParameterTable& values,
       std::function<void(const ParameterTable&)> apply = [](const ParameterTable&) {});
 
-  /// Requests refused so far.
-  int refused() const { return refused_; }
+  /// Requests refused so far, and why the last one was.
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
  private:
   bool on_request(dynamic_reconfigure::Reconfigure::Request& request,
@@ -36,6 +38,7 @@ class LiveParameters {
   ParameterTable& values_;
   std::function<void(const ParameterTable&)> apply_;
   int refused_ = 0;
+  std::string refusal_;
   ros::NodeHandle node_;
   ros::Publisher descriptions_;
   ros::Publisher updates_;

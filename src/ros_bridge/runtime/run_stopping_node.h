@@ -3,11 +3,12 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
-#include <exception>
+#include <memory>
 #include <string>
 
 #include "ros_bridge/runtime/clock_watch.h"
 #include "ros_bridge/runtime/node_help.h"
+#include "ros_bridge/runtime/node_start.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/stop_signals.h"
 
@@ -21,21 +22,19 @@ int run_stopping_node(int argc, char** argv, const std::string& name, ros::WallD
                       Between between) {
   if (prints_help(argc, argv, name)) return 0;
   const StopSignals stop;
-  ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
+  const NodeStart start(argc, argv, name, ros::init_options::NoSigintHandler);
   ros::NodeHandle node;  // outside: the console closes with the last handle
   ClockWatch clock(node);
-  try {
-    Node instance(node, checked_parameters(name));
+  std::unique_ptr<Node> instance;
+  const auto work = [&] {
     while (ros::ok() && !stop.came()) {
       ros::getGlobalCallbackQueue()->callAvailable(period);
-      between(instance);
+      between(*instance);
     }
-    instance.stop();
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s: %s", name.c_str(), error.what());
-    return 1;
-  }
-  return 0;
+    instance->stop();
+  };
+  return start.run([&] { instance = std::make_unique<Node>(node, checked_parameters(name)); }, work,
+                   [&] { return stop.came(); });
 }
 
 }  // namespace mocha

@@ -129,7 +129,9 @@ TEST_F(MapFiles, PrunedOctreesLoadAndCanBeChanged) {
     bytes += static_cast<char>(bits >> 8);
   }
   std::ofstream(path("cube.bt"), std::ios::binary) << bytes;
-  OccupancyMap loaded(shipped_map_options());
+  OccupancyMapOptions options = shipped_map_options();
+  options.resolution_m = 0.05;
+  OccupancyMap loaded(options);
   loaded.load(path("cube.bt"));
   OccupancyGrid grid = loaded.slice(0.0);
   ASSERT_EQ(grid.width, 8);
@@ -141,7 +143,7 @@ TEST_F(MapFiles, PrunedOctreesLoadAndCanBeChanged) {
   EXPECT_EQ(grid.at(4, 0), OccupancyGrid::kOccupied);
   EXPECT_EQ(grid.at(7, 7), OccupancyGrid::kFree);
   loaded.save(path("cube2.ot"));
-  OccupancyMap again(shipped_map_options());
+  OccupancyMap again(options);
   again.load(path("cube2.ot"));
   expect_same(again.slice(0.0), grid);
 }
@@ -165,6 +167,136 @@ TEST_F(MapFiles, WhatAnOctreeKnowsBeyondTheHeightBandIsSavedAgain) {
   EXPECT_TRUE(is_occupied(1.01F, 1.01F, 3.01F));
   EXPECT_FALSE(is_occupied(1.01F, 1.01F, 0.21F));
   EXPECT_TRUE(is_occupied(2.01F, 0.01F, static_cast<float>(map_.options().scan_height_m)));
+}
+
+void expect_covers(const OccupancyGrid& fine, const OccupancyGrid& coarse) {
+  for (int y = 0; y < fine.height; ++y) {
+    for (int x = 0; x < fine.width; ++x) {
+      const Vector2 at = (fine.cell_centre(x, y) - coarse.origin) / coarse.resolution_m;
+      const int cx = static_cast<int>(std::floor(at.x()));
+      const int cy = static_cast<int>(std::floor(at.y()));
+      const int8_t expected = coarse.contains(cx, cy) ? coarse.at(cx, cy) : OccupancyGrid::kUnknown;
+      ASSERT_EQ(fine.at(x, y), expected) << fine.cell_centre(x, y).transpose();
+    }
+  }
+}
+
+TEST_F(MapFiles, LargerCellsAreDividedAndScansCorrectThem) {
+  OccupancyMapOptions coarse = shipped_map_options();
+  coarse.resolution_m = 2.0 * map_.options().resolution_m;
+  OccupancyMap saved(coarse);
+  Room room;
+  room.circles = {{{2.0, 0.5}, 0.4}};
+  for (int i = 0; i < 4; ++i) saved.insert_scan(beams_at(room, {}));
+  const double x = 1.0 + 0.5 * coarse.resolution_m;
+  for (int i = 0; i < 10; ++i)
+    saved.insert_scan({{{0.0, 0.01, 0.2}, {x, 0.01, 0.2}, BeamEnd::kHit, 0.0}});
+  for (const char* name : {"room.bt", "room.ot", "room.yaml"}) {
+    saved.save(path(name));
+    OccupancyMap loaded(shipped_map_options());
+    const std::string notes = loaded.load(path(name));
+    EXPECT_NE(notes.find("cells of 0.05 m are resampled to 0.025 m"), std::string::npos) << notes;
+    EXPECT_EQ(loaded.options().resolution_m, map_.options().resolution_m);
+    expect_covers(loaded.slice(0.1), saved.slice(0.0));
+    for (int i = 0; i < 40; ++i)
+      loaded.insert_scan({{{0.0, 0.01, 0.2}, {x + 0.5, 0.01, 0.2}, BeamEnd::kIgnored, 0.0}});
+    EXPECT_TRUE(loaded.is_surely_free({x, 0.01})) << name;
+    const OccupancyGrid slice = loaded.slice(0.0);
+    const Vector2 at = (Vector2(x, 0.01) - slice.origin) / slice.resolution_m;
+    EXPECT_EQ(slice.at(static_cast<int>(at.x()), static_cast<int>(at.y())), OccupancyGrid::kFree)
+        << name << ": nothing is left of it at other heights";
+  }
+}
+
+TEST_F(MapFiles, CellsThatAreNoMultipleLoseNoObstacleAndInventNoFreeSpace) {
+  OccupancyGrid odd;
+  odd.resolution_m = 0.04;
+  odd.width = odd.height = 40;
+  odd.cells.assign(1600, OccupancyGrid::kUnknown);
+  std::mt19937 random(7);
+  for (int8_t& cell : odd.cells) {
+    const int kind = static_cast<int>(random() % 3);
+    cell = kind == 0   ? OccupancyGrid::kOccupied
+           : kind == 1 ? OccupancyGrid::kFree
+                       : OccupancyGrid::kUnknown;
+  }
+  save_map_image(odd, path("odd.yaml"));
+  OccupancyMap loaded(shipped_map_options());
+  loaded.load(path("odd.yaml"));
+  const OccupancyGrid fine = loaded.slice(0.1);
+  const double corner_m = 0.5 * fine.resolution_m - 1e-6;
+  for (int y = 0; y < fine.height; ++y) {
+    for (int x = 0; x < fine.width; ++x) {
+      bool any_occupied = false;
+      bool all_free = true;
+      for (const double dx : {-corner_m, corner_m}) {
+        for (const double dy : {-corner_m, corner_m}) {
+          const Vector2 at = (fine.cell_centre(x, y) + Vector2(dx, dy)) / odd.resolution_m;
+          const int cx = static_cast<int>(std::floor(at.x()));
+          const int cy = static_cast<int>(std::floor(at.y()));
+          const int8_t cell = odd.contains(cx, cy) ? odd.at(cx, cy) : OccupancyGrid::kUnknown;
+          any_occupied = any_occupied || cell == OccupancyGrid::kOccupied;
+          all_free = all_free && cell == OccupancyGrid::kFree;
+        }
+      }
+      ASSERT_EQ(fine.at(x, y), any_occupied ? OccupancyGrid::kOccupied
+                               : all_free   ? OccupancyGrid::kFree
+                                            : OccupancyGrid::kUnknown);
+    }
+  }
+}
+
+TEST_F(MapFiles, ObstaclesAtEachHeightStayThere) {
+  octomap::OcTree tree(0.05);
+  for (const float z : {0.075F, 0.525F, 0.975F})
+    tree.updateNode(octomap::point3d(1.01F, 1.01F, z), true);
+  tree.writeBinary(path("heights.bt"));
+  OccupancyMap loaded(shipped_map_options());
+  loaded.load(path("heights.bt"));
+  EXPECT_EQ(loaded.occupied_voxels().size(), 24u);
+  for (const Eigen::Vector3f& voxel : loaded.occupied_voxels()) {
+    EXPECT_NEAR(voxel.x(), 1.025F, 0.0126F);
+    EXPECT_NEAR(std::remainder(voxel.z() - 0.075F, 0.45F), 0.0F, 0.0126F);
+  }
+}
+
+TEST_F(MapFiles, AnOriginBetweenCellsIsMovedAndSaidToBe) {
+  OccupancyGrid grid = map_.slice(0.0);
+  const Vector2 shift(0.006, -0.008);
+  grid.origin += shift;
+  save_map_image(grid, path("room.yaml"));
+  OccupancyMap loaded(shipped_map_options());
+  const std::string notes = loaded.load(path("room.yaml"));
+  EXPECT_EQ(notes, "; its origin is no multiple of its cells, and moved by 0.01 m");
+  expect_same(loaded.slice(0.0), map_.slice(0.0));
+  map_.save(path("room.yaml"));
+  EXPECT_EQ(loaded.load(path("room.yaml")), "");
+}
+
+// 2 x 2 pixels: red, white; grey (205), transparent black.
+const char kPng[] =
+    "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00"
+    "\x00\x02\x00\x00\x00\x02\x08\x06\x00\x00\x00\x72\xb6\x0d\x24\x00\x00\x00"
+    "\x17\x49\x44\x41\x54\x78\x9c\x63\xf8\xcf\xc0\xf0\x1f\x04\x18\xce\x9e\x3d"
+    "\x0b\x64\x33\x30\x00\x00\x62\x91\x09\x61\x44\x99\x81\x8f\x00\x00\x00\x00"
+    "\x49\x45\x4e\x44\xae\x42\x60\x82";
+
+TEST_F(MapFiles, ReadsPngImages) {
+  write_file(path("map.png"), std::string(kPng, sizeof(kPng) - 1));
+  write_file(path("map.yaml"),
+             "image: map.png\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\n"
+             "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  const OccupancyGrid grid = load_map_image(path("map.yaml"));
+  ASSERT_EQ(grid.width, 2);
+  ASSERT_EQ(grid.height, 2);
+  EXPECT_EQ(grid.at(0, 1), OccupancyGrid::kOccupied) << "red";
+  EXPECT_EQ(grid.at(1, 1), OccupancyGrid::kFree) << "white";
+  EXPECT_EQ(grid.at(0, 0), OccupancyGrid::kUnknown) << "grey";
+  EXPECT_EQ(grid.at(1, 0), OccupancyGrid::kUnknown) << "transparent";
+  for (std::size_t size = 1; size < sizeof(kPng) - 13; ++size) {
+    write_file(path("map.png"), std::string(kPng, size));
+    EXPECT_THROW(load_map_image(path("map.yaml")), MapError) << size;
+  }
 }
 
 TEST_F(MapFiles, ALoadedMapKeepsItsOwnCells) {
@@ -264,7 +396,7 @@ TEST_F(MapFiles, ReadsMapServersConventions) {
   EXPECT_EQ(grid.at(1, 1), OccupancyGrid::kFree);
   EXPECT_EQ(grid.at(2, 0), OccupancyGrid::kFree);
   map_.load(path("small.yaml"));
-  EXPECT_EQ(map_.slice(0.0).width, 3);
+  EXPECT_NEAR(map_.slice(0.0).width * map_.options().resolution_m, 3 * 0.05, 1e-9);
 }
 
 }  // namespace

@@ -34,6 +34,39 @@ TEST_F(GoalExecutiveTest, SaysWhatIsMissing) {
   EXPECT_TRUE(asked_.empty());
 }
 
+TEST_F(GoalExecutiveTest, WithoutAMapGoalsAreGivenUpSoon) {
+  const double come_s = now_s_;
+  GoalExecutive::Output output;
+  for (; output.ending == Ending::kNone && now_s_ < come_s + 60.0; now_s_ += kPeriod_s) {
+    output = executive_.step(now_s_, state_, committed_, {});
+    ASSERT_TRUE(output.report);
+    EXPECT_EQ(output.report->reason, PlanReason::kNoMap);
+  }
+  EXPECT_EQ(output.ending, Ending::kUnreachable);
+  EXPECT_NEAR(now_s_ - come_s, options().unreachable_timeout_s, 2.0 * kPeriod_s);
+  EXPECT_TRUE(executive_.idle());
+}
+
+TEST_F(GoalExecutiveTest, PlansAtOnceWhenTheMapHasCome) {
+  executive_.step(now_s_, state_, committed_, {});
+  now_s_ += kPeriod_s;
+  EXPECT_TRUE(step().plan);
+}
+
+TEST_F(GoalExecutiveTest, WithoutAPoseGoalsAreKeptAsLongAsWithoutProgress) {
+  const double timeout_s = options().goals.timeout_s;
+  EXPECT_EQ(executive_.wait_for_pose(now_s_ + timeout_s - 0.1).ending, Ending::kNone);
+  EXPECT_EQ(executive_.wait_for_pose(now_s_ + timeout_s + 0.1).ending, Ending::kNoProgress);
+  EXPECT_TRUE(executive_.idle());
+  EXPECT_EQ(executive_.wait_for_pose(now_s_ + 3.0 * timeout_s).ending, Ending::kNone);
+}
+
+TEST_F(GoalExecutiveTest, WhilePausedAPoseIsWaitedForWithoutEnd) {
+  executive_.pause();
+  for (double wait_s = 0.0; wait_s < 300.0; wait_s += 10.0)
+    EXPECT_EQ(executive_.wait_for_pose(now_s_ + wait_s).ending, Ending::kNone);
+}
+
 TEST_F(GoalExecutiveTest, ReplacesAPlanOnlyByOneThatIsMuchBetter) {
   speed_ = 0.3;
   step();
