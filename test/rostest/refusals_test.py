@@ -99,7 +99,7 @@ class RefusalsTest(unittest.TestCase):
     def test_a_simulation_takes_its_clock_with_it(self):
         rospy.set_param("/use_sim_time", True)
         try:
-            with Launched(["rosrun", "mocha_ugv", "fleet_simulator", "_lockstep_nodes:=''", "_world:=" + ROOT + "/config/worlds/empty.yaml"]):
+            with Launched(["rosrun", "mocha_ugv", "fleet_simulator", "_lockstep_nodes:=", "_world:=" + ROOT + "/config/worlds/empty.yaml"]):
                 wait_until(lambda: answers("/fleet_simulator"), "it is there", PATIENCE_S)
                 self.assertTrue(rospy.get_param("/use_sim_time"))
                 self.check_node("fleet_simulator", ["another node with the name /fleet_simulator"], "__ns:=/", "__name:=fleet_simulator")
