@@ -14,7 +14,7 @@ constexpr double kControlPeriod_s = 0.1;
 constexpr double kProportional = 20.0;  // [1 / (m/s)]
 constexpr double kIntegral = 2000.0;    // [1 / m]
 constexpr double kDeadBand = 23.0;
-constexpr double kTopSpeed = 1.3;        // [m/s]
+constexpr double kTopSpeed = 1.3;    // [m/s]
 constexpr double kHeldSpeed = 0.01;  // [m/s] below, friction holds the wheel
 
 }  // namespace

@@ -189,7 +189,8 @@ SpaceTimeProblem problem_of(const World& world, double begin_s) {
   problem.ground = {world.bounds.min(), world.bounds.max(), {}};
   for (const Circle& circle : world.circles) problem.ground.obstacles.push_back(circle);
   for (const Polygon& polygon : world.polygons) problem.ground.obstacles.push_back(polygon);
-  for (const Polygon& polygon : kept_out_of(world.zones)) problem.ground.obstacles.push_back(polygon);
+  for (const Polygon& polygon : kept_out_of(world.zones))
+    problem.ground.obstacles.push_back(polygon);
   for (const Mover& mover : world.moving) {
     problem.movers.push_back([&mover](double time_s) -> std::optional<Circle> {
       const auto state = mover_state(mover, time_s);

@@ -29,7 +29,7 @@ bool is_outside(const std::vector<Polygon>& areas, const Vector2& place, double 
 /// Dijkstra's search on a lattice about `from`; empty where nothing outside is found.
 template <typename MayPass>
 std::vector<Vector2> shortest_exit(const std::vector<Polygon>& areas, const Vector2& from,
-                                      double half_width_m, const MayPass& may_pass) {
+                                   double half_width_m, const MayPass& may_pass) {
   struct Node {
     double way_m = std::numeric_limits<double>::infinity();
     Place before{0, 0};
@@ -82,7 +82,7 @@ bool Strip::covers(const Vector2& place) const {
 }
 
 Strip find_exit(const std::vector<Polygon>& areas, const OccupancyMap& map,
-                   const std::vector<Vector2>& course, const ExitRoom& room) {
+                const std::vector<Vector2>& course, const ExitRoom& room) {
   Strip strip{course, room.half_width_m};
   const auto is_free = [&](const Vector2& place, double room_m) {
     return !map.is_occupied_within(place, room_m, false);

@@ -27,6 +27,6 @@ struct ExitRoom {
 /// as short as may be, by cells that are not occupied and, if it can be had, were seen. Where there
 /// is no way out, it is the course alone. Nothing that is farther off than 30 m is found.
 Strip find_exit(const std::vector<Polygon>& areas, const OccupancyMap& map,
-                   const std::vector<Vector2>& course, const ExitRoom& room);
+                const std::vector<Vector2>& course, const ExitRoom& room);
 
 }  // namespace mocha
