@@ -120,6 +120,7 @@ class Desk:
     def _popen(self, command, output):
         for pattern, other in INSTEAD:
             command = re.sub(pattern, lambda _, other=other: other, command)
+        command = command.replace("$HOME", self.environment["HOME"])  # also where it is quoted
         process = subprocess.Popen(["bash", "-c", command], cwd=self.home, env=self.environment, stdout=output, stderr=subprocess.STDOUT, text=True,
                                    start_new_session=True)
         self._started.append(process)
