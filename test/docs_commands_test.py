@@ -52,7 +52,7 @@ SPILL = "{zones: [{name: spill, area: {points: [{x: 2, y: 1}, {x: 4, y: 1}, {x: 
 # What is run in place of what stands there, and why.
 USER = "daemon" if getpass.getuser() == "root" else getpass.getuser()
 INSTEAD = (
-    (r"(~/mocha_ugv/)?scripts/demo\b", "/usr/bin/python3 -m mocha_scripts.demo --headless --rate 0 --out out"),  # without a build, a display, the clock
+    (r"(~/mocha_ugv/)?scripts/demo\b", "/usr/bin/python3 -m mocha_scripts.demo --headless --rate 2 --out out"),  # without a build and a display
     (r"scripts/fleet_key", f"{ROOT}/scripts/fleet_key"),
     (r"scripts/install_robot", f"{ROOT}/scripts/install_robot --root $HOME --user {USER}"),  # writes below there
     (r"rviz:=true", "rviz:=false"),  # no display
