@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "perception/sensor/beam.h"
 #include "world/distances/distance_transform.h"
@@ -15,7 +14,7 @@ namespace {
 constexpr double kSmallestCell_m = 0.001;
 constexpr double kLargestCell_m = 10.0;
 
-std::size_t checked_cells(const OccupancyGrid& map) {
+void check(const OccupancyGrid& map) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(std::string("LikelihoodField: ") + what);
   };
@@ -26,14 +25,19 @@ std::size_t checked_cells(const OccupancyGrid& map) {
           "the cells are not 1 mm to 10 m wide");
   require(is_usable(map.origin) && is_usable(map.cell_centre(map.width, map.height)),
           "the grid lies too far away, or nowhere");
-  return cells;
+}
+
+/// With unknown cells around it as far as walls at its rim reach.
+OccupancyGrid with_rim(const OccupancyGrid& map, double reach_m) {
+  check(map);
+  const Vector2 size_m = map.resolution_m * Vector2(map.width, map.height);
+  return grown_to_hold(map, {map.origin, map.origin + size_m}, reach_m);
 }
 
 }  // namespace
 
-LikelihoodField::LikelihoodField(OccupancyGrid map, double reach_m)
-    : map_(std::move(map)), reach_m_(reach_m) {
-  distance_m_.resize(checked_cells(map_));
+LikelihoodField::LikelihoodField(const OccupancyGrid& map, double reach_m)
+    : map_(with_rim(map, reach_m)), reach_m_(reach_m), distance_m_(map_.cells.size()) {
   std::transform(map_.cells.begin(), map_.cells.end(), distance_m_.begin(),
                  [](int8_t cell) { return cell == OccupancyGrid::kOccupied ? 0.0f : kNoSite; });
   distance_transform(distance_m_, map_.width, map_.height);

@@ -18,14 +18,15 @@ class LikelihoodField {
 
   /// Farther than `reach_m` from any wall the field is flat. Throws std::invalid_argument for an
   /// empty grid, sizes that do not match, and cells or corners that no map of a place has.
-  LikelihoodField(OccupancyGrid map, double reach_m);
+  LikelihoodField(const OccupancyGrid& map, double reach_m);
 
-  /// Outside the map: the reach.
+  /// Outside of the map as well: a wall at its rim is met a little behind it, too.
   Sample sample(const Vector2& p) const;
 
   /// What the map says of a point: OccupancyGrid::kUnknown outside.
   int8_t cell(const Vector2& p) const;
 
+  /// With unknown cells around it, as far as walls reach.
   const OccupancyGrid& map() const { return map_; }
 
  private:

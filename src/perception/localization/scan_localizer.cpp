@@ -78,8 +78,8 @@ ScanLocalizerOptions ScanLocalizerOptions::from(const ParameterTable& values,
   return options;
 }
 
-void ScanLocalizer::set_map(OccupancyGrid map) {
-  walls_.emplace(std::move(map), 1.0);
+void ScanLocalizer::set_map(const OccupancyGrid& map) {
+  walls_.emplace(map, 1.0);
   search_.reset();  // built when it is needed
 }
 

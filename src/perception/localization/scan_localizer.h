@@ -63,7 +63,7 @@ class ScanLocalizer {
 
   /// Replaces the map; the places stay. Throws std::invalid_argument for one that
   /// is empty or of no place, see LikelihoodField.
-  void set_map(OccupancyGrid map);
+  void set_map(const OccupancyGrid& map);
 
   /// The robot is here at the next scan, believed without proof: to begin a new map.
   void begin(const Pose& base);

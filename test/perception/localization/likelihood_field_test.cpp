@@ -62,7 +62,7 @@ TEST(LikelihoodFieldTest, OutsideTheMapNothingIsKnown) {
   OccupancyGrid grid = grid_of(10, 10);
   grid.at(0, 0) = OccupancyGrid::kOccupied;
   const LikelihoodField field(grid, 0.5);
-  for (const Vector2& p : {Vector2(-1.01, 2.2), Vector2(5.0, 2.2), Vector2(-0.8, 1.0),
+  for (const Vector2& p : {Vector2(-1.6, 2.2), Vector2(5.0, 2.2), Vector2(-0.8, 1.0),
                            Vector2(NAN, 2.2), Vector2(-0.8, INFINITY)}) {
     EXPECT_EQ(field.sample(p).distance_m, 0.5);
     EXPECT_EQ(field.sample(p).gradient, Vector2(0.0, 0.0));
@@ -70,6 +70,19 @@ TEST(LikelihoodFieldTest, OutsideTheMapNothingIsKnown) {
   }
   EXPECT_EQ(field.cell({-0.99, 2.01}), OccupancyGrid::kOccupied);
   EXPECT_EQ(field.cell({-0.99, 2.06}), OccupancyGrid::kFree);
+}
+
+TEST(LikelihoodFieldTest, AWallAtTheRimReachesOut) {
+  OccupancyGrid grid = grid_of(10, 10);
+  for (int y = 0; y < 10; ++y) grid.at(9, y) = OccupancyGrid::kOccupied;
+  const LikelihoodField field(grid, 0.5);
+  const double wall_x_m = grid.cell_centre(9, 5).x();
+  for (const double behind_m : {-0.1, 0.05, 0.2, 0.4}) {
+    const Vector2 p(wall_x_m + behind_m, 2.25);
+    EXPECT_NEAR(field.sample(p).distance_m, std::abs(behind_m), 1e-6);
+    EXPECT_NEAR(field.sample(p).gradient.x(), behind_m > 0.0 ? 1.0 : -1.0, 1e-6);
+    EXPECT_EQ(field.cell(p), behind_m > 0.0 ? OccupancyGrid::kUnknown : OccupancyGrid::kFree);
+  }
 }
 
 TEST(LikelihoodFieldTest, RefusesAnEmptyGrid) {
