@@ -56,8 +56,7 @@ TEST_F(GoalPlanningTest, WithoutAMapItSaysSo) {
   scene_ = nullptr;
   planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
   const auto output = step(kNow_s);
-  ASSERT_TRUE(output.plan);
-  EXPECT_TRUE(output.plan->empty());
+  EXPECT_FALSE(output.plan);
   ASSERT_TRUE(output.report);
   EXPECT_EQ(output.report->reason, PlanReason::kNoMap);
 }
@@ -66,10 +65,13 @@ TEST_F(GoalPlanningTest, GivesAGoalUpWithoutAMapAndSaysSo) {
   scene_ = nullptr;
   planning_.executive().take({Goal{{6.0, 0.0}, std::nullopt}}, standing_, kNow_s);
   step(kNow_s);
-  const auto output = step(kNow_s + values_.number("unreachable_timeout") + 0.1);
-  EXPECT_EQ(output.ending, GoalExecutive::Ending::kUnreachable);
+  EXPECT_EQ(step(kNow_s + 59.0).ending, GoalExecutive::Ending::kNone);
+  const auto output = step(kNow_s + 61.0);
+  EXPECT_EQ(output.ending, GoalExecutive::Ending::kNoProgress);
   ASSERT_TRUE(output.report);
   EXPECT_EQ(output.report->reason, PlanReason::kNoMap);
+  EXPECT_EQ(output.report->message.find("no progress for 60 s: no map on "), 0u)
+      << output.report->message;
 }
 
 TEST_F(GoalPlanningTest, SaysWhatThePoseLacksAndForHowLong) {

@@ -28,7 +28,7 @@ GoalExecutive::Report report(PlanReason reason, const std::string& message,
 
 E failure_event(PlanReason reason) {
   if (reason == PlanReason::kGoalOccupied) return E::kGoalFoundOccupied;
-  if (reason == PlanReason::kNoPath || reason == PlanReason::kNoMap) return E::kNoPathFound;
+  if (reason == PlanReason::kNoPath) return E::kNoPathFound;
   return E::kNoPlan;
 }
 
@@ -69,7 +69,6 @@ void GoalExecutive::plan(const Input& input, Output& output) {
 void GoalExecutive::ask_for_plan(const Input& input, Output& output) {
   if (!input.planner.ask) {
     output.report = report(PlanReason::kNoMap, "no map yet");
-    fail(PlanReason::kNoMap, input, output);
     return;
   }
   if (input.committed.empty()) {
