@@ -27,8 +27,10 @@ install(TARGETS mocha_core EXPORT mocha_ugv)
 
 include(CMakePackageConfigHelpers)
 set(package ${CATKIN_GLOBAL_LIB_DESTINATION}/cmake/${PROJECT_NAME})
-configure_file(cmake/mocha_ugvConfig.cmake ${devel}/${package}/mocha_ugvConfig.cmake COPYONLY)
+set(share ${CATKIN_PACKAGE_SHARE_DESTINATION})
+configure_package_config_file(cmake/mocha_ugvConfig.cmake.in ${devel}/${package}/mocha_ugvConfig.cmake INSTALL_DESTINATION ${package} INSTALL_PREFIX ${devel}
+  PATH_VARS share)
 write_basic_package_version_file(${devel}/${package}/mocha_ugvConfigVersion.cmake VERSION ${${PROJECT_NAME}_VERSION} COMPATIBILITY SameMinorVersion)
 export(EXPORT mocha_ugv NAMESPACE mocha_ugv:: FILE ${devel}/${package}/mocha_ugvTargets.cmake)
 install(EXPORT mocha_ugv NAMESPACE mocha_ugv:: FILE mocha_ugvTargets.cmake DESTINATION ${package})
-install(FILES cmake/mocha_ugvConfig.cmake ${devel}/${package}/mocha_ugvConfigVersion.cmake DESTINATION ${package})
+install(FILES ${devel}/${package}/mocha_ugvConfig.cmake ${devel}/${package}/mocha_ugvConfigVersion.cmake DESTINATION ${package})

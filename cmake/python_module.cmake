@@ -1,10 +1,11 @@
 # The Python module mocha_planner (src/python), where pybind11 is installed.
 if(NOT CMAKE_CROSSCOMPILING)
-  set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE})
-  find_package(Python3 COMPONENTS Interpreter Development QUIET)
+  # pybind11 takes Python before Python3, and catkin has found its interpreter only, or none.
+  set(Python_EXECUTABLE ${PYTHON_EXECUTABLE})
+  find_package(Python COMPONENTS Interpreter Development QUIET)
   find_package(pybind11 CONFIG QUIET)
 endif()
-if(NOT pybind11_FOUND OR NOT Python3_Development_FOUND)
+if(NOT pybind11_FOUND OR NOT Python_Development_FOUND)
   message(STATUS "mocha_planner: left out, as pybind11-dev or python3-dev is not installed, or it is for another machine")
   return()
 endif()

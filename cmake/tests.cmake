@@ -1,6 +1,6 @@
 # The layering, what stands around the nodes, the tests of the core and of the bridge to ROS, every rostest below test/rostest, and every test on separate hosts
 # below test/netns.
-foreach(name architecture architecture_page cell_optimum door_capacity clear_mot crossing_worlds docs docs_commands fleet_view install_robot launch_files plots referee robot_description)
+foreach(name architecture architecture_page cell_optimum door_capacity clear_mot crossing_worlds docs debian_packages docs_commands fleet_view install_robot launch_files plots referee robot_description)
   add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/${name}_test.py)
 endforeach()
 

@@ -31,8 +31,10 @@ class InstallRobot(unittest.TestCase):
         self.addCleanup(directory.cleanup)
         self.root = pathlib.Path(directory.name)
 
+    script = ROOT / "scripts/install_robot"
+
     def install(self, *arguments, expect=0):
-        command = [ROOT / "scripts/install_robot", "--root", self.root, "--user", USER, *arguments]
+        command = [self.script, "--root", self.root, "--user", USER, *arguments]
         result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=self.root)
         self.assertEqual(result.returncode, expect, result.stdout)
         return result.stdout
@@ -58,12 +60,16 @@ class InstallRobot(unittest.TestCase):
     def files(self):
         return {str(path.relative_to(self.root)) for path in self.root.rglob("*") if path.is_file()}
 
-    def launched(self):
-        """What the service starts, as systemd and roslaunch read it."""
+    def command(self):
+        """What the service starts, as systemd reads it."""
         command = re.search(r"^ExecStart=((?:.*\\\n)*.*)$", self.read(UNIT), re.MULTILINE).group(1).replace("\\\n", " ")
         for name, value in self.settings().items():
             command = command.replace("${%s}" % name, value)
-        enter, roslaunch_name, package, launch_file, *arguments = shlex.split(command)
+        return shlex.split(command)
+
+    def launched(self):
+        """The same, as roslaunch reads it."""
+        enter, roslaunch_name, package, launch_file, *arguments = self.command()
         self.assertEqual([enter, roslaunch_name, package], ["/opt/mocha_ugv/env.sh", "roslaunch", "mocha_ugv"])
         config = roslaunch.config.ROSLaunchConfig()
         roslaunch.xmlloader.XmlLoader().load(str(ROOT / "launch" / launch_file), config, argv=arguments, verbose=False)
@@ -168,6 +174,22 @@ class InstallRobot(unittest.TestCase):
         said = self.install(*NAMED, "--workspace", "lidar_ws/devel")
         self.assertRegex(said, f"(?s)would run: . {self.root}/lidar_ws/devel/setup.bash\n.*scripts/build")
         self.assertEqual(said, self.install())
+
+    def test_where_the_package_is_installed_nothing_is_built(self):
+        self.script = pathlib.Path(self.write("usr/lib/mocha_ugv/install_robot", (ROOT / "scripts/install_robot").read_text(), 0o755))
+        share = self.root / "usr/share/mocha_ugv"
+        share.mkdir(parents=True)
+        for folder in ("config", "systemd"):
+            (share / folder).symlink_to(ROOT / folder)
+        said = self.install(*NAMED)
+        self.assertNotIn("build", said)
+        self.assertEqual(self.command()[:4], ["/usr/bin/env", "roslaunch", "mocha_ugv", "robot.launch"])
+        self.assertIn("there is no config/robots/tank.yaml", self.install("--model", "tank", expect=2))
+        self.write("lidar_ws/devel/setup.bash")
+        self.install("--workspace", "lidar_ws/devel")
+        self.assertEqual(self.command()[0], f"{self.root}/lidar_ws/devel/env.sh")
+        self.install("--uninstall")
+        self.assertTrue(self.script.exists())
 
     def test_dry_run_writes_nothing(self):
         said = self.install(*NAMED, "--dry-run")

@@ -1,39 +1,59 @@
-# Roots of other Debian suites, for scripts/test --on SUITE and scripts/package --on SUITE. Source it.
+# Roots of Debian, made by mmdebstrap in ~/.cache/mocha_ugv or MOCHA_ROOTS, for scripts/test --on and scripts/package. Source it.
+as_root=()
+if ((EUID != 0)); then as_root=(sudo); fi
 
-# debian_root SUITE PACKAGE...: makes a root with these packages, unless it is there; sets $root to its path.
+# debian_root NAME SUITE PACKAGES [OPTION...]: makes a root with these packages, unless it is there; sets $root to its path. Options are
+# mmdebstrap's.
 debian_root() {
-  local suite=$1 packages sudo=()
-  shift
-  packages=$(printf '%s\n' "$@" | sort -u | paste -sd,)
-  root=${MOCHA_ROOTS:-$HOME/.cache/mocha_ugv}/$suite
-  if ((EUID != 0)); then sudo=(sudo); fi
-  [[ "$("${sudo[@]}" cat "$root/packages" 2>/dev/null)" != "$packages" ]] || return 0
-  command -v mmdebstrap >/dev/null || { echo "mmdebstrap is missing: apt-get install mmdebstrap" >&2; return 1; }
+  local suite=$2 packages
+  packages=$(printf '%s\n' $3 | sort -u | paste -sd,)
+  root=${MOCHA_ROOTS:-$HOME/.cache/mocha_ugv}/$1
+  [[ "$("${as_root[@]}" cat "$root/packages" 2>/dev/null)" != "$packages" ]] || return 0
+  command -v mmdebstrap >/dev/null || { echo "mmdebstrap is missing: sudo apt-get install mmdebstrap" >&2; return 1; }
   echo "making a root of Debian $suite in $root"
   mkdir -p "$(dirname "$root")"
-  "${sudo[@]}" rm -rf "$root.new"
-  "${sudo[@]}" mmdebstrap --quiet --aptopt='APT::Install-Recommends "false"' --include="$packages" "$suite" "$root.new"
-  "${sudo[@]}" tee "$root.new/packages" <<<"$packages" >/dev/null
+  "${as_root[@]}" rm -rf "$root.new"
+  "${as_root[@]}" mmdebstrap --quiet --aptopt='APT::Install-Recommends "false"' ${packages:+--include="$packages"} "${@:4}" "$suite" "$root.new"
+  "${as_root[@]}" tee "$root.new/packages" <<<"$packages" >/dev/null
   # Only what this has made is replaced.
-  if "${sudo[@]}" test -f "$root/packages"; then "${sudo[@]}" rm -rf "$root"; fi
-  "${sudo[@]}" mv -T "$root.new" "$root"
+  if "${as_root[@]}" test -f "$root/packages"; then "${as_root[@]}" rm -rf "$root"; fi
+  "${as_root[@]}" mv -T "$root.new" "$root"
 }
 
-# in_debian_root DIRECTORY COMMAND...: runs a command in $root, where DIRECTORY is /mocha_ugv and the working directory.
+# arm64_sysroot SUITE: what is compiled against and linked for arm64; sets $root to its path. It lies outside the checkout, which rosrun and
+# roslaunch search for nodes.
+arm64_sysroot() {
+  local packages
+  packages=$(scripts/setup --test --list | grep -vE 'librviz|qtbase5|pybind11|python3-dev' | grep -E -- '-dev$|^ros-.*-msgs$|^catkin$|^ros-message-generation$')
+  debian_root "$1_arm64_sysroot" "$1" "$packages" --variant=extract --architectures=arm64
+  # qemu would take these for the machine's.
+  "${as_root[@]}" rm -rf "$root/dev" "$root/tmp"
+}
+
+# in_debian_root DIRECTORY:PLACE ... -- COMMAND...: runs a command in $root, where these directories are at these places. It begins in the first.
 in_debian_root() {
-  local sudo=()
-  if ((EUID != 0)); then sudo=(sudo); fi
-  "${sudo[@]}" unshare --mount --pid --fork --propagation private bash -ec '
-    root=$1 directory=$2 data=$3
-    shift 3
-    mkdir -p "$root/mocha_ugv" "$root/shared/data"
-    mount --bind "$directory" "$root/mocha_ugv"
-    if [[ -d $data ]]; then mount --bind "$data" "$root/shared/data"; fi
+  "${as_root[@]}" unshare --mount --pid --fork --propagation private bash -ec '
+    root=$1 begin=${2#*:}
+    shift
+    while [[ $1 != -- ]]; do
+      mkdir -p "$root/${1#*:}"
+      mount --bind "${1%%:*}" "$root/${1#*:}"
+      shift
+    done
+    shift
     mount -t proc proc "$root/proc"
     mount --rbind /dev "$root/dev"
     mount --rbind /sys "$root/sys"
     cp /etc/resolv.conf /etc/hosts "$root/etc/"
-    exec chroot "$root" env -i HOME=/root LANG=C.UTF-8 PATH=/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin MOCHA_DATA=/shared/data \
-      bash -c "cd /mocha_ugv && exec \"\$@\"" - "$@"
-  ' - "$root" "$1" "$(realpath -m "${MOCHA_DATA:-$1/../shared/data}")" "${@:2}"
+    exec chroot "$root" env -i HOME=/root LANG=C.UTF-8 PATH=/usr/local/bin:/usr/bin:/bin:/usr/sbin:/sbin \
+      bash -c "cd $begin && exec \"\$@\"" - "$@"
+  ' - "$root" "$@"
+}
+
+# Has the kernel run programs of arm64, by qemu.
+emulate_arm64() {
+  local formats=/proc/sys/fs/binfmt_misc
+  [[ $(dpkg --print-architecture) != arm64 ]] || return 0
+  [[ -e $formats/register ]] || "${as_root[@]}" mount -t binfmt_misc binfmt_misc $formats
+  [[ -e $formats/qemu-aarch64 ]] || "${as_root[@]}" tee $formats/register </usr/lib/binfmt.d/qemu-aarch64.conf >/dev/null
 }

@@ -5,12 +5,13 @@ import os
 import sys
 import time
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from mocha_scripts.paths import CALLED, OUT, ROOT
+
 LCM_URL = "udpm://239.255.76.67:7667?ttl=0"
 
 
 def parse(arguments):
-    parser = argparse.ArgumentParser(prog="scripts/demo", description=__doc__ + " Exit status 0 only if all robots reach "
+    parser = argparse.ArgumentParser(prog=CALLED + "demo", description=__doc__ + " Exit status 0 only if all robots reach "
                                      "their goals without contact.")
     parser.add_argument("--world", default=os.path.join(ROOT, "config/worlds/corridor.yaml"), metavar="FILE",
                         help="world file (default: two robots in a corridor of 12 cylinders)")
@@ -27,7 +28,7 @@ def parse(arguments):
     parser.add_argument("--limit", type=float, default=180.0, metavar="SECONDS",
                         help="simulated seconds allowed (default 180)")
     parser.add_argument("--json", metavar="FILE", help="write the results of the table there")
-    parser.add_argument("--out", metavar="DIR", default=os.path.join(ROOT, "out/demo"),
+    parser.add_argument("--out", metavar="DIR", default=os.path.join(OUT, "demo"),
                         help="log, rosbag and plots go there (default out/demo)")
     parser.add_argument("--no-plots", action="store_true", help="record no rosbag and draw no plots")
     return parser.parse_args(arguments)

@@ -5,8 +5,7 @@ import os
 import sys
 
 from mocha_scripts.complaint import Complaint
-
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from mocha_scripts.paths import CALLED, HAS_SOURCES, ROOT
 
 
 def add_recording(plots, world, words):
@@ -207,11 +206,16 @@ def write_reference(options):
     reference.write_reference(ROOT, options.out)
 
 
+OF_RECORDINGS = [add_drive, add_detour, add_costs, add_animation]
+# These run benchmarks, or read what is not installed.
+OF_SOURCES = [add_table1, add_table2, add_table3, add_classes, add_tracks, add_contacts, add_replan, add_architecture, add_reference]
+
+
 def main(arguments):
-    parser = argparse.ArgumentParser(prog="scripts/plots", description=__doc__)
+    parser = argparse.ArgumentParser(prog=CALLED + "plots", description=__doc__)
     what = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
-    for plots in (add_drive(what), add_table1(what), add_table2(what), add_table3(what), add_classes(what), add_tracks(what), add_contacts(what),
-                  add_replan(what), add_detour(what), add_costs(what), add_animation(what), add_architecture(what), add_reference(what)):
+    for add in OF_RECORDINGS + (OF_SOURCES if HAS_SOURCES else []):
+        plots = add(what)
         plots.add_argument("--out", default=".", metavar="DIR", help="files go there (default: here)")
     options = parser.parse_args(arguments)
     os.makedirs(options.out, exist_ok=True)

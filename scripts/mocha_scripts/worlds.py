@@ -4,8 +4,7 @@ import os
 import yaml
 
 from mocha_scripts.complaint import Complaint, in_a_line
-
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from mocha_scripts.paths import ROOT
 
 
 def read_yaml(path):

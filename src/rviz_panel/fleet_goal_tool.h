@@ -7,8 +7,8 @@
 
 namespace mocha {
 
-/// The mouse gives a goal: a click is a place, a drag a heading, too. Who drives there, the panel
-/// says.
+/// Takes a goal from the mouse: a click is a place, a drag a place and a heading. It is for the
+/// robot that is chosen in the panel.
 class FleetGoalTool : public rviz::PoseTool {
   Q_OBJECT
 

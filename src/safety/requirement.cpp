@@ -88,7 +88,7 @@ Requirements::Requirements(const RobotModel& robot) {
                   kShareOfCell * robot.map_resolution_m + Footprint::kCoverTolerance_m};
   at(Name::kPlan) = plan;
 
-  Requirement detour = plan;
+  Requirement detour = at(Name::kPlan);
   detour.peer_distance_m = distance_to_peers_m(robot) + kPeerSlack_m;
   detour.predicted_distance_m = from_people_m(1.0);
   at(Name::kDetour) = at(Name::kDetourLikely) = detour;

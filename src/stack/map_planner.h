@@ -17,8 +17,8 @@ PlanQuery from_standing(const Pose& start, const Goal& goal);
 std::shared_ptr<const StaticMap> static_map_of(const OccupancyGrid& map,
                                                const std::vector<Vector2>& places);
 
-/// Plans on maps for one robot that has the place to itself: the way in for those who have no
-/// fleet, no lidar and no ROS.
+/// Plans on maps for one robot that has the place to itself. This is the entrance to the library
+/// without fleet, lidar and ROS.
 class MapPlanner {
  public:
   MapPlanner(const RobotModel& robot, const PlannerOptions& options) : planner_(robot, options) {}

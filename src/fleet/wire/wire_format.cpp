@@ -222,7 +222,7 @@ Datagram decode(const std::uint8_t* data, std::size_t size, const FleetKey* key)
   require_said(size >= kFrame && size <= kMostDatagramBytes, "no datagram has so many bytes");
   require_said(kFrame + std::size_t{256} * data[kSizeAt] + data[kSizeAt + 1] == size,
                "its size is not what it says");
-  mocha_lcm::datagram_t message;
+  mocha_lcm::datagram_t message{};
   require_said(message.decode(data, 0, static_cast<int>(size)) == static_cast<int>(size),
                "is no datagram of this package");
   require_said(message.version == kWireVersion, "is of version " + std::to_string(message.version) +

@@ -30,8 +30,8 @@ std::optional<Vector2> wall_passed(const Beam& beam, const OccupancyMap& map) {
 /// Neighbouring beams that pass what stands.
 struct Run {
   int beams = 0;
-  Vector2 first;
-  Vector2 last;
+  Vector2 first = Vector2::Zero();
+  Vector2 last = Vector2::Zero();
   Vector2 ways = Vector2::Zero();  // their sum
 
   bool is_wide() const { return beams > 0 && (last - first).norm() > kStays_m; }

@@ -12,8 +12,8 @@ namespace mocha {
 ///
 /// The battery is low once its voltage has been below a threshold for a while, as it sags when the
 /// robot sets off; and is so until it has been charged as long. The goals at hand are given up, not
-/// kept: who gave them is to know at once, and a robot that comes off its charger hours later is
-/// not to set off by itself.
+/// kept: their sender learns of it at once, and the robot does not set off by itself when it comes
+/// off its charger hours later.
 class LowBattery {
  public:
   struct Options {
