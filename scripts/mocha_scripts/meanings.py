@@ -72,6 +72,7 @@ TOPICS = {
     "waypoints": "a list of goals, one after the other",
     "wheels/cmd_vel": "the same for the simulated wheels of an emulated base",
     "wheels/odom": "what the simulated wheels of an emulated base have turned",
+    "zone_markers": "for rviz: the zones that are in force, and the way out of one that the robot stands in",
     "zones": "the zones that are in force: not to be entered, or slowly only",
 }
 

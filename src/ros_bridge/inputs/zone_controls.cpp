@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "ros_bridge/messages/zone_conversions.h"
+#include "ros_bridge/rviz/zone_drawing.h"
 #include "trajectory/stopping.h"
 #include "world/world_file.h"
 
@@ -31,6 +32,7 @@ ZoneControls::ZoneControls(ros::NodeHandle& node, const RobotIdentity& robot,
       keep_out_(model),
       committed_(node, robot.name),
       states_(node.advertise<mocha_ugv::Zones>("zones", 1, true)),
+      drawings_(node.advertise<visualization_msgs::MarkerArray>("zone_markers", 2, true)),
       calls_(node.advertiseService("set_zones", &ZoneControls::on_set, this)) {
   const std::string& in_force = values.text("zones_in_force");
   if (!in_force.empty()) {
@@ -122,14 +124,17 @@ void ZoneControls::publish() {
   message.header.stamp = since_;
   message.header.frame_id = robot_.map_frame;
   to_message(zones_, message);
-  if (keep_out_.leads_out()) {
-    for (const Vector2& place : keep_out_.open().path) {
-      message.exit.emplace_back();
-      message.exit.back().x = place.x();
-      message.exit.back().y = place.y();
-    }
+  std::vector<Vector2> exit;
+  if (keep_out_.leads_out()) exit = keep_out_.open().path;
+  for (const Vector2& place : exit) {
+    message.exit.emplace_back();
+    message.exit.back().x = place.x();
+    message.exit.back().y = place.y();
   }
   states_.publish(message);
+  Drawing drawing(robot_.map_frame, ros::Time());
+  draw_zones(zones_, exit, drawing);
+  drawings_.publish(drawing.markers());
 }
 
 void ZoneControls::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -20,8 +20,8 @@
 namespace mocha {
 
 /// The zones of one robot as people meet them: the service `set_zones`, the file that they come
-/// from, which is read again when it is written, and what is in force, latched, as `zones`. They
-/// outlive the node, as its parameter `zones_in_force`.
+/// from, which is read again when it is written, and what is in force, latched, as `zones` and, for
+/// rviz, as `zone_markers`. They outlive the node, as its parameter `zones_in_force`.
 class ZoneControls {
  public:
   /// `values` are those of config/perception.yaml. Throws WorldError for zones that are none.
@@ -54,6 +54,7 @@ class ZoneControls {
   ros::Time looked_;
   CommittedTrajectorySource committed_;
   ros::Publisher states_;
+  ros::Publisher drawings_;
   ros::ServiceServer calls_;
 };
 

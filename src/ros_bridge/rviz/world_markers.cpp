@@ -20,8 +20,6 @@ struct Colour {
 };
 
 constexpr Colour kWall{0.45f, 0.45f, 0.5f, 1.0f};
-constexpr Colour kKeepOut{0.9f, 0.2f, 0.2f, 0.8f};
-constexpr Colour kSpeedZone{0.95f, 0.7f, 0.1f, 0.8f};
 constexpr Colour kMover{0.95f, 0.55f, 0.1f, 0.9f};
 constexpr Colour kRobot{0.15f, 0.4f, 0.9f, 0.8f};
 constexpr Colour kGoal{0.1f, 0.7f, 0.25f, 0.9f};
@@ -130,12 +128,6 @@ visualization_msgs::MarkerArray world_markers(const World& world) {
   }
   for (const Polygon& polygon : world.polygons) {
     picture.add_prism("static", polygon, kWallHeight_m, kWall);
-  }
-  for (const Zone& zone : world.zones) {
-    if (zone.keeps_out())
-      picture.add_outline("keep_out", zone.area, 0.0, kKeepOut);
-    else
-      picture.add_outline("speed_zones", zone.area, 0.0, kSpeedZone);
   }
   for (const WorldRobot& robot : world.robots) {
     if (robot.goal) add_goal(picture, robot);
