@@ -1,4 +1,6 @@
-# Roots of Debian, made by mmdebstrap in ~/.cache/mocha_ugv or MOCHA_ROOTS, for scripts/test --on and scripts/package. Source it.
+# Roots of Debian, made by mmdebstrap in $roots, for scripts/test --on and scripts/package. Source it. What is built in them lies there as well:
+# in the checkout, roslaunch would find every launch file twice.
+roots=${MOCHA_ROOTS:-$HOME/.cache/mocha_ugv}
 as_root=()
 if ((EUID != 0)); then as_root=(sudo); fi
 
@@ -7,7 +9,7 @@ if ((EUID != 0)); then as_root=(sudo); fi
 debian_root() {
   local suite=$2 packages
   packages=$(printf '%s\n' $3 | sort -u | paste -sd,)
-  root=${MOCHA_ROOTS:-$HOME/.cache/mocha_ugv}/$1
+  root=$roots/$1
   [[ "$("${as_root[@]}" cat "$root/packages" 2>/dev/null)" != "$packages" ]] || return 0
   command -v mmdebstrap >/dev/null || { echo "mmdebstrap is missing: sudo apt-get install mmdebstrap" >&2; return 1; }
   echo "making a root of Debian $suite in $root"
@@ -20,11 +22,14 @@ debian_root() {
   "${as_root[@]}" mv -T "$root.new" "$root"
 }
 
+# What packages are built and tested with: setup lists the Qt of this machine's rviz only.
+packages_for_all() { echo "$(scripts/setup --package --list) qtbase5-dev qt6-base-dev"; }
+
 # arm64_sysroot SUITE: what is compiled against and linked for arm64; sets $root to its path. It lies outside the checkout, which rosrun and
 # roslaunch search for nodes.
 arm64_sysroot() {
   local packages
-  packages=$(scripts/setup --test --list | grep -vE 'librviz|qtbase5|pybind11|python3-dev' | grep -E -- '-dev$|^ros-.*-msgs$|^catkin$|^ros-message-generation$')
+  packages=$(scripts/setup --test --list | grep -vE 'librviz|^qt|pybind11|python3-dev' | grep -E -- '-dev$|^ros-.*-msgs$|^catkin$|^ros-message-generation$')
   debian_root "$1_arm64_sysroot" "$1" "$packages" --variant=extract --architectures=arm64
   # qemu would take these for the machine's.
   "${as_root[@]}" rm -rf "$root/dev" "$root/tmp"
@@ -35,6 +40,7 @@ in_debian_root() {
   "${as_root[@]}" unshare --mount --pid --fork --propagation private bash -ec '
     root=$1 begin=${2#*:}
     shift
+    mount --bind "$root" "$root"  # in it, namespaces can be made
     while [[ $1 != -- ]]; do
       mkdir -p "$root/${1#*:}"
       mount --bind "${1%%:*}" "$root/${1#*:}"
