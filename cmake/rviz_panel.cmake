@@ -14,7 +14,7 @@ find_package(${qt} REQUIRED COMPONENTS Widgets)
 file(GLOB sources CONFIGURE_DEPENDS src/rviz_panel/*.cpp)
 file(GLOB qt_headers CONFIGURE_DEPENDS src/rviz_panel/*.h)
 add_library(mocha_rviz_panel SHARED ${sources} ${qt_headers})
-set_target_properties(mocha_rviz_panel PROPERTIES AUTOMOC ON NO_SONAME ON)  # a plugin, not a library that others link
+set_target_properties(mocha_rviz_panel PROPERTIES AUTOMOC ON)
 mocha_compile_by_room(mocha_rviz_panel ${sources})
 target_compile_definitions(mocha_rviz_panel PRIVATE QT_NO_KEYWORDS)
 target_include_directories(mocha_rviz_panel PUBLIC src)
