@@ -2,7 +2,9 @@
 """What scripts/plots says of files that it cannot draw: a line, and no traceback."""
 import contextlib
 import io
+import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -50,6 +52,12 @@ class Plots(unittest.TestCase):
         self.check("classes", ROOT / "config/maps/corridor.bt", says="corridor.bt: cannot be read")
         self.check("classes", ROOT / "config/robots/rover.yaml", says="neither a world file nor")
         self.check("classes", self.write("map.yaml", "{image: map.pgm, resolution: 0.05, origin: [0, 0, 0]}"), says="--drive X0 Y0 X1 Y1")
+
+    def test_recordings_are_drawn_without_benchmarks(self):
+        """As where the package is installed."""
+        modules = "animation, costs_plots, detour_plots, drive_plots"
+        environment = {**os.environ, "PYTHONPATH": f"{ROOT / 'scripts'}:{os.environ.get('PYTHONPATH', '')}"}
+        subprocess.run([sys.executable, "-c", f"from mocha_scripts import {modules}"], env=environment, cwd=self.folder.name, check=True)
 
     def test_models_of_a_world_are_beside_it(self):
         world = self.write("world.yaml", "{robots: [{name: a, model: mine.yaml}, {name: b, model: rover}]}")

@@ -10,10 +10,10 @@ import numpy as np
 import rosbag
 from matplotlib.patches import Circle
 
-from benchmarks.classes_plots import COLORS, draw_world
 from mocha_scripts import bags, drive_plots, worlds
 from mocha_scripts.complaint import Complaint
 from mocha_scripts.map_topics import NewestMap
+from mocha_scripts.world_plot import COLORS, draw_world
 from mocha_ugv.msg import MotionPhase, PlannerStatus
 
 EVERY_S = 2.0  # the robots of the time-lapse are drawn

@@ -5,23 +5,11 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.patches import Circle, Polygon
 
 from benchmarks import benchmark
 from mocha_scripts import worlds
 from mocha_scripts.complaint import Complaint
-
-COLORS = ("#d6247f", "#1f77b4", "#2ca02c", "#ff7f0e", "#7b3fb5", "#00a6a6", "#8c564b", "#8a8a12")
-
-
-def draw_world(axes, world):
-    for x, y, radius in world.get("circles", []):
-        axes.add_patch(Circle((x, y), radius, fc="#d9d9d9", ec="#969696", lw=0.6))
-    for corners in world.get("polygons", []):
-        axes.add_patch(Polygon(corners, fc="#bdbdbd", ec="#969696", lw=0.6))
-    for corners in world.get("keep_out", []):
-        axes.add_patch(Polygon(corners, fc="#fddbc7", ec="#d6604d", lw=0.6, hatch="//"))
-    axes.set(xlim=[world["bounds"][end][0] for end in ("min", "max")], ylim=[world["bounds"][end][1] for end in ("min", "max")])
+from mocha_scripts.world_plot import COLORS, draw_world
 
 
 def draw_map(axes, path, description):
