@@ -28,9 +28,13 @@ packages_for_all() { echo "$(scripts/setup --package --list) qtbase5-dev qt6-bas
 # arm64_sysroot SUITE: what is compiled against and linked for arm64; sets $root to its path. It lies outside the checkout, which rosrun and
 # roslaunch search for nodes.
 arm64_sysroot() {
-  local packages
+  local packages link
   packages=$(scripts/setup --test --list | grep -vE 'librviz|^qt|pybind11|python3-dev' | grep -E -- '-dev$|^ros-.*-msgs$|^catkin$|^ros-message-generation$')
   debian_root "$1_arm64_sysroot" "$1" "$packages" --variant=extract --architectures=arm64
+  # Links to absolute paths lead out of it, and static libraries would be taken instead.
+  while IFS= read -r link; do
+    "${as_root[@]}" ln -sfr "$root$(readlink "$link")" "$link"
+  done < <(find "$root" -type l -lname '/*')
   # qemu would take these for the machine's.
   "${as_root[@]}" rm -rf "$root/dev" "$root/tmp"
 }
