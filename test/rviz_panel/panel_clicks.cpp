@@ -49,6 +49,18 @@ class FleetPanelClicks : public ::testing::Test {
     return std::hypot(pose.x - x, pose.y - y) < kAtGoal_m;
   }
 
+  void simulate(double rate) {
+    auto& speed = window_->find<QComboBox>("speed");
+    window_->click("speed");
+    window_->click(
+        *speed.view(),
+        speed.view()->visualRect(speed.model()->index(speed.findData(rate), 0)).center());
+    ASSERT_TRUE(until([this, rate] {
+      double now = -1.0;
+      return node_.getParam("/fleet_simulator/rate", now) && now == rate;
+    }));
+  }
+
   ros::NodeHandle node_;
   ros::Subscriber truth_;
   std::map<std::string, mocha_ugv::RobotTruth> robots_;
@@ -59,6 +71,9 @@ TEST_F(FleetPanelClicks, DriveAFleet) {
   // The robots that are there, in order; the first one is chosen.
   EXPECT_EQ(window_->cell("robots", 0, 0), "ugv1");
   EXPECT_EQ(window_->cell("robots", 1, 0), "ugv2");
+
+  // The simulation's speed: the robot is not to arrive before the mouse is at the next button.
+  ASSERT_NO_FATAL_FAILURE(simulate(0.25));
 
   // A drag is a goal with a heading, for the robot that is chosen.
   window_->click_row("robots", 1);
@@ -74,6 +89,7 @@ TEST_F(FleetPanelClicks, DriveAFleet) {
   ASSERT_TRUE(until([this] { return does(1, "paused") && speed("ugv2") == 0.0; }));
   EXPECT_FALSE(is_at("ugv2", 5.0, 3.0));
   window_->click("resume");
+  ASSERT_NO_FATAL_FAILURE(simulate(2.0));
   ASSERT_TRUE(until([this] { return is_at("ugv2", 5.0, 3.0) && does(1, "parked at its goal"); }));
   EXPECT_NEAR(robots_["ugv2"].pose.theta, M_PI / 2.0, kHeading_rad);
   EXPECT_TRUE(does(0, "no goal"));
@@ -112,16 +128,6 @@ TEST_F(FleetPanelClicks, DriveAFleet) {
   ASSERT_TRUE(until([this] { return does(0, "emergency stop") && does(1, "emergency stop"); }));
   window_->click("reset_all");
   ASSERT_TRUE(until([this] { return !does(0, "emergency stop") && !does(1, "emergency stop"); }));
-
-  // The simulation's speed.
-  auto& speed = window_->find<QComboBox>("speed");
-  window_->click("speed");
-  window_->click(*speed.view(),
-                 speed.view()->visualRect(speed.model()->index(speed.findData(0.1), 0)).center());
-  ASSERT_TRUE(until([this] {
-    double rate = 0.0;
-    return node_.getParam("/fleet_simulator/rate", rate) && rate == 0.1;
-  }));
 }
 
 }  // namespace
