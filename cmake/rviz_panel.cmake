@@ -24,7 +24,7 @@ add_dependencies(mocha_rviz_panel ${PROJECT_NAME}_generate_messages_cpp ${catkin
 install(TARGETS mocha_rviz_panel LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 install(FILES rviz/plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/rviz)
 
-if(rostest_FOUND)
+if(MOCHA_TESTS)
   catkin_add_gtest(test_rviz_panel test/rviz_panel/robot_words_test.cpp test/rviz_panel/background_calls_test.cpp)
   target_link_libraries(test_rviz_panel mocha_rviz_panel gtest gtest_main)
   # A real rviz, used by a real mouse.
