@@ -79,7 +79,7 @@ class InstallSpace(unittest.TestCase):
         return self.run_there("roslaunch", *options, "mocha_ugv", "robot.launch", "robot:=ugv3")
 
     def test_nodes_are_found(self):
-        ours = {path.name for path in (self.prefix / "lib/mocha_ugv").iterdir()}
+        ours = {path.stem[:-len("_node")] for path in (pathlib.Path(__file__).parent.parent / "src/nodes").glob("*_node.cpp")}
         nodes = [node for node in self.roslaunch("--nodes").split() if node.startswith("/ugv3/") and node.split("/")[-1] in ours]
         self.assertGreater(len(nodes), 5)
         for node in nodes:

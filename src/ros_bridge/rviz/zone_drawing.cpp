@@ -31,8 +31,8 @@ void draw_zones(const Zones& zones, const std::vector<Vector2>& exit, Drawing& d
     const std_msgs::ColorRGBA& color = zone.keeps_out() ? kKeepOutColor : kSpeedColor;
     std::vector<Vector2> outline = zone.area.corners;
     outline.push_back(outline.front());
-    drawing.add_line(zone.keeps_out() ? "keep-out zones" : "speed zones", outline, kOutline_m, color,
-                     false);
+    drawing.add_line(zone.keeps_out() ? "keep-out zones" : "speed zones", outline, kOutline_m,
+                     color, false);
     drawing.add_label("names of zones", label(zone), centre(zone.area), kNameHeight_m, color);
   }
   if (exit.size() > 1) drawing.add_line("way out", evenly(exit), kOutline_m, kExitColor, true);
