@@ -31,12 +31,14 @@ arm64_sysroot() {
   local packages link
   packages=$(scripts/setup --test --list | grep -vE 'librviz|^qt|pybind11|python3-dev' | grep -E -- '-dev$|^ros-.*-msgs$|^catkin$|^ros-message-generation$')
   debian_root "$1_arm64_sysroot" "$1" "$packages" --variant=extract --architectures=arm64
+  # qemu would take these for the machine's.
+  "${as_root[@]}" rm -rf "$root/dev" "$root/tmp"
+  # From Debian 13 on, base-files makes this link, which nothing to link with needs.
+  [[ -e $root/lib ]] || "${as_root[@]}" ln -s usr/lib "$root/lib"
   # Links to absolute paths lead out of it, and static libraries would be taken instead.
   while IFS= read -r link; do
     "${as_root[@]}" ln -sfr "$root$(readlink "$link")" "$link"
   done < <(find "$root" -type l -lname '/*')
-  # qemu would take these for the machine's.
-  "${as_root[@]}" rm -rf "$root/dev" "$root/tmp"
 }
 
 # in_debian_root DIRECTORY:PLACE ... -- COMMAND...: runs a command in $root, where these directories are at these places. It begins in the first.
