@@ -74,8 +74,9 @@ GoalExecutive::Output GoalPlanning::wait_for_pose(double now_s, const std::strin
   if (executive_.idle()) return output;
   output = executive_.wait_for_pose(now_s);
   const bool gives_up = output.ending != GoalExecutive::Ending::kNone;
-  output.report = GoalExecutive::Report{
-      PlanReason::kNoPose, {}, (gives_up ? no_progress_for(goal_timeout_s_) : "") + missing};
+  output.report.emplace();
+  output.report->reason = PlanReason::kNoPose;
+  output.report->message = (gives_up ? no_progress_for(goal_timeout_s_) : "") + missing;
   return output;
 }
 
