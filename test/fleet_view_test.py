@@ -87,6 +87,10 @@ class FleetView(unittest.TestCase):
         topics = [display["Topic"] for display in groups["tractor_7"] if "Topic" in display]
         self.assertTrue(topics and all(topic.startswith("/tractor_7/") for topic in topics))
 
+    def test_remappings_of_roslaunch_are_no_robots(self):
+        config = self.view("--robots", "ugv3", "__name:=rviz", "/ugv3/scan:=scan")
+        self.assertEqual(set(self.groups(config)), {"ugv3"})
+
     def test_a_bag_shows_its_map_and_its_robots(self):
         path = self.directory / "drive.bag"
         with rosbag.Bag(str(path), "w") as bag:
