@@ -15,6 +15,10 @@ target_link_libraries(benchmark_classes mocha_perception)
 mocha_benchmark(localization)
 target_link_libraries(benchmark_localization mocha_perception mocha_simulation)
 
+mocha_benchmark(mapping test/benchmarks/carmen_log.cpp test/benchmarks/log_drive.cpp test/benchmarks/skid_odometry.cpp
+  test/benchmarks/trajectory_error.cpp)
+target_link_libraries(benchmark_mapping mocha_perception)
+
 mocha_benchmark(tracks test/benchmarks/bag_perception.cpp)
 target_link_libraries(benchmark_tracks mocha_ros_bridge)
 
@@ -28,7 +32,7 @@ if(ompl_FOUND)
     target_include_directories(benchmark_${name} SYSTEM PRIVATE ${OMPL_INCLUDE_DIRS})
     target_link_libraries(benchmark_${name} ${OMPL_LIBRARIES})
   endforeach()
-  mocha_benchmark(maps test/benchmarks/maps_building.cpp test/benchmarks/maps_log.cpp test/benchmarks/bitstar.cpp)
+  mocha_benchmark(maps test/benchmarks/maps_building.cpp test/benchmarks/maps_log.cpp test/benchmarks/carmen_log.cpp test/benchmarks/bitstar.cpp)
   target_include_directories(benchmark_maps SYSTEM PRIVATE ${OMPL_INCLUDE_DIRS})
   target_link_libraries(benchmark_maps ${OMPL_LIBRARIES})
 endif()

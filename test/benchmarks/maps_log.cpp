@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
-#include <string>
 #include <vector>
+
+#include "benchmarks/carmen_log.h"
 
 namespace mocha {
 namespace {
@@ -15,32 +14,10 @@ constexpr double kFarthest_m = 20.0;  // beams that end beyond say nothing there
 constexpr double kRobot_m = 0.35;
 constexpr double kLeastShare = 0.25;  // of the beams that come to a cell, ending in it: occupied
 
-struct Scan {
-  Vector2 position;
-  double yaw_rad;
-  std::vector<double> ranges_m;  // from -90 degrees on, evenly to about 90
-
-  Vector2 end(std::size_t beam, double range_m) const {
-    const double step_rad = M_PI / std::round(static_cast<double>(ranges_m.size()) / 180.0) / 180.0;
-    const double angle_rad = yaw_rad - 0.5 * M_PI + static_cast<double>(beam) * step_rad;
-    return position + range_m * Vector2(std::cos(angle_rad), std::sin(angle_rad));
-  }
-};
-
-std::vector<Scan> scans_of(std::istream& log) {
-  std::vector<Scan> scans;
-  std::string line;
-  while (std::getline(log, line)) {
-    std::istringstream words(line);
-    std::string word;
-    std::size_t count = 0;
-    if (!(words >> word >> count) || word != "FLASER") continue;
-    Scan scan;
-    scan.ranges_m.resize(count);
-    for (double& range_m : scan.ranges_m) words >> range_m;
-    if (words >> scan.position.x() >> scan.position.y() >> scan.yaw_rad) scans.push_back(scan);
-  }
-  return scans;
+/// Where a beam of that length ends.
+Vector2 end_of(const LoggedScan& scan, std::size_t beam, double range_m) {
+  const double angle_rad = scan.laser.yaw_rad + scan.angle_rad(beam);
+  return scan.laser.position + range_m * Vector2(std::cos(angle_rad), std::sin(angle_rad));
 }
 
 /// How many beams came to each cell, and how many ended there.
@@ -49,13 +26,13 @@ class Counts {
   explicit Counts(const OccupancyGrid& grid)
       : grid_(grid), passed_(grid.cells.size(), 0), ended_(grid.cells.size(), 0) {}
 
-  void add(const Scan& scan) {
+  void add(const LoggedScan& scan) {
     for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
       const double range_m = scan.ranges_m[beam];
       const double free_m = std::min(range_m, kFarthest_m);
       for (double along_m = 0.0; along_m < free_m - kCell_m; along_m += 0.5 * kCell_m)
-        count(scan.end(beam, along_m), passed_);
-      if (range_m < kFarthest_m) count(scan.end(beam, range_m), ended_);
+        count(end_of(scan, beam, along_m), passed_);
+      if (range_m < kFarthest_m) count(end_of(scan, beam, range_m), ended_);
     }
   }
 
@@ -82,31 +59,31 @@ class Counts {
 }  // namespace
 
 Building building_of_log(std::istream& log) {
-  const std::vector<Scan> scans = scans_of(log);
-  if (scans.empty()) throw std::invalid_argument("the log has no scans (FLASER)");
+  const std::vector<LoggedScan> scans = read_carmen_log(log);
   Eigen::AlignedBox2d box;
-  for (const Scan& scan : scans) {
-    box.extend(scan.position);
+  for (const LoggedScan& scan : scans) {
+    box.extend(scan.laser.position);
     for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
-      if (scan.ranges_m[beam] < kFarthest_m) box.extend(scan.end(beam, scan.ranges_m[beam]));
+      if (scan.ranges_m[beam] < kFarthest_m) box.extend(end_of(scan, beam, scan.ranges_m[beam]));
     }
   }
   Building made;
-  made.start = scans.front().position;
-  made.goal = std::max_element(scans.begin(), scans.end(), [&](const Scan& a, const Scan& b) {
-                return (a.position - made.start).norm() < (b.position - made.start).norm();
-              })->position;
+  made.start = scans.front().laser.position;
+  made.goal =
+      std::max_element(scans.begin(), scans.end(), [&](const LoggedScan& a, const LoggedScan& b) {
+        return (a.laser.position - made.start).norm() < (b.laser.position - made.start).norm();
+      })->laser.position;
   made.grid.resolution_m = kCell_m;
   made.grid.origin = box.min() - Vector2(1.0, 1.0);
   made.grid.width = static_cast<int>((box.sizes().x() + 2.0) / kCell_m);
   made.grid.height = static_cast<int>((box.sizes().y() + 2.0) / kCell_m);
   made.grid.cells.resize(static_cast<std::size_t>(made.grid.width) * made.grid.height);
   Counts counts(made.grid);
-  for (const Scan& scan : scans) counts.add(scan);
+  for (const LoggedScan& scan : scans) counts.add(scan);
   for (std::size_t cell = 0; cell < made.grid.cells.size(); ++cell)
     made.grid.cells[cell] = counts.value(cell);
-  for (const Scan& scan : scans)
-    fill_disc(made.grid, scan.position, kRobot_m, OccupancyGrid::kFree);
+  for (const LoggedScan& scan : scans)
+    fill_disc(made.grid, scan.laser.position, kRobot_m, OccupancyGrid::kFree);
   return made;
 }
 

@@ -11,7 +11,6 @@ constexpr int kTop = 6;  // the search begins with squares of 2^6 cells
 constexpr double kFull = 255.0;
 constexpr double kSpacing_m = 0.05;  // of the places looked at; not below the map's cells
 constexpr double kYawStep_rad = 0.026;
-constexpr double kMinScore = 0.5;  // worse places are none
 constexpr double kRivalry = 0.15;  // places so much worse than the best are found as well
 constexpr double kApart_m = 0.5;   // of places so near to each other, and so alike, the best
 constexpr double kApart_rad = 0.35;
@@ -58,19 +57,22 @@ struct Square {
 /// One run of the search: depth first, the most promising squares first.
 class Run {
  public:
-  Run(int budget, double spacing_m, const Vector2& origin, const GridPyramid& likelihood,
-      const GridPyramid& free_cells)
-      : budget_(budget),
+  Run(const BranchAndBoundMatcher::Options& options, double spacing_m, const Vector2& origin,
+      const GridPyramid& likelihood, const GridPyramid& free_cells, const SearchWindow& window)
+      : options_(options),
         spacing_m_(spacing_m),
         origin_(origin),
         likelihood_(likelihood),
-        free_(free_cells) {}
+        free_(free_cells),
+        window_(window) {}
 
   BranchAndBoundMatcher::Result find(const ScanHits& scan) {
     turn(scan);
     std::vector<Square> squares;
     const int edge = 1 << kTop;
     for (int heading = 0; heading < static_cast<int>(hits_.size()); ++heading) {
+      if (std::abs(wrap_angle(heading * yaw_step_rad_ - window_.centre.yaw_rad)) > window_.turn_rad)
+        continue;
       for (int y = 0; y < free_.height(); y += edge) {
         for (int x = 0; x < free_.width(); x += edge) consider({{x, y}, kTop, heading, 0}, squares);
       }
@@ -101,9 +103,14 @@ class Run {
     }
   }
 
-  bool is_given_up() const { return squares_ >= budget_; }
+  bool is_given_up() const { return squares_ >= options_.budget; }
 
-  double least() const { return std::max(kMinScore, best_ - kRivalry); }
+  double least() const { return std::max(options_.min_score, best_ - kRivalry); }
+
+  bool is_outside(const Square& square) const {
+    const double far_m = (pose_of(square).position - window_.centre.position).norm();
+    return far_m > window_.radius_m + M_SQRT1_2 * spacing_m_ * (1 << square.level);
+  }
 
   double bound_of(const Square& square) const {
     int sum = 0;
@@ -114,7 +121,8 @@ class Run {
   }
 
   void consider(Square square, std::vector<Square>& squares) {
-    if (free_.at(square.level, square.corner[0], square.corner[1]) == 0) return;
+    if (is_outside(square) || free_.at(square.level, square.corner[0], square.corner[1]) == 0)
+      return;
     ++squares_;
     square.bound = bound_of(square);
     if (square.bound >= least()) squares.push_back(square);
@@ -176,11 +184,12 @@ class Run {
     best_ = std::max(best_, found.score);
   }
 
-  int budget_;
+  const BranchAndBoundMatcher::Options& options_;
   double spacing_m_;
   Vector2 origin_;
   const GridPyramid& likelihood_;
   const GridPyramid& free_;
+  const SearchWindow& window_;
   double yaw_step_rad_ = 0.0;
   std::vector<std::vector<Cell>> hits_;  // of each heading
   std::vector<BranchAndBoundMatcher::Place> places_;
@@ -190,16 +199,18 @@ class Run {
 
 }  // namespace
 
-BranchAndBoundMatcher::BranchAndBoundMatcher(const LikelihoodField& walls, int budget)
-    : budget_(budget),
+BranchAndBoundMatcher::BranchAndBoundMatcher(const LikelihoodField& walls, const Options& options)
+    : options_(options),
       spacing_m_(std::max(kSpacing_m, walls.map().resolution_m)),
       origin_(walls.map().origin),
       likelihood_(likelihood_of(walls, spacing_m_)),
       free_(free_places(walls, spacing_m_)) {}
 
-BranchAndBoundMatcher::Result BranchAndBoundMatcher::find(const ScanHits& scan) const {
+BranchAndBoundMatcher::Result BranchAndBoundMatcher::find(const ScanHits& scan,
+                                                          const SearchWindow& window) const {
   if (scan.hits.empty()) return {};
-  return Run(budget_, spacing_m_, origin_, likelihood_, free_).find(thinned(scan, kHits));
+  return Run(options_, spacing_m_, origin_, likelihood_, free_, window)
+      .find(thinned(scan, options_.hits));
 }
 
 }  // namespace mocha

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "perception/localization/grid_pyramid.h"
@@ -9,20 +11,31 @@
 
 namespace mocha {
 
-/// Where in a map a scan may have been taken, without any prior: branch and bound over all free
-/// places and headings, so that no place better than those found has been overlooked.
+/// What is searched: poses with positions and headings that near to those of the centre.
+struct SearchWindow {
+  Pose centre;
+  double radius_m = std::numeric_limits<double>::infinity();
+  double turn_rad = M_PI;  ///< to either side
+};
+
+/// Where in a map a scan may have been taken: branch and bound over all free places and headings of
+/// a window, so that no place better than those found has been overlooked.
 class BranchAndBoundMatcher {
  public:
-  static constexpr std::size_t kHits = 80;  ///< of the scan, at most
-  static constexpr double kReach_m = 0.1;   ///< standard deviation of a hit's distance to its wall
+  static constexpr double kReach_m = 0.1;  ///< standard deviation of a hit's distance to its wall
+
+  struct Options {
+    int budget = 0;          ///< gives up after so many bounds of places
+    std::size_t hits = 80;   ///< of the scan, at most
+    double min_score = 0.5;  ///< worse places are none
+  };
 
   struct Place {
     Pose pose;     ///< of the robot, map frame, to within the spacing
     double score;  ///< mean over the hits of exp(-d^2 / (2 kReach_m^2)), d to the nearest wall
   };
 
-  /// Looks at `budget` bounds of places before it gives up.
-  BranchAndBoundMatcher(const LikelihoodField& walls, int budget);
+  BranchAndBoundMatcher(const LikelihoodField& walls, const Options& options);
 
   struct Result {
     std::vector<Place> places;  ///< best first; empty where no place is good enough
@@ -30,10 +43,11 @@ class BranchAndBoundMatcher {
     int squares = 0;            ///< that were looked at
   };
 
-  Result find(const ScanHits& scan) const;
+  /// Searches everywhere, unless there is a window.
+  Result find(const ScanHits& scan, const SearchWindow& window = {}) const;
 
  private:
-  int budget_;
+  Options options_;
   double spacing_m_;
   Vector2 origin_;
   GridPyramid likelihood_;  // 255 on a wall

@@ -20,7 +20,6 @@ constexpr double kFoundSigma_rad = 0.03;
 constexpr double kOdometrySlack_m = 0.5;
 constexpr double kSamePlace_m = 0.2;
 constexpr double kSamePlace_rad = 0.2;
-constexpr double kFarthestHit_m = 1000.0;  // no lidar sees farther
 
 Eigen::Matrix3d diagonal(double sigma_m, double sigma_rad) {
   return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
@@ -39,15 +38,6 @@ bool is_within(const PoseEstimate& expected, const Pose& pose) {
 
 void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("ScanLocalizer: ") + what);
-}
-
-void check(const ScanHits& scan, const Pose& odometry) {
-  const auto seen = [](const Vector2& point) { return point.norm() <= kFarthestHit_m; };
-  require(std::isfinite(scan.time_s), "the scan's time is not finite");
-  require(seen(scan.sensor) && std::all_of(scan.hits.begin(), scan.hits.end(), seen),
-          "the scan's sensor or a hit is not finite, or more than 1 km from the robot");
-  require(is_usable(odometry.position) && std::isfinite(odometry.yaw_rad),
-          "the odometry is not finite, or too far away");
 }
 
 }  // namespace
@@ -108,7 +98,7 @@ void ScanLocalizer::forget() {
 }
 
 const Localization& ScanLocalizer::add(const ScanHits& scan, const Pose& odometry) {
-  check(scan, odometry);
+  check_measured(scan, odometry);
   require(!time_s_ || scan.time_s > *time_s_, "the scan is not newer than the one before");
   const double dt_s = time_s_ ? scan.time_s - *time_s_ : 0.0;
   time_s_ = scan.time_s;
@@ -186,7 +176,7 @@ bool ScanLocalizer::wants_search(double time_s) const {
 
 void ScanLocalizer::search(const ScanHits& scan) {
   searched_s_ = scan.time_s;
-  if (!search_) search_.emplace(*walls_, options_.search_budget);
+  if (!search_) search_.emplace(*walls_, BranchAndBoundMatcher::Options{options_.search_budget});
   const BranchAndBoundMatcher::Result result = search_->find(scan);
   searched_in_vain_ = !result.complete;
   const auto add_found = [&](const BranchAndBoundMatcher::Place& found, double needed_quality) {

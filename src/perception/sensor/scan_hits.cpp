@@ -1,10 +1,29 @@
 #include "perception/sensor/scan_hits.h"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include "trajectory/frame_change.h"
 
 namespace mocha {
+namespace {
+
+constexpr double kFarthestHit_m = 1000.0;  // no lidar sees farther
+
+}  // namespace
+
+void check_measured(const ScanHits& scan, const Pose& odometry) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(what);
+  };
+  const auto seen = [](const Vector2& point) { return point.norm() <= kFarthestHit_m; };
+  require(std::isfinite(scan.time_s), "the scan's time is not finite");
+  require(seen(scan.sensor) && std::all_of(scan.hits.begin(), scan.hits.end(), seen),
+          "the scan's sensor or a hit is not finite, or more than 1 km from the robot");
+  require(is_usable(odometry.position) && std::isfinite(odometry.yaw_rad),
+          "the odometry is not finite, or too far away");
+}
 
 ScanHits hits_of(const std::vector<Beam>& beams, const Pose& base, double spacing_m) {
   ScanHits scan;
@@ -32,13 +51,7 @@ ScanHits deepened(ScanHits scan, double depth_m) {
 }
 
 ScanHits thinned(const ScanHits& scan, std::size_t most) {
-  if (scan.hits.size() <= most) return scan;
-  ScanHits thin{scan.time_s, scan.sensor, {}};
-  thin.hits.reserve(most);
-  for (std::size_t i = 0; i < most; ++i) {
-    thin.hits.push_back(scan.hits[i * scan.hits.size() / most]);
-  }
-  return thin;
+  return {scan.time_s, scan.sensor, evenly_chosen(scan.hits, most)};
 }
 
 }  // namespace mocha

@@ -15,6 +15,10 @@ struct ScanHits {
   std::vector<Vector2> hits;
 };
 
+/// Throws std::invalid_argument for a scan and an odometry, both at one time, that no lidar and no
+/// odometry measures; what() does not depend on their numbers.
+void check_measured(const ScanHits& scan, const Pose& odometry);
+
 /// The hits among `beams`, seen from a robot that stands at `base`, in the frame of the beams. Of
 /// hits closer together than `spacing_m` one is kept, so that near walls do not outweigh far ones.
 ScanHits hits_of(const std::vector<Beam>& beams, const Pose& base, double spacing_m);
@@ -22,7 +26,17 @@ ScanHits hits_of(const std::vector<Beam>& beams, const Pose& base, double spacin
 /// The hits `depth_m` farther away from the sensor.
 ScanHits deepened(ScanHits scan, double depth_m);
 
-/// Every n-th hit, so that at most `most` are left.
+/// Every n-th of some things, so that at most `most` are left.
+template <class Thing>
+std::vector<Thing> evenly_chosen(const std::vector<Thing>& things, std::size_t most) {
+  if (things.size() <= most) return things;
+  std::vector<Thing> chosen;
+  chosen.reserve(most);
+  for (std::size_t i = 0; i < most; ++i) chosen.push_back(things[i * things.size() / most]);
+  return chosen;
+}
+
+/// The same for the hits of a scan.
 ScanHits thinned(const ScanHits& scan, std::size_t most);
 
 }  // namespace mocha

@@ -53,7 +53,7 @@ TEST(BranchAndBoundMatcherTest, FindsThePlaceInARoomWithANiche) {
     for (int x = 90; x < 120; ++x) grid.at(x, y) = OccupancyGrid::kOccupied;
   const LikelihoodField walls(grid, 1.0);
   for (const Pose& pose : {Pose{{1.2, 1.0}, 0.4}, Pose{{4.0, 2.0}, -2.0}, Pose{{3.0, 3.3}, 3.0}}) {
-    const auto result = BranchAndBoundMatcher(walls, kBudget).find(seen_in(grid, pose));
+    const auto result = BranchAndBoundMatcher(walls, {kBudget}).find(seen_in(grid, pose));
     ASSERT_FALSE(result.places.empty());
     EXPECT_TRUE(result.complete);
     EXPECT_LT(distance_m(result.places[0].pose, pose), 0.08);
@@ -66,7 +66,7 @@ TEST(BranchAndBoundMatcherTest, FindsBothPlacesOfARoomThatLooksTheSameFromBoth) 
   const LikelihoodField walls(grid, 1.0);
   const Pose pose{{1.5, 1.2}, 0.5};
   const Pose twin{{120 * 0.05 - 1.5, 80 * 0.05 - 1.2}, 0.5 - M_PI};
-  const auto places = BranchAndBoundMatcher(walls, kBudget).find(seen_in(grid, pose)).places;
+  const auto places = BranchAndBoundMatcher(walls, {kBudget}).find(seen_in(grid, pose)).places;
   ASSERT_GE(places.size(), 2u);
   for (const Pose& wanted : {pose, twin}) {
     EXPECT_TRUE(std::any_of(places.begin(), places.begin() + 2, [&](const auto& place) {
@@ -80,9 +80,9 @@ TEST(BranchAndBoundMatcherTest, FindsThePlaceThatIsBestWhenAllAreLookedAt) {
   OccupancyGrid grid = room(60, 50);
   for (int y = 30; y < 40; ++y) grid.at(25, y) = OccupancyGrid::kOccupied;
   const LikelihoodField walls(grid, 1.0);
-  ScanHits scan = thinned(seen_in(grid, {{0.9, 1.1}, 1.0}), BranchAndBoundMatcher::kHits);
+  ScanHits scan = thinned(seen_in(grid, {{0.9, 1.1}, 1.0}), BranchAndBoundMatcher::Options{}.hits);
   for (std::size_t i = 0; i < 20; ++i) scan.hits[i] *= 0.6;  // a person stands there
-  const auto places = BranchAndBoundMatcher(walls, kBudget).find(scan).places;
+  const auto places = BranchAndBoundMatcher(walls, {kBudget}).find(scan).places;
   ASSERT_FALSE(places.empty());
   double best = 0.0;
   Pose best_pose{{0.0, 0.0}, 0.0};
@@ -107,28 +107,28 @@ TEST(BranchAndBoundMatcherTest, ARobotNeverStandsInAWallOrWhereNothingIsKnown) {
   for (int y = 1; y < 79; ++y)
     for (int x = 1; x < 60; ++x) grid.at(x, y) = OccupancyGrid::kUnknown;
   const LikelihoodField walls(grid, 1.0);
-  for (const auto& place : BranchAndBoundMatcher(walls, kBudget).find(scan).places)
+  for (const auto& place : BranchAndBoundMatcher(walls, {kBudget}).find(scan).places)
     EXPECT_EQ(walls.cell(place.pose.position), OccupancyGrid::kFree);
 }
 
 TEST(BranchAndBoundMatcherTest, FindsNothingInAnotherRoom) {
   const ScanHits scan = seen_in(room(200, 60), {{2.0, 1.0}, 0.5});
   const LikelihoodField walls(room(40, 40), 1.0);
-  EXPECT_TRUE(BranchAndBoundMatcher(walls, kBudget).find(scan).places.empty());
-  EXPECT_TRUE(BranchAndBoundMatcher(walls, kBudget).find({}).places.empty());
+  EXPECT_TRUE(BranchAndBoundMatcher(walls, {kBudget}).find(scan).places.empty());
+  EXPECT_TRUE(BranchAndBoundMatcher(walls, {kBudget}).find({}).places.empty());
 }
 
 TEST(BranchAndBoundMatcherTest, SaysSoWhenItGaveUp) {
   const OccupancyGrid grid = room(120, 80);
   const LikelihoodField walls(grid, 1.0);
-  EXPECT_FALSE(BranchAndBoundMatcher(walls, 50).find(seen_in(grid, {{1.5, 1.2}, 0.5})).complete);
+  EXPECT_FALSE(BranchAndBoundMatcher(walls, {50}).find(seen_in(grid, {{1.5, 1.2}, 0.5})).complete);
 }
 
 TEST(BranchAndBoundMatcherTest, FindsEveryPlaceOfADriveThroughTheCorridor) {
   World world = one_robot_world("config/worlds/corridor.yaml", {{0.0, 0.0}, 0.0});
   const RobotModel& model = world.robots[0].model;
   const LikelihoodField walls(map_of(drive_through(world, corridor_path(), 1), model), 1.0);
-  const BranchAndBoundMatcher search(walls, kBudget);
+  const BranchAndBoundMatcher search(walls, {kBudget});
   const auto drive = drive_through(world, corridor_path(), 2);
   for (std::size_t i = 0; i < drive.size(); i += 25) {
     const auto result = search.find(hits_of(drive[i], model.lidar));

@@ -1,0 +1,209 @@
+#include "perception/pose_graph/graph_mapper.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "perception/pose_graph/graph_optimizer.h"
+#include "perception/pose_graph/scan_grid.h"
+#include "trajectory/frame_change.h"
+
+namespace mocha {
+namespace {
+
+// Keyframes that a scan is aligned with: so near, and their places known so well.
+constexpr double kSureSigma_m = 0.08;
+constexpr double kAround_m = 6.0;
+constexpr std::size_t kMostAround = 12;
+constexpr double kPairReach_m = 0.6;
+// What the odometry does not say of itself: few are measured, and a drive has many slips.
+constexpr double kLeastNoiseDistance = 0.03;  // [m/sqrt(m)]
+constexpr double kLeastNoiseYaw = 0.06;       // [rad/sqrt(rad)]
+constexpr double kSlack_m = 0.5;              // of a step that no robot can drive
+constexpr double kTurnPerMetre = 0.1;  // a metre bends the heading as such a turn does [rad/m]
+constexpr double kStepNoise_m = 0.01;
+constexpr double kStepNoise_rad = 0.004;
+constexpr double kRestartSigma_m = 0.3;
+constexpr double kRestartSigma_rad = 0.3;
+// Scans that are explained by less are looked for around; by much less, the odometry is believed.
+constexpr double kWellExplained = 0.4;
+constexpr double kExplained = 0.25;
+constexpr BranchAndBoundMatcher::Options kSearch{200000, 120, 0.2};
+constexpr double kSearchReach_m = 12.0;
+constexpr double kCell_m = 0.05;
+constexpr double kWallReach_m = 1.0;
+// Of the agreement of two keyframes.
+constexpr int kLeastSurfels = 8;
+constexpr double kLeastShare = 0.1;  // of the surfels that agree with any
+constexpr double kFaintSigma = 1.0;  // [m, rad] what every two keyframes know of each other
+
+Eigen::Matrix3d diagonal(double sigma_m, double sigma_rad) {
+  return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
+}
+
+}  // namespace
+
+GraphMapperOptions GraphMapperOptions::from(const ParameterTable& values, const RobotModel& model) {
+  GraphMapperOptions options;
+  options.keyframe_distance_m = values.number("keyframe_distance");
+  options.keyframe_turn_rad = values.number("keyframe_turn");
+  options.hits = values.integer("hits");
+  options.loops = {values.number("loop_radius"), values.number("loop_quality")};
+  options.max_speed = model.limits.max_speed;
+  options.odometry_noise_distance =
+      std::max(kLeastNoiseDistance, 2.0 * model.odometry_noise_distance);
+  options.odometry_noise_yaw = std::max(kLeastNoiseYaw, 2.0 * model.odometry_noise_yaw);
+  return options;
+}
+
+GraphMapper::GraphMapper(const GraphMapperOptions& options)
+    : options_(options),
+      closer_(options.loops),
+      start_{{}, diagonal(kStepNoise_m, kStepNoise_rad)} {}
+
+GraphMapper::~GraphMapper() = default;
+
+void GraphMapper::begin(const PoseEstimate& base) {
+  start_ = base;
+  is_beginning_ = true;
+}
+
+Eigen::Matrix3d GraphMapper::noise_of(const Pose& step) const {
+  const double driven_m = step.position.norm();
+  const double along_m2 = std::pow(options_.odometry_noise_distance, 2) * driven_m;
+  const double turn_rad2 = std::pow(options_.odometry_noise_yaw, 2) *
+                           (std::abs(step.yaw_rad) + kTurnPerMetre * driven_m);
+  // What bends on the way leads aside.
+  const double aside_m2 = turn_rad2 * driven_m * driven_m / 3.0;
+  return diagonal(std::sqrt(along_m2 + aside_m2), std::sqrt(turn_rad2)) +
+         diagonal(kStepNoise_m, kStepNoise_rad);
+}
+
+Pose GraphMapper::add(const ScanHits& scan, const Pose& odometry) {
+  check_measured(scan, odometry);
+  if (!is_beginning_ && scan.time_s <= time_s_)
+    throw std::invalid_argument("the scan is not newer than the one before");
+  const PoseEstimate prior = is_beginning_ ? start_ : predict(odometry, scan.time_s - time_s_);
+  pose_ = prior.pose;
+  time_s_ = scan.time_s;
+  odometry_ = odometry;
+  std::vector<Surfel> surfels = surfels_of(scan, options_.hits);
+  const Alignment place = align(scan, surfels, prior);
+  explained_ = place.explained;
+  if (place.explained >= kExplained) pose_ = place.pose;
+  if (is_keyframe_due()) {
+    add_keyframe(scan, odometry, std::move(surfels), place);
+    close(closer_.look(graph_, keyframes_));
+    pose_ = graph_.poses().back();
+  }
+  is_beginning_ = false;
+  return pose_;
+}
+
+PoseEstimate GraphMapper::predict(const Pose& odometry, double dt_s) {
+  Pose step = relative(odometry_, odometry);
+  if (step.position.norm() > options_.max_speed * dt_s + kSlack_m) {
+    step = Pose{};
+    jumps_ += diagonal(kRestartSigma_m, kRestartSigma_rad);
+  }
+  since_ = composed(since_, step);
+  return {composed(pose_, step), noise_of(since_) + jumps_};
+}
+
+bool GraphMapper::is_keyframe_due() const {
+  if (is_beginning_) return true;
+  const Pose moved = relative(graph_.poses().back(), pose_);
+  return moved.position.norm() >= options_.keyframe_distance_m ||
+         std::abs(moved.yaw_rad) >= options_.keyframe_turn_rad;
+}
+
+/// The keyframes around the newest one; at the beginning of another drive, around its start.
+void GraphMapper::take_reference() {
+  int centre = graph_.size() - 1;
+  if (is_beginning_) {
+    const auto far_m = [&](const Pose& pose) { return (pose.position - pose_.position).norm(); };
+    const auto nearest =
+        std::min_element(graph_.poses().begin(), graph_.poses().end(),
+                         [&](const Pose& a, const Pose& b) { return far_m(a) < far_m(b); });
+    centre = static_cast<int>(nearest - graph_.poses().begin());
+  }
+  around_ = graph_.surely_near(centre, kSureSigma_m, kAround_m, kMostAround);
+  reference_ = std::make_unique<SurfelMap>(chosen(around_, graph_, keyframes_));
+}
+
+Alignment GraphMapper::align(const ScanHits& scan, const std::vector<Surfel>& surfels,
+                             const PoseEstimate& prior) {
+  if (keyframes_.empty()) return {};
+  if (!reference_) take_reference();
+  Alignment best = reference_->align(surfels, prior, kPairReach_m);
+  if (best.explained >= kWellExplained) return best;
+  const Alignment found = search(scan, surfels, prior);
+  return found.explained > best.explained ? found : best;
+}
+
+/// Looks for the place of a scan wherever the prior lets it be.
+Alignment GraphMapper::search(const ScanHits& scan, const std::vector<Surfel>& surfels,
+                              const PoseEstimate& prior) const {
+  const LikelihoodField walls(
+      grid_of(chosen(around_, graph_, keyframes_), prior.pose.position, kSearchReach_m, kCell_m),
+      kWallReach_m);
+  const SearchWindow window{prior.pose,
+                            3.0 * std::sqrt(prior.covariance.topLeftCorner<2, 2>().trace()),
+                            3.0 * std::sqrt(prior.covariance(2, 2))};
+  Alignment best;
+  for (const auto& found : BranchAndBoundMatcher(walls, kSearch).find(scan, window).places) {
+    const Alignment alignment =
+        reference_->align(surfels, {found.pose, prior.covariance}, kPairReach_m);
+    if (alignment.explained > best.explained) best = alignment;
+  }
+  return best;
+}
+
+void GraphMapper::add_keyframe(const ScanHits& scan, const Pose& odometry,
+                               std::vector<Surfel> surfels, const Alignment& place) {
+  const int id = graph_.add_keyframe(pose_);
+  keyframes_.push_back({odometry, scan, std::move(surfels)});
+  if (!is_beginning_) graph_.add({id - 1, id, since_, (noise_of(since_) + jumps_).inverse(), true});
+  if (place.explained >= kExplained) connect(id, place, is_beginning_);
+  since_ = Pose{};
+  jumps_.setZero();
+  reference_.reset();
+}
+
+/// Constrains a keyframe to each of those that it agrees with: what is known of their relative pose
+/// is what the errors between the two of them say.
+void GraphMapper::connect(int keyframe, const Alignment& place, bool may_be_wrong) {
+  int all = 0;
+  for (const Agreement& agreement : place.agreements) all += agreement.surfels;
+  for (const Agreement& agreement : place.agreements) {
+    if (agreement.surfels < std::max<double>(kLeastSurfels, kLeastShare * all)) continue;
+    const Eigen::Matrix3d information =
+        agreement.error.information + diagonal(kFaintSigma, kFaintSigma).inverse();
+    const Eigen::Vector3d change = -information.ldlt().solve(agreement.error.gradient);
+    const Pose best{place.pose.position + change.head<2>(), place.pose.yaw_rad + change.z()};
+    const Pose& from = graph_.poses()[agreement.keyframe];
+    Eigen::Matrix3d to_frame = Eigen::Matrix3d::Identity();
+    to_frame.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-from.yaw_rad).toRotationMatrix();
+    graph_.add({agreement.keyframe, keyframe, relative(from, best),
+                to_frame * information * to_frame.transpose(), may_be_wrong});
+  }
+}
+
+void GraphMapper::close(const std::vector<Loop>& loops) {
+  if (loops.empty()) return;
+  for (const Loop& loop : loops) connect(loop.keyframe, loop.place, true);
+  optimize(graph_);
+  loops_closed_ += static_cast<int>(loops.size());
+  ++corrections_;
+}
+
+void GraphMapper::finish() {
+  close(closer_.take_unconfirmed());
+  if (!keyframes_.empty()) optimize(graph_);
+  ++corrections_;
+  reference_.reset();
+}
+
+}  // namespace mocha

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "perception/pose_graph/keyframe.h"
+#include "world/occupancy_grid.h"
+
+namespace mocha {
+
+/// What keyframes saw no farther than `reach_m` from `centre` along each axis, in cells of
+/// `cell_m`.
+OccupancyGrid grid_of(const std::vector<PlacedKeyframe>& keyframes, const Vector2& centre,
+                      double reach_m, double cell_m);
+
+}  // namespace mocha
