@@ -125,6 +125,14 @@ def add_animation(what):
     return animation
 
 
+def add_map(what):
+    driven = what.add_parser("map", help="a map as it was driven, from its pose graph",
+                             description="Writes NAME.png: all hits of all keyframes, where these were, and the loops that were closed.")
+    driven.add_argument("map", help="NAME.g2o, as scan_localizer saves it while mapping")
+    driven.set_defaults(draw=draw_driven_map)
+    return driven
+
+
 def add_architecture(what):
     architecture = what.add_parser("architecture", help="the nodes, their topics and the frames, read from the sources",
                                    description="Writes architecture.svg and frames.svg, which docs/ holds.")
@@ -195,6 +203,11 @@ def draw_animation(options):
     print(animation.draw_animation(options.bag, options.world, options.out, options.speed))
 
 
+def draw_driven_map(options):
+    from mocha_scripts import map_plot
+    print(map_plot.draw_map(options.map, options.out))
+
+
 def draw_architecture(options):
     from mocha_scripts import architecture_plot, frames_plot
     architecture_plot.draw_architecture(ROOT, options.out)
@@ -206,7 +219,7 @@ def write_reference(options):
     reference.write_reference(ROOT, options.out)
 
 
-OF_RECORDINGS = [add_drive, add_detour, add_costs, add_animation]
+OF_RECORDINGS = [add_drive, add_detour, add_costs, add_animation, add_map]
 # These run benchmarks, or read what is not installed.
 OF_SOURCES = [add_table1, add_table2, add_table3, add_classes, add_tracks, add_contacts, add_replan, add_architecture, add_reference]
 

@@ -7,13 +7,9 @@ in replan, after some cells of the walls within 12 m have changed. t_plan is the
 the first case, its repair later; A* the shortest path on the same map for the robot's disc and margin alone; BIT* the first solution of OMPL's, simplified, for the same (none within 5 s: not counted). T/shortest is the duration over that
 path's length at top speed.
 """
-import gzip
-import os
-import pathlib
 import statistics
-import tempfile
 
-from benchmarks import benchmark
+from benchmarks import benchmark, lidar_logs
 
 KINDS = ("rooms", "corridors", "pillars", "maze", "clutter", "logs")
 SIDES_M = (30, 100, 200)
@@ -56,16 +52,13 @@ def print_summary(rows):
 
 def rows_of_logs(program):
     """Of each log that is there."""
-    folder = pathlib.Path(os.environ.get("MOCHA_DATA", os.path.join(benchmark.ROOT, "../shared/data"))) / "carmen"
     rows = []
-    for packed in sorted(folder.glob("*.log.gz")):
-        with tempfile.NamedTemporaryFile() as log:
-            log.write(gzip.decompress(packed.read_bytes()))
-            log.flush()
-            found = benchmark.call(program, "log", log.name)["rows"]
-        rows += [{**row, "map": packed.name.split("-corrected")[0], "side_m": 0.05 * row["cells"] ** 0.5} for row in found]
-    if not rows:
-        print(f"no lidar logs in {folder}: left out")
+    try:
+        for name, log in lidar_logs.each(lidar_logs.given_folder()):
+            found = benchmark.call(program, "log", log)["rows"]
+            rows += [{**row, "map": name, "side_m": 0.05 * row["cells"] ** 0.5} for row in found]
+    except lidar_logs.NoLogs as none:
+        print(f"{none}: left out")
     return rows
 
 

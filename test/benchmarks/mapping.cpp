@@ -51,7 +51,6 @@ void print(const char* name, const std::vector<Pose>& poses, const std::vector<P
 void map_log(const char* path, int seed, const std::string& saved) {
   std::ifstream file(path);
   const std::vector<LogScan> drive = drive_of(read_carmen_log(file), seed, kSpacing_m);
-  const double memory_before_mib = peak_memory_mib();
   const auto values = ParameterTable::from_schema("config/scan_localizer.yaml");
   GraphMapper mapper(
       GraphMapperOptions::from(values, load_robot_model("config", "waveshare_rover")));
@@ -89,9 +88,9 @@ void map_log(const char* path, int seed, const std::string& saved) {
   print("mapped", mapped, truth);
   std::printf(
       ", \"scan_ms\": %.3f, \"median_ms\": %.3f, \"longest_ms\": %.1f, "
-      "\"memory_mib\": %.1f, \"memory_before_mib\": %.1f}\n",
+      "\"memory_mib\": %.1f}\n",
       all.count() / static_cast<double>(drive.size()), quantile(scan_ms, 0.5),
-      quantile(scan_ms, 1.0), peak_memory_mib(), memory_before_mib);
+      quantile(scan_ms, 1.0), peak_memory_mib());
   if (saved != "-") save_driven_map({mapper.graph(), mapper.keyframes()}, saved);
 }
 
