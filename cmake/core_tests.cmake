@@ -37,7 +37,8 @@ target_sources(test_stack PRIVATE test/benchmarks/leaving_scene.cpp test/benchma
   test/benchmarks/lidar_robot.cpp test/benchmarks/lidar_perception.cpp)
 target_link_libraries(test_stack mocha_perception mocha_simulation)
 
-# Simulated drives for the localiser.
+# Simulated drives for the localiser and the mapper.
+target_sources(test_perception PRIVATE test/benchmarks/skid_odometry.cpp test/benchmarks/trajectory_error.cpp)
 target_link_libraries(test_perception mocha_simulation)
 
 include(cmake/fuzzers.cmake)

@@ -16,7 +16,7 @@ void write(std::ostream& out, const Pose& pose) {
   out << ' ' << pose.position.x() << ' ' << pose.position.y() << ' ' << pose.yaw_rad;
 }
 
-void write(std::ostream& out, const Keyframe& keyframe) {
+void write(std::ostream& out, const ScanKeyframe& keyframe) {
   const ScanHits& scan = keyframe.scan;
   out << "KEYFRAME " << scan.time_s;
   write(out, keyframe.odometry);
@@ -99,7 +99,7 @@ class Reader {
   void read_keyframe() {
     require(static_cast<int>(map_.keyframes.size()) == map_.graph.size() - 1,
             "does not follow its vertex");
-    Keyframe keyframe;
+    ScanKeyframe keyframe;
     keyframe.scan.time_s = number();
     keyframe.odometry = pose();
     keyframe.scan.sensor = point();

@@ -12,7 +12,7 @@ namespace mocha {
 /// A map as it was driven: keyframes, and what is known between them.
 struct DrivenMap {
   PoseGraph graph;
-  std::vector<Keyframe> keyframes;  ///< one for each pose of the graph; without surfels
+  std::vector<ScanKeyframe> keyframes;  ///< one for each pose of the graph; without surfels
 };
 
 /// As text in the format of g2o: VERTEX_SE2 and EDGE_SE2 lines, which its tools read, and a

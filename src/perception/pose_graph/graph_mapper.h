@@ -51,7 +51,7 @@ class GraphMapper {
   void finish();
 
   const PoseGraph& graph() const { return graph_; }
-  const std::vector<Keyframe>& keyframes() const { return keyframes_; }
+  const std::vector<ScanKeyframe>& keyframes() const { return keyframes_; }
   /// Share of the newest scan that the keyframes around explain.
   double explained() const { return explained_; }
   int loops_closed() const { return loops_closed_; }
@@ -75,7 +75,7 @@ class GraphMapper {
 
   GraphMapperOptions options_;
   PoseGraph graph_;
-  std::vector<Keyframe> keyframes_;
+  std::vector<ScanKeyframe> keyframes_;
   LoopCloser closer_;
   PoseEstimate start_;                               // of the drive
   bool is_beginning_ = true;                         // no scan of the drive was taken

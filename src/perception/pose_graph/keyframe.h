@@ -9,7 +9,7 @@
 namespace mocha {
 
 /// A scan that is kept.
-struct Keyframe {
+struct ScanKeyframe {
   Pose odometry;                ///< of the robot, in the odometry frame of its drive
   ScanHits scan;                ///< as seen from the robot
   std::vector<Surfel> surfels;  ///< of the scan
@@ -19,11 +19,11 @@ struct Keyframe {
 struct PlacedKeyframe {
   int id;
   Pose pose;
-  const Keyframe* keyframe;  ///< never null
+  const ScanKeyframe* keyframe;  ///< never null
 };
 
 /// Some keyframes of a graph.
 std::vector<PlacedKeyframe> chosen(const std::vector<int>& ids, const PoseGraph& graph,
-                                   const std::vector<Keyframe>& keyframes);
+                                   const std::vector<ScanKeyframe>& keyframes);
 
 }  // namespace mocha

@@ -34,7 +34,8 @@ constexpr double kSame_rad = 0.06;
 
 }  // namespace
 
-std::vector<Loop> LoopCloser::look(const PoseGraph& graph, const std::vector<Keyframe>& keyframes) {
+std::vector<Loop> LoopCloser::look(const PoseGraph& graph,
+                                   const std::vector<ScanKeyframe>& keyframes) {
   const int newest = graph.size() - 1;
   const Pose& here = graph.poses()[newest];
   if (looked_at_ && !unconfirmed_ && (here.position - *looked_at_).norm() < kSpacing_m) return {};

@@ -27,7 +27,7 @@ class LoopCloser {
   explicit LoopCloser(const LoopCloserOptions& options) : options_(options) {}
 
   /// Looks from the graph's newest keyframe. Returns the loops that are believed by now.
-  std::vector<Loop> look(const PoseGraph& graph, const std::vector<Keyframe>& keyframes);
+  std::vector<Loop> look(const PoseGraph& graph, const std::vector<ScanKeyframe>& keyframes);
 
   /// What was found, but not yet confirmed: there are no more keyframes to confirm it.
   std::vector<Loop> take_unconfirmed();
