@@ -31,7 +31,7 @@ class DrivenMap:
         if words[:1] == ["VERTEX_SE2"]:
             self.poses.append([float(word) for word in words[2:5]])
         elif words[:1] == ["KEYFRAME"]:
-            self.hits.append(np.array(words[8:], dtype=float).reshape(int(words[7]), 2))
+            self.hits.append(np.array(words[8:8 + 2 * int(words[7])], dtype=float).reshape(-1, 2))
         elif words[:1] == ["EDGE_SE2"]:
             self.constraints.append((int(words[1]), int(words[2]), words[-1] == "DOUBTFUL"))
 

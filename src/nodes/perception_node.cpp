@@ -19,6 +19,7 @@
 #include "perception/sensor/range_smoothing.h"
 #include "perception/tracking/moving_object_filter.h"
 #include "perception/tracking/peer_tracks.h"
+#include "ros_bridge/inputs/driven_map_source.h"
 #include "ros_bridge/inputs/map_files.h"
 #include "ros_bridge/inputs/peer_motions.h"
 #include "ros_bridge/inputs/scan_queue.h"
@@ -66,6 +67,8 @@ class PerceptionNode {
         fleet_(
             node.subscribe("fleet/trajectories", 10, &PerceptionNode::on_fleet, this, at_once())),
         map_files_(node, map_, [this](bool is_cleared) { take_map(is_cleared); }),
+        driven_(node, robot_.map_frame, map_.options(),
+                [this](OccupancyMap* map) { take_driven(map); }),
         parameters_(values_),
         loop_(node, robot_.name, kPeriod_s, [this](ros::Time now) { step(now); }) {
     if (!values.text("map_file").empty()) map_files_.load(values.text("map_file"));
@@ -111,6 +114,7 @@ class PerceptionNode {
     publish_cells();
     refusals_.warn();
     diagnostics_.update();
+    if (driven_.is_busy()) loop_.hold();
   }
 
   /// The clock was set back: a recording began again.
@@ -193,6 +197,15 @@ class PerceptionNode {
     if (const auto base = base_at({})) map_.see_robot(*base, start_ground_.under_body(), {});
   }
 
+  /// The same places, but for those that have moved.
+  void take_driven(OccupancyMap* map) {
+    if (map != nullptr) {
+      map_.take(*map);
+      take_map(true);
+    }
+    if (!driven_.is_busy()) loop_.release();
+  }
+
   void diagnose_sensors(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
     const double silent_s = (now_ - std::max(queue_.received(), started_)).toSec();
@@ -224,6 +237,8 @@ class PerceptionNode {
     }
     if (!stamp_.isZero())
       status.add("age of the newest scan in the map [s]", (now_ - stamp_).toSec());
+    if (driven_.made() > 0) status.add("maps made anew of moved keyframes", driven_.made());
+    if (!driven_.fault().empty()) status.add("pose graph", driven_.fault());
     status.add("team-mates known", peers_.at(now_.toSec()).size());
   }
 
@@ -265,6 +280,7 @@ class PerceptionNode {
   ros::Subscriber points_;
   ros::Subscriber fleet_;
   MapFiles map_files_;
+  DrivenMapSource driven_;
   LiveParameters parameters_;
   StepLoop loop_;
 };

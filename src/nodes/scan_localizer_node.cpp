@@ -9,19 +9,24 @@
 #include <tf2_ros/transform_listener.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "perception/localization/scan_localizer.h"
 #include "perception/mapping/saved_map.h"
-#include "ros_bridge/inputs/map_source.h"
+#include "perception/pose_graph/graph_file.h"
+#include "perception/pose_graph/mapping_session.h"
 #include "ros_bridge/inputs/scan_queue.h"
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/localization_messages.h"
 #include "ros_bridge/messages/sensor_conversions.h"
+#include "ros_bridge/outputs/pose_graph_outputs.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/robot_identity.h"
 #include "ros_bridge/runtime/run_node.h"
@@ -33,6 +38,7 @@ namespace {
 
 constexpr double kPeriod_s = 0.02;
 constexpr double kMemoryPeriod_s = 2.0;
+constexpr double kMapSpacing_m = 0.02;  // of hits and misses that enter a map
 const std::string kMemory = "last_known_pose";
 const Eigen::Vector3d kMemorySigma(0.5, 0.5, 0.3);  // what may have happened meanwhile [m, m, rad]
 
@@ -65,9 +71,9 @@ class ScanLocalizerNode {
         model_(own_robot_model(values)),
         mapping_(values.flag("mapping")),
         max_range_m_(values.number("max_range")),
+        max_clearing_m_(neighbour_parameters("perception").number("max_clearing_range")),
         hit_spacing_m_(values.number("hit_spacing")),
         timeout_s_(values.number("scan_timeout")),
-        localizer_(ScanLocalizerOptions::from(values, model_)),
         queue_(robot_.odom_frame, values.number("scan_rate"), timeout_s_),
         listener_(transforms_, node, false, at_once()),
         poses_(node.advertise<geometry_msgs::PoseWithCovarianceStamped>("localized_pose", 5)),
@@ -88,14 +94,28 @@ class ScanLocalizerNode {
       throw ParameterError(mapping_ ? "parameters `mapping` and `map_file` exclude each other"
                                     : "parameter `map_file` is not set: no map to localise in");
     }
+    const auto options = ScanLocalizerOptions::from(values, model_);
     if (mapping_) {
-      map_.emplace(node_, robot_.map_frame);
-      localizer_.begin({{0.0, 0.0}, 0.0});
+      begin_mapping(GraphMapperOptions::from(values, model_), options,
+                    values.text("pose_graph_file"));
       return;
     }
-    localizer_.set_map(
+    auto localizer = std::make_unique<ScanLocalizer>(options);
+    localizer->set_map(
         load_saved_slice(path, values.number("min_height"), values.number("max_height")));
+    localizer_ = std::move(localizer);
     expect(values.text("last_known_pose"));
+  }
+
+  /// In the map of the file, if it is there by now.
+  void begin_mapping(const GraphMapperOptions& mapping, const ScanLocalizerOptions& localizing,
+                     const std::string& path) {
+    DrivenMap map;
+    if (!path.empty() && std::filesystem::exists(path)) map = load_driven_map(path);
+    auto session = std::make_unique<MappingSession>(mapping, localizing, std::move(map));
+    session_ = session.get();
+    localizer_ = std::move(session);
+    pose_graph_.emplace(node_, robot_, *session_, path);
   }
 
   void expect(const std::string& last_known) {
@@ -104,7 +124,7 @@ class ScanLocalizerNode {
                              kMemorySigma.cwiseProduct(kMemorySigma).asDiagonal()};
     const std::string fault = fault_of(known);
     if (!fault.empty()) throw ParameterError("last_known_pose = " + last_known + ": " + fault);
-    localizer_.expect(known);
+    localizer_->expect(known);
   }
 
   /// This node has it again when it is started again.
@@ -121,18 +141,19 @@ class ScanLocalizerNode {
   void on_initial_pose(const geometry_msgs::PoseWithCovarianceStamped& message) {
     std::string fault;
     const auto said = from_message(message, robot_.map_frame, fault);
-    if (!said || mapping_) {
-      refusals_.add("initialpose: " + (mapping_ ? "the map is only being made" : fault));
+    const bool is_known = session_ != nullptr && !session_->is_looking();
+    if (!said || is_known) {
+      refusals_.add("initialpose: " + (is_known ? "the map is only being made" : fault));
       return;
     }
-    localizer_.expect(*said);
+    localizer_->expect(*said);
     ROS_INFO("Looking for the robot near (%.2f, %.2f)", said->pose.position.x(),
              said->pose.position.y());
   }
 
   bool on_search(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
     if (mapping_) return false;
-    localizer_.forget();
+    localizer_->forget();
     return true;
   }
 
@@ -140,26 +161,18 @@ class ScanLocalizerNode {
     if (now < now_) forget_time();
     now_ = now;
     if (started_.isZero()) started_ = now;
-    take_map();
     for (const Measurement& measurement : queue_.take_ready(transforms_, now, refusals_))
       localize(measurement);
+    if (pose_graph_) pose_graph_->step(now);
     refusals_.warn();
     diagnostics_.update();
-  }
-
-  /// The newest that perception has made, if it is new.
-  void take_map() {
-    if (!map_ || map_->taken() == maps_taken_) return;
-    maps_taken_ = map_->taken();
-    localizer_.set_map(map_->newest());
   }
 
   /// The clock was set back: a recording began again.
   void forget_time() {
     transforms_.clear();
     queue_.clear();
-    localizer_.forget();
-    if (mapping_) localizer_.begin({{0.0, 0.0}, 0.0});
+    localizer_->forget();
     started_ = used_ = remembered_ = ros::Time();
   }
 
@@ -170,11 +183,11 @@ class ScanLocalizerNode {
       const Pose base = planar(from_message(
           transforms_.lookupTransform(robot_.odom_frame, robot_.base_frame, measurement.last)
               .transform));
-      const auto beams = to_beams(*scan, measurement.poses, {max_range_m_, 0.0});
-      ScanHits hits = hits_of(beams, base, hit_spacing_m_);
+      const auto beams = to_beams(*scan, measurement.poses, {max_range_m_, max_clearing_m_});
+      ScanHits hits = hits_of(beams, base, mapping_ ? kMapSpacing_m : hit_spacing_m_);
       hits.time_s = measurement.last.toSec();
-      const Localization::State before = localizer_.localization().state;
-      localizer_.add(hits, base);
+      const Localization::State before = localizer_->localization().state;
+      localizer_->add(hits, base);
       used_ = measurement.last;
       publish(before);
     } catch (const tf2::TransformException& error) {
@@ -185,7 +198,7 @@ class ScanLocalizerNode {
   }
 
   void publish(Localization::State before) {
-    const Localization& localization = localizer_.localization();
+    const Localization& localization = localizer_->localization();
     state_ = to_message(localization, robot_);
     states_.publish(state_);
     if (localization.state != before) ROS_INFO("%s", state_.message.c_str());
@@ -218,7 +231,9 @@ class ScanLocalizerNode {
     status.add("standard deviation of the heading [rad]", state_.sigma_yaw);
     status.add("places that explain the scans", state_.places);
     for (const auto& [reason, times] : refusals_.counts()) status.add("refused: " + reason, times);
-    if (map_) status.add("maps refused", map_->refused());
+    if (session_ == nullptr) return;
+    status.add("keyframes", session_->mapper().graph().size());
+    status.add("loops closed", session_->mapper().loops_closed());
   }
 
   ros::NodeHandle node_;
@@ -227,9 +242,12 @@ class ScanLocalizerNode {
   const RobotModel model_;
   const bool mapping_;
   const double max_range_m_;
+  const double max_clearing_m_;  // beams that meet nothing
   const double hit_spacing_m_;
   const double timeout_s_;
-  ScanLocalizer localizer_;
+  std::unique_ptr<Localizer> localizer_;
+  MappingSession* session_ = nullptr;  // the localizer, while mapping
+  std::optional<PoseGraphOutputs> pose_graph_;
   mocha_ugv::Localization state_;
 
   ScanQueue queue_;
@@ -247,8 +265,6 @@ class ScanLocalizerNode {
   ros::Publisher states_;
   ros::Subscriber scans_;
   ros::Subscriber said_;
-  std::optional<MapSource> map_;  // that perception is making
-  int maps_taken_ = 0;
   ros::ServiceServer search_;
   StepLoop loop_;
 };

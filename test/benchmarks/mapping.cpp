@@ -59,7 +59,7 @@ void map_log(const char* path, int seed, const std::string& saved) {
   const auto begun = std::chrono::steady_clock::now();
   for (const LogScan& each : drive) {
     const auto before = std::chrono::steady_clock::now();
-    const Pose pose = mapper.add(each.scan, each.odometry);
+    const Pose pose = mapper.add(each.scan, each.odometry).pose;
     const std::chrono::duration<double, std::milli> took =
         std::chrono::steady_clock::now() - before;
     scan_ms.push_back(took.count());

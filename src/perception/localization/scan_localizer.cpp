@@ -73,12 +73,6 @@ void ScanLocalizer::set_map(const OccupancyGrid& map) {
   search_.reset();  // built when it is needed
 }
 
-void ScanLocalizer::begin(const Pose& base) {
-  const double now_s = time_s_.value_or(0.0);
-  places_ = {{{base, diagonal(kStepNoise_m, kStepNoise_rad)}, 1.0, 0.0, now_s, true}};
-  expected_.reset();
-}
-
 void ScanLocalizer::expect(const PoseEstimate& base) {
   const std::string fault = fault_of(base);
   require(fault.empty(), fault.c_str());

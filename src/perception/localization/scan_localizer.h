@@ -6,6 +6,7 @@
 #include "config/parameter_table.h"
 #include "perception/localization/branch_and_bound_matcher.h"
 #include "perception/localization/likelihood_field.h"
+#include "perception/localization/localizer.h"
 #include "perception/localization/scan_fit.h"
 #include "perception/localization/scan_matcher.h"
 #include "world/robot_model.h"
@@ -34,22 +35,6 @@ struct ScanLocalizerOptions {
   static ScanLocalizerOptions from(const ParameterTable& values, const RobotModel& model);
 };
 
-/// What is known of the robot's place.
-struct Localization {
-  enum class State {
-    kLost,       ///< no place in the map explains the scans
-    kAmbiguous,  ///< several do, or one that has not proved itself yet
-    kLocalized,
-  };
-  State state = State::kLost;
-  double time_s = 0.0;   ///< of the scan
-  PoseEstimate base{};   ///< of base_link; the most likely place where the state is not kLocalized
-  Pose odom_in_map;      ///< the odometry frame in the map, by that
-  double quality = 0.0;  ///< of that place, 0 to 1
-  int places = 0;        ///< that explain the scans
-  bool searched_in_vain = false;  ///< the map was too large or too uniform for the last search
-};
-
 /// Where a robot is in a map, from its scans and its odometry.
 ///
 /// Keeps the places where it may be. Each follows the odometry, is fitted to every scan and judged
@@ -57,7 +42,7 @@ struct Localization {
 /// explain little, or clearly less than the best, are dropped; where none is left, all of the map
 /// is searched. Believed is only the one place that has no rival, so that of a building's many
 /// equal rooms none is guessed; driving on tells them apart.
-class ScanLocalizer {
+class ScanLocalizer : public Localizer {
  public:
   explicit ScanLocalizer(const ScanLocalizerOptions& options) : options_(options) {}
 
@@ -65,26 +50,23 @@ class ScanLocalizer {
   /// is empty or of no place, see LikelihoodField.
   void set_map(const OccupancyGrid& map);
 
-  /// The robot is here at the next scan, believed without proof: to begin a new map.
-  void begin(const Pose& base);
-
   /// Takes a hint where the robot is at the next scan, more or less: what was believed is
   /// forgotten, and places within three standard deviations of it come first. Only where none of
   /// them explains the scan, others count as well. Throws std::invalid_argument for an estimate
   /// with a fault.
-  void expect(const PoseEstimate& base);
+  void expect(const PoseEstimate& base) override;
 
   /// Takes the next scan, and the pose of base_link in the odometry frame at its time. Nothing is
   /// known before there is a map. A jump of the odometry that no robot can drive is taken for an
   /// odometry that has begun anew: the places stay where they are. Throws std::invalid_argument,
   /// and changes nothing, for times that do not increase and for places that no lidar and no
   /// odometry measures; what() does not depend on their numbers.
-  const Localization& add(const ScanHits& scan, const Pose& odometry);
+  const Localization& add(const ScanHits& scan, const Pose& odometry) override;
 
   /// Forgets everything but the map.
-  void forget();
+  void forget() override;
 
-  const Localization& localization() const { return localization_; }
+  const Localization& localization() const override { return localization_; }
 
  private:
   struct Place {

@@ -204,6 +204,8 @@ std::string OccupancyMap::load(const std::string& path) {
   return notes.str();
 }
 
+void OccupancyMap::take(OccupancyMap& other) { replace(std::move(other.voxels_)); }
+
 void OccupancyMap::clear() { replace(std::make_unique<VoxelBand>(options_)); }
 
 void OccupancyMap::replace(std::unique_ptr<VoxelBand> voxels) {

@@ -101,6 +101,9 @@ class OccupancyMap {
   /// out of range.
   std::string load(const std::string& path);
 
+  /// Becomes what the other one is, which may be used no more; made with the same options.
+  void take(OccupancyMap& other);
+
   /// Forgets everything but the size of the cells.
   void clear();
 

@@ -9,7 +9,7 @@
 namespace mocha {
 namespace {
 
-constexpr std::size_t kMostHits = 100000;  // of a scan
+constexpr double kMostBeams = 100000.0;  // of a scan
 constexpr const char* kDoubtful = "DOUBTFUL";
 
 void write(std::ostream& out, const Pose& pose) {
@@ -20,9 +20,12 @@ void write(std::ostream& out, const ScanKeyframe& keyframe) {
   const ScanHits& scan = keyframe.scan;
   out << "KEYFRAME " << scan.time_s;
   write(out, keyframe.odometry);
-  out << ' ' << scan.sensor.x() << ' ' << scan.sensor.y() << ' ' << scan.hits.size();
-  for (const Vector2& hit : scan.hits)  // to the millimetre
-    out << ' ' << std::round(1e3 * hit.x()) / 1e3 << ' ' << std::round(1e3 * hit.y()) / 1e3;
+  out << ' ' << scan.sensor.x() << ' ' << scan.sensor.y();
+  for (const std::vector<Vector2>* ends : {&scan.hits, &scan.misses}) {
+    out << ' ' << ends->size();
+    for (const Vector2& end : *ends)  // to the millimetre
+      out << ' ' << std::round(1e3 * end.x()) / 1e3 << ' ' << std::round(1e3 * end.y()) / 1e3;
+  }
   out << '\n';
 }
 
@@ -96,6 +99,14 @@ class Reader {
     map_.graph.add_keyframe(pose());
   }
 
+  std::vector<Vector2> ends() {
+    const double count = number();
+    require(count >= 0.0 && count <= kMostBeams, "has an impossible number of beams");
+    std::vector<Vector2> result(static_cast<std::size_t>(count));
+    for (Vector2& end : result) end = point();
+    return result;
+  }
+
   void read_keyframe() {
     require(static_cast<int>(map_.keyframes.size()) == map_.graph.size() - 1,
             "does not follow its vertex");
@@ -103,10 +114,8 @@ class Reader {
     keyframe.scan.time_s = number();
     keyframe.odometry = pose();
     keyframe.scan.sensor = point();
-    const double count = number();
-    require(count >= 0.0 && count <= kMostHits, "has an impossible number of hits");
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-      keyframe.scan.hits.push_back(point());
+    keyframe.scan.hits = ends();
+    keyframe.scan.misses = ends();
     try {
       check_measured(keyframe.scan, keyframe.odometry);
     } catch (const std::invalid_argument& error) {
@@ -145,7 +154,8 @@ class Reader {
 void save_driven_map(const DrivenMap& map, const std::string& path) {
   std::ostringstream out;
   out.precision(12);
-  out << "# VERTEX_SE2 id pose; KEYFRAME time odometry sensor hits x y ...; EDGE_SE2 from to pose "
+  out << "# VERTEX_SE2 id pose; KEYFRAME time odometry sensor hits x y ... "
+         "misses x y ...; EDGE_SE2 from to pose "
          "information\n";
   for (int id = 0; id < map.graph.size(); ++id) {
     out << "VERTEX_SE2 " << id;

@@ -58,10 +58,15 @@ GraphMapperOptions GraphMapperOptions::from(const ParameterTable& values, const 
   return options;
 }
 
-GraphMapper::GraphMapper(const GraphMapperOptions& options)
+GraphMapper::GraphMapper(const GraphMapperOptions& options, DrivenMap map)
     : options_(options),
+      graph_(std::move(map.graph)),
+      keyframes_(std::move(map.keyframes)),
       closer_(options.loops),
-      start_{{}, diagonal(kStepNoise_m, kStepNoise_rad)} {}
+      start_{{}, diagonal(kStepNoise_m, kStepNoise_rad)} {
+  for (ScanKeyframe& keyframe : keyframes_)
+    keyframe.surfels = surfels_of(keyframe.scan, options_.hits);
+}
 
 GraphMapper::~GraphMapper() = default;
 
@@ -81,7 +86,7 @@ Eigen::Matrix3d GraphMapper::noise_of(const Pose& step) const {
          diagonal(kStepNoise_m, kStepNoise_rad);
 }
 
-Pose GraphMapper::add(const ScanHits& scan, const Pose& odometry) {
+PoseEstimate GraphMapper::add(const ScanHits& scan, const Pose& odometry) {
   check_measured(scan, odometry);
   if (!is_beginning_ && scan.time_s <= time_s_)
     throw std::invalid_argument("the scan is not newer than the one before");
@@ -92,14 +97,15 @@ Pose GraphMapper::add(const ScanHits& scan, const Pose& odometry) {
   std::vector<Surfel> surfels = surfels_of(scan, options_.hits);
   const Alignment place = align(scan, surfels, prior);
   explained_ = place.explained;
-  if (place.explained >= kExplained) pose_ = place.pose;
+  const bool is_placed = place.explained >= kExplained;
+  if (is_placed) pose_ = place.pose;
   if (is_keyframe_due()) {
     add_keyframe(scan, odometry, std::move(surfels), place);
     close(closer_.look(graph_, keyframes_));
     pose_ = graph_.poses().back();
   }
   is_beginning_ = false;
-  return pose_;
+  return {pose_, is_placed ? place.covariance : prior.covariance};
 }
 
 PoseEstimate GraphMapper::predict(const Pose& odometry, double dt_s) {
@@ -191,9 +197,9 @@ void GraphMapper::connect(int keyframe, const Alignment& place, bool may_be_wron
   }
 }
 
-void GraphMapper::close(const std::vector<Loop>& loops) {
+void GraphMapper::close(const std::vector<LoopClosure>& loops) {
   if (loops.empty()) return;
-  for (const Loop& loop : loops) connect(loop.keyframe, loop.place, true);
+  for (const LoopClosure& loop : loops) connect(loop.keyframe, loop.place, true);
   optimize(graph_);
   loops_closed_ += static_cast<int>(loops.size());
   ++corrections_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/parameter_table.h"
+#include "perception/pose_graph/graph_file.h"
 #include "perception/pose_graph/keyframe.h"
 #include "perception/pose_graph/loop_closer.h"
 #include "perception/pose_graph/pose_graph.h"
@@ -34,7 +35,9 @@ struct GraphMapperOptions {
 /// the loop is closed: all poses move to where all constraints agree best.
 class GraphMapper {
  public:
-  explicit GraphMapper(const GraphMapperOptions& options);
+  /// Goes on with a map that was driven before, if there is one; then begin() has to be called
+  /// first.
+  explicit GraphMapper(const GraphMapperOptions& options, DrivenMap map = {});
   ~GraphMapper();
 
   /// A drive begins here, at the next scan; the first one of a map at its origin, if nothing else
@@ -45,7 +48,7 @@ class GraphMapper {
   /// the odometry frame at its time. Returns base_link in the map. A jump of the odometry that no
   /// robot can drive is taken for an odometry that has begun anew. Throws std::invalid_argument,
   /// and changes nothing, for what ScanLocalizer::add() does not take.
-  Pose add(const ScanHits& scan, const Pose& odometry);
+  PoseEstimate add(const ScanHits& scan, const Pose& odometry);
 
   /// No scans come any more: loops that only they could have confirmed are closed as well.
   void finish();
@@ -70,7 +73,7 @@ class GraphMapper {
   void add_keyframe(const ScanHits& scan, const Pose& odometry, std::vector<Surfel> surfels,
                     const Alignment& place);
   void connect(int keyframe, const Alignment& place, bool may_be_wrong);
-  void close(const std::vector<Loop>& loops);
+  void close(const std::vector<LoopClosure>& loops);
   Eigen::Matrix3d noise_of(const Pose& step) const;
 
   GraphMapperOptions options_;

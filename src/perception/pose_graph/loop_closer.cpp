@@ -34,8 +34,8 @@ constexpr double kSame_rad = 0.06;
 
 }  // namespace
 
-std::vector<Loop> LoopCloser::look(const PoseGraph& graph,
-                                   const std::vector<ScanKeyframe>& keyframes) {
+std::vector<LoopClosure> LoopCloser::look(const PoseGraph& graph,
+                                          const std::vector<ScanKeyframe>& keyframes) {
   const int newest = graph.size() - 1;
   const Pose& here = graph.poses()[newest];
   if (looked_at_ && !unconfirmed_ && (here.position - *looked_at_).norm() < kSpacing_m) return {};
@@ -75,14 +75,14 @@ std::optional<LoopCloser::Candidate> LoopCloser::candidate(const PoseGraph& grap
   return nearest;
 }
 
-std::vector<Loop> LoopCloser::judge(const LoopMatch& match, const PoseGraph& graph) {
+std::vector<LoopClosure> LoopCloser::judge(const LoopMatch& match, const PoseGraph& graph) {
   if (match.quality < options_.quality - kLessQuality || match.rival > match.quality - kRivalry)
     return {};
   const int newest = graph.size() - 1;
   const Pose& here = graph.poses()[newest];
   const Pose& found = match.place.pose;
-  const Loop loop{newest, match.place};
-  std::vector<Loop> loops;
+  const LoopClosure loop{newest, match.place};
+  std::vector<LoopClosure> loops;
   const bool is_good = match.quality >= options_.quality;
   if (unconfirmed_ && confirms(here, found, graph)) {
     loops = {unconfirmed_->loop, loop};
@@ -103,8 +103,8 @@ bool LoopCloser::confirms(const Pose& here, const Pose& found, const PoseGraph& 
          std::abs(wrap_angle(expected.yaw_rad - found.yaw_rad)) < kSame_rad;
 }
 
-std::vector<Loop> LoopCloser::take_unconfirmed() {
-  std::vector<Loop> loops;
+std::vector<LoopClosure> LoopCloser::take_unconfirmed() {
+  std::vector<LoopClosure> loops;
   if (unconfirmed_ && unconfirmed_->is_good) loops = {unconfirmed_->loop};
   unconfirmed_.reset();
   return loops;

@@ -15,7 +15,7 @@ struct LoopCloserOptions {
 };
 
 /// A keyframe that was found among others that it was not surely near before.
-struct Loop {
+struct LoopClosure {
   int keyframe;
   Alignment place;
 };
@@ -27,10 +27,10 @@ class LoopCloser {
   explicit LoopCloser(const LoopCloserOptions& options) : options_(options) {}
 
   /// Looks from the graph's newest keyframe. Returns the loops that are believed by now.
-  std::vector<Loop> look(const PoseGraph& graph, const std::vector<ScanKeyframe>& keyframes);
+  std::vector<LoopClosure> look(const PoseGraph& graph, const std::vector<ScanKeyframe>& keyframes);
 
   /// What was found, but not yet confirmed: there are no more keyframes to confirm it.
-  std::vector<Loop> take_unconfirmed();
+  std::vector<LoopClosure> take_unconfirmed();
 
   int tried() const { return tried_; }
 
@@ -41,13 +41,13 @@ class LoopCloser {
     double sigma_rad;
   };
   struct Unconfirmed {
-    Loop loop;
+    LoopClosure loop;
     Pose correction;  ///< takes the drive's end to where it was found, map frame
     bool is_good;     ///< would be believed where it is expected
   };
 
   std::optional<Candidate> candidate(const PoseGraph& graph) const;
-  std::vector<Loop> judge(const LoopMatch& match, const PoseGraph& graph);
+  std::vector<LoopClosure> judge(const LoopMatch& match, const PoseGraph& graph);
   bool confirms(const Pose& here, const Pose& found, const PoseGraph& graph) const;
 
   LoopCloserOptions options_;

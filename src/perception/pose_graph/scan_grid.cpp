@@ -37,11 +37,11 @@ class BeamCounts {
   explicit BeamCounts(const OccupancyGrid& grid)
       : grid_(grid), passed_(grid.cells.size(), 0), ended_(grid.cells.size(), 0) {}
 
-  void add(const Vector2& from, const Vector2& hit) {
-    const Vector2 ray = hit - from;
-    const int steps = static_cast<int>(ray.norm() / grid_.resolution_m - 0.5);
-    for (int i = 0; i < steps; ++i) count(from + ray * i / (steps + 1), passed_);
-    count(hit, ended_);
+  void add(const Beam& beam) {
+    const Vector2 from = beam.origin.head<2>();
+    const int steps = static_cast<int>(ray(beam).norm() / grid_.resolution_m - 0.5);
+    for (int i = 0; i < steps; ++i) count(from + ray(beam) * i / (steps + 1), passed_);
+    if (beam.kind == BeamEnd::kHit) count(beam.end.head<2>(), ended_);
   }
 
   std::int8_t value(std::size_t cell) const {
@@ -72,10 +72,7 @@ OccupancyGrid grid_of(const std::vector<PlacedKeyframe>& keyframes, const Vector
   OccupancyGrid grid = empty_grid(keyframes, {centre - reach, centre + reach}, cell_m);
   BeamCounts counts(grid);
   for (const PlacedKeyframe& placed : keyframes) {
-    const ScanHits& scan = placed.keyframe->scan;
-    const Vector2 sensor = composed(placed.pose, {scan.sensor, 0.0}).position;
-    for (const Vector2& hit : scan.hits)
-      counts.add(sensor, composed(placed.pose, {hit, 0.0}).position);
+    for (const Beam& beam : beams_of(placed.keyframe->scan, placed.pose)) counts.add(beam);
   }
   for (std::size_t cell = 0; cell < grid.cells.size(); ++cell)
     grid.cells[cell] = counts.value(cell);

@@ -101,6 +101,7 @@ Alignment SurfelMap::align(const std::vector<Surfel>& scan, const PoseEstimate& 
                            double reach_m) const {
   Alignment result;
   result.pose = prior.pose;
+  result.covariance = prior.covariance;
   if (scan.empty()) return result;
   const Eigen::Matrix3d known = prior.covariance.inverse();
   for (int step = 0; step < kMostAlignmentSteps; ++step) {
@@ -112,6 +113,7 @@ Alignment SurfelMap::align(const std::vector<Surfel>& scan, const PoseEstimate& 
     const Eigen::Vector3d change = -error.information.ldlt().solve(error.gradient);
     result.pose.position += change.head<2>();
     result.pose.yaw_rad = wrap_angle(result.pose.yaw_rad + change.z());
+    result.covariance = error.information.inverse();
     if (reach_m <= kLastReach_m && change.head<2>().norm() < kStill_m &&
         std::abs(change.z()) < kStill_rad)
       break;

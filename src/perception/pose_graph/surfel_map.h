@@ -25,6 +25,7 @@ struct Agreement {
 /// Where a scan lies among walls.
 struct Alignment {
   Pose pose;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< with what was known before
   double explained = 0.0;  ///< share of the scan's surfels that lie on walls
   std::vector<Agreement> agreements;
 };

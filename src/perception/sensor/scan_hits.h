@@ -13,15 +13,20 @@ struct ScanHits {
   double time_s = 0.0;
   Vector2 sensor = Vector2::Zero();
   std::vector<Vector2> hits;
+  std::vector<Vector2> misses{};  ///< up to where beams met nothing
 };
 
 /// Throws std::invalid_argument for a scan and an odometry, both at one time, that no lidar and no
 /// odometry measures; what() does not depend on their numbers.
 void check_measured(const ScanHits& scan, const Pose& odometry);
 
-/// The hits among `beams`, seen from a robot that stands at `base`, in the frame of the beams. Of
-/// hits closer together than `spacing_m` one is kept, so that near walls do not outweigh far ones.
+/// The hits and misses among `beams`, seen from a robot that stands at `base`, in the frame of the
+/// beams. Of those closer together than `spacing_m` one is kept, so that near walls do not outweigh
+/// far ones.
 ScanHits hits_of(const std::vector<Beam>& beams, const Pose& base, double spacing_m);
+
+/// The beams of a scan, as measured by a robot that stands at `base`; in the plane.
+std::vector<Beam> beams_of(const ScanHits& scan, const Pose& base);
 
 /// The hits `depth_m` farther away from the sensor.
 ScanHits deepened(ScanHits scan, double depth_m);

@@ -270,30 +270,5 @@ TEST(ScanLocalizerRefusalTest, WhatNoSensorMeasuresIsRefusedAndChangesNothing) {
   EXPECT_LT(distance_m(now.base.pose, drive[40].truth), 0.1);
 }
 
-TEST(ScanLocalizerMappingTest, MakesAMapOfTheCorridorWithAnOdometryThatDrifts) {
-  World world =
-      one_robot_world("config/worlds/corridor.yaml", {{0.0, 0.0}, 0.0}, "waveshare_rover");
-  const RobotModel& model = world.robots[0].model;
-  const auto drive = drive_through(world, corridor_path(), 2, 200.0);
-  ScanLocalizer localizer(shipped_localizer_options(model));
-  localizer.begin({{0.0, 0.0}, 0.0});
-  OccupancyMapOptions options = shipped_map_options();
-  options.resolution_m = model.map_resolution_m;
-  OccupancyMap map(options);
-  double worst_m = 0.0;
-  double worst_odometry_m = 0.0;
-  for (std::size_t i = 0; i < drive.size(); ++i) {
-    const Localization& now = localizer.add(hits_of(drive[i], model.lidar), drive[i].odometry);
-    ASSERT_EQ(now.state, State::kLocalized) << i;
-    worst_m = std::max(worst_m, distance_m(now.base.pose, drive[i].truth));
-    worst_odometry_m = std::max(worst_odometry_m, distance_m(drive[i].odometry, drive[i].truth));
-    const Pose first = composed(now.odom_in_map, drive[i].odometry_first);
-    map.insert_scan(beams_of(drive[i], first, now.base.pose, model.lidar));
-    if (i % 2 == 0) localizer.set_map(map.slice(0.5));
-  }
-  EXPECT_GT(worst_odometry_m, 0.3);
-  EXPECT_LT(worst_m, 0.1);
-}
-
 }  // namespace
 }  // namespace mocha

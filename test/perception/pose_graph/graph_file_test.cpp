@@ -27,8 +27,8 @@ class GraphFileTest : public testing::Test {
   std::string path_;
 };
 
-const std::string kVertex = "VERTEX_SE2 0 1 2 0.5\nKEYFRAME 3 0 0 0 0.1 0 2 1 0 1 0.5\n";
-const std::string kSecond = "VERTEX_SE2 1 2 2 0.5\nKEYFRAME 4 1 0 0 0.1 0 0\n";
+const std::string kVertex = "VERTEX_SE2 0 1 2 0.5\nKEYFRAME 3 0 0 0 0.1 0 2 1 0 1 0.5 1 7 0\n";
+const std::string kSecond = "VERTEX_SE2 1 2 2 0.5\nKEYFRAME 4 1 0 0 0.1 0 0 0\n";
 
 TEST_F(GraphFileTest, KeepsAMap) {
   DrivenMap map;
@@ -38,6 +38,7 @@ TEST_F(GraphFileTest, KeepsAMap) {
   map.keyframes[0].scan.time_s = 1700000000.123;
   map.keyframes[0].scan.sensor = {0.1, 0.0};
   map.keyframes[0].scan.hits = {{1.2345, -0.5}, {3.0, 4.0}};
+  map.keyframes[0].scan.misses = {{8.0, 0.5}};
   map.keyframes[1].scan.time_s = 1700000001.0;
   map.keyframes[1].odometry = {{7.0, 8.0}, 0.25};
   Eigen::Matrix3d information;
@@ -53,6 +54,7 @@ TEST_F(GraphFileTest, KeepsAMap) {
   EXPECT_EQ(read.keyframes[0].scan.sensor, Vector2(0.1, 0.0));
   ASSERT_EQ(read.keyframes[0].scan.hits.size(), 2u);
   EXPECT_LT((read.keyframes[0].scan.hits[0] - Vector2(1.2345, -0.5)).norm(), 1e-3);
+  EXPECT_EQ(read.keyframes[0].scan.misses, map.keyframes[0].scan.misses);
   EXPECT_EQ(read.keyframes[1].odometry.position, Vector2(7.0, 8.0));
   ASSERT_EQ(read.graph.constraints().size(), 2u);
   EXPECT_EQ(read.graph.constraints()[0].information, information);
@@ -74,11 +76,11 @@ TEST_F(GraphFileTest, SaysWhichLineIsWrong) {
   says("VERTEX_SE2 0 0 1e9 0\n", "line 1 has a place that is too far away");
   says("VERTEX_SE2 0 0 0 0\n", "a vertex has no keyframe");
   says(kSecond, "line 1 has not the next number");
-  says("KEYFRAME 3 0 0 0 0.1 0 0\n", "line 1 does not follow its vertex");
-  says(kVertex + "KEYFRAME 3 0 0 0 0.1 0 0\n", "line 3 does not follow its vertex");
+  says("KEYFRAME 3 0 0 0 0.1 0 0 0\n", "line 1 does not follow its vertex");
+  says(kVertex + "KEYFRAME 3 0 0 0 0.1 0 0 0\n", "line 3 does not follow its vertex");
   says("VERTEX_SE2 0 0 0 0\nKEYFRAME 3 0 0 0 0.1 0 1e9\n", "line 2 has an impossible number");
-  says("VERTEX_SE2 0 0 0 0\nKEYFRAME 3 0 0 0 0.1 0 1 5000 0\n", "more than 1 km");
-  says("VERTEX_SE2 0 0 0 0\nKEYFRAME 3 0 0 0 0.1 0 1 1 0 7\n", "line 2 has more");
+  says("VERTEX_SE2 0 0 0 0\nKEYFRAME 3 0 0 0 0.1 0 1 5000 0 0\n", "more than 1 km");
+  says("VERTEX_SE2 0 0 0 0\nKEYFRAME 3 0 0 0 0.1 0 1 1 0 0 7\n", "line 2 has more");
   says(kVertex + kSecond + "EDGE_SE2 0 2 1 0 0 1 0 0 1 0 1\n", "line 5 names a vertex");
   says(kVertex + kSecond + "EDGE_SE2 1 1 1 0 0 1 0 0 1 0 1\n", "line 5 connects");
   says(kVertex + kSecond + "EDGE_SE2 0 1 1 0 0 1 2 0 1 0 1\n", "not positive definite");

@@ -17,7 +17,7 @@ class GraphMapperTest : public testing::Test {
 
   void drive(const MappingDrive& drive) {
     for (std::size_t i = 0; i < drive.scans.size(); ++i)
-      pose_ = mapper_.add(drive.scans[i], drive.odometry[i]);
+      pose_ = mapper_.add(drive.scans[i], drive.odometry[i]).pose;
     mapper_.finish();
   }
 
@@ -99,7 +99,7 @@ TEST_F(GraphMapperTest, BelievesTheOdometryWhereNothingIsSeen) {
   ScanHits blind;
   for (int i = 0; i < 10; ++i) {
     blind.time_s = i + 1.0;
-    pose_ = mapper_.add(blind, {{0.3 * i, 0.0}, 0.0});
+    pose_ = mapper_.add(blind, {{0.3 * i, 0.0}, 0.0}).pose;
   }
   EXPECT_LT(distance_m(pose_, {{2.7, 0.0}, 0.0}), 1e-6);
   EXPECT_EQ(mapper_.explained(), 0.0);

@@ -31,7 +31,7 @@ class LoopCloserTest : public testing::Test {
   }
 
   /// The next keyframe of the second pass.
-  std::vector<Loop> pass_again(const Pose& truth, const Pose& drift) {
+  std::vector<LoopClosure> pass_again(const Pose& truth, const Pose& drift) {
     add(truth, drift, graph_.size() == 5 ? 1.0 : 0.01);
     return closer_.look(graph_, keyframes_);
   }

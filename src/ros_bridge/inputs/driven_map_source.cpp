@@ -1,0 +1,114 @@
+#include "ros_bridge/inputs/driven_map_source.h"
+
+#include <mocha_ugv/GetKeyframes.h>
+#include <ros/service.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "ros_bridge/messages/pose_graph_messages.h"
+#include "ros_bridge/runtime/callback_queue.h"
+
+namespace mocha {
+namespace {
+
+// Of a keyframe, since it is in the map; less is not seen in cells.
+constexpr double kMoved_m = 0.03;
+constexpr double kMoved_rad = 0.01;
+
+bool has_moved(const Pose& from, const Pose& to) {
+  return (to.position - from.position).norm() > kMoved_m ||
+         std::abs(wrap_angle(to.yaw_rad - from.yaw_rad)) > kMoved_rad;
+}
+
+}  // namespace
+
+DrivenMapSource::DrivenMapSource(ros::NodeHandle& node, std::string frame,
+                                 const OccupancyMapOptions& options,
+                                 std::function<void(OccupancyMap*)> ended)
+    : frame_(std::move(frame)),
+      service_(node.resolveName("get_keyframes")),
+      options_(options),
+      ended_(std::move(ended)),
+      graphs_(node.subscribe("pose_graph", 5, &DrivenMapSource::on_graph, this)) {}
+
+DrivenMapSource::~DrivenMapSource() {
+  if (work_.valid()) work_.wait();
+}
+
+void DrivenMapSource::on_graph(const mocha_ugv::PoseGraph& message) {
+  try {
+    if (message.header.frame_id != frame_)
+      throw std::invalid_argument("pose_graph is in frame `" + message.header.frame_id + "`");
+    poses_ = poses_of(message);
+    fault_.clear();
+  } catch (const std::invalid_argument& error) {
+    fault_ = error.what();
+    return;
+  }
+  if (poses_.size() < mapped_.size()) {  // another map
+    mapped_.clear();
+    scans_.clear();
+  }
+  // One that is new was seen when it was taken.
+  if (poses_.size() == mapped_.size() + 1) mapped_.push_back(poses_.back());
+  if (!work_.valid() && is_due()) begin();
+}
+
+bool DrivenMapSource::is_due() const {
+  if (poses_.size() != mapped_.size()) return true;
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    if (has_moved(mapped_[i], poses_[i])) return true;
+  }
+  return false;
+}
+
+void DrivenMapSource::begin() {
+  under_way_ = poses_;
+  work_ = std::async(std::launch::async, [this, scans = std::move(scans_), poses = poses_] {
+    Made made = make(service_, options_, scans, poses);
+    call_soon([this] { finish(); });
+    return made;
+  });
+  scans_.clear();
+}
+
+DrivenMapSource::Made DrivenMapSource::make(const std::string& service,
+                                            const OccupancyMapOptions& options, Scans scans,
+                                            const std::vector<Pose>& poses) {
+  Made made{std::move(scans), nullptr, {}};
+  try {
+    mocha_ugv::GetKeyframes call;
+    call.request.first = static_cast<std::uint32_t>(made.scans.size());
+    if (made.scans.size() < poses.size() && !ros::service::call(service, call))
+      throw std::invalid_argument(service + " does not answer");
+    for (const mocha_ugv::MapKeyframe& keyframe : call.response.keyframes)
+      made.scans.push_back(from_message(keyframe));
+    if (made.scans.size() < poses.size())
+      throw std::invalid_argument(service + " has fewer keyframes than were announced");
+    made.map = std::make_unique<OccupancyMap>(options);
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      made.map->insert_scan(beams_of(made.scans[i], poses[i]));
+  } catch (const std::exception& error) {
+    made.map.reset();
+    made.fault = error.what();
+  }
+  return made;
+}
+
+void DrivenMapSource::finish() {
+  Made made = work_.get();
+  fault_ = made.fault;
+  scans_ = std::move(made.scans);
+  // Where it failed, the next message begins it again.
+  if (made.map) {
+    ++made_;
+    mapped_ = std::move(under_way_);
+    if (poses_.size() == mapped_.size() + 1) mapped_.push_back(poses_.back());
+    if (is_due()) begin();
+  }
+  ended_(made.map.get());
+}
+
+}  // namespace mocha
