@@ -1,36 +1,62 @@
 #!/usr/bin/python3
-"""A robot that knows nothing drives through a flat and back, makes a map of it, and saves it."""
+"""A robot that knows nothing drives through a flat and back, makes a map of it, and saves it; its localiser dies, and goes on in the same map."""
 
 import os
+import signal
 import sys
 import tempfile
 import unittest
 
 import rospy
 import rostest
-from mocha_ugv.srv import SaveMap
+from mocha_ugv.msg import Localization, PoseGraph
+from mocha_ugv.srv import GetKeyframes, SaveMap
 
 from simulated_robot import SimulatedRobot
+from waiting import wait_until
 
 WAYPOINTS = [(1.0, 3.5), (6.2, 0.8), (6.0, 3.4), (0.0, 0.0)]  # all three rooms
-MAP_ERROR_M = 0.25  # the map grows with the robot's own errors, far from where it began
+MAP_ERROR_M = 0.15
+SAVING_S = 31.0
 
 
 class RobotMappingTest(unittest.TestCase):
+    def drive(self, robot, x, y):
+        robot.send(x, y)
+        robot.run_until(robot.done, 90.0, "it reaches (%.1f, %.1f) of its map" % (x, y))
+        self.assertEqual(robot.outcome()[0], "SUCCEEDED", robot.report())
+        self.assertLess(robot.distance_to(x, y), MAP_ERROR_M, robot.report())
+        print("%.3f m from (%.1f, %.1f)" % (robot.distance_to(x, y), x, y))
+
     def test_maps_a_flat(self):
+        graphs, states = [], []
+        rospy.Subscriber("/ugv3/pose_graph", PoseGraph, graphs.append)
+        rospy.Subscriber("/ugv3/localization", Localization, states.append)
         robot = SimulatedRobot("ugv3")
         robot.start()
         for x, y in WAYPOINTS:
-            robot.send(x, y)
-            robot.run_until(robot.done, 90.0, "it reaches (%.1f, %.1f) of its map" % (x, y))
-            self.assertEqual(robot.outcome()[0], "SUCCEEDED", robot.report())
-            self.assertLess(robot.distance_to(x, y), MAP_ERROR_M, robot.report())
-            print("%.3f m from (%.1f, %.1f)" % (robot.distance_to(x, y), x, y))
+            self.drive(robot, x, y)
         self.assertEqual(robot.truth.contacts, 0)
         with tempfile.TemporaryDirectory() as directory:
             answer = rospy.ServiceProxy("/ugv3/save_map", SaveMap)(os.path.join(directory, "flat.bt"))
             self.assertTrue(answer.success, answer.message)
             self.assertGreater(os.path.getsize(os.path.join(directory, "flat.bt")), 10000)
+        keyframes = rospy.ServiceProxy("/ugv3/get_keyframes", GetKeyframes)(0).keyframes
+        self.assertGreater(len(keyframes), 30)
+        self.assertEqual(len(keyframes), len(graphs[-1].keyframes))
+        self.assertGreater(min(len(keyframe.hits) for keyframe in keyframes), 50)
+
+        robot.run(SAVING_S)
+        before = robot.process("scan_localizer")
+        os.kill(before, signal.SIGKILL)
+        wait_until(lambda: robot.process("scan_localizer") not in (None, before), "the localiser is started again")
+        del states[:]
+        robot.run_until(lambda: any(state.state == Localization.LOCALIZED for state in states), 20.0, "it finds its place in the map that it has driven")
+        self.assertNotEqual(states[0].state, Localization.LOCALIZED)  # it did not begin another one
+        self.drive(robot, 1.0, 3.5)
+        self.assertGreater(len(graphs[-1].keyframes), len(keyframes))
+        self.assertEqual(robot.truth.contacts, 0)
+        os.remove(rospy.get_param("/ugv3/scan_localizer/pose_graph_file"))
 
 
 if __name__ == "__main__":
