@@ -15,9 +15,11 @@ target_link_libraries(benchmark_classes mocha_perception)
 mocha_benchmark(localization)
 target_link_libraries(benchmark_localization mocha_perception mocha_simulation)
 
-mocha_benchmark(mapping test/benchmarks/carmen_log.cpp test/benchmarks/log_drive.cpp test/benchmarks/skid_odometry.cpp
-  test/benchmarks/trajectory_error.cpp)
-target_link_libraries(benchmark_mapping mocha_perception)
+foreach(name mapping localization_logs)
+  mocha_benchmark(${name} test/benchmarks/carmen_log.cpp test/benchmarks/log_drive.cpp test/benchmarks/skid_odometry.cpp
+    test/benchmarks/trajectory_error.cpp)
+  target_link_libraries(benchmark_${name} mocha_perception mocha_simulation)
+endforeach()
 
 mocha_benchmark(tracks test/benchmarks/bag_perception.cpp)
 target_link_libraries(benchmark_tracks mocha_ros_bridge)
