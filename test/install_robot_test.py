@@ -82,11 +82,12 @@ class InstallRobot(unittest.TestCase):
         parameters = self.write("parameters.yaml", "{local_replanner: {horizon: 5.0}}")
         lidar = self.write("lidar.launch", (ROOT / "test/rostest/vendor_lidar.launch").read_text())
         self.install("--robot", "ugv5", "--model", "rover", "--priority", "-2", "--port", "/dev/ttyUSB1", "--robot-type", "3",
-                     "--map", "flat.bt", "--key", key, "--lidar-launch", lidar, "--lidar-topic", "/scan", "--lidar-frame", "laser_link", "--lcm-url", "topics",
+                     "--map", "flat.bt", "--pose-graph", "flat.g2o", "--key", key, "--lidar-launch", lidar, "--lidar-topic", "/scan", "--lidar-frame", "laser_link", "--lcm-url", "topics",
                      "--parameters", parameters)
         config = self.launched()
         values = {name: parameter.value for name, parameter in config.params.items()}
         self.assertEqual([values["/ugv5/base_driver/" + name] for name in ("port", "robot_model", "robot_type")], ["/dev/ttyUSB1", "rover", 3])
+        self.assertEqual(values["/ugv5/scan_localizer/pose_graph_file"], str(pathlib.Path(map_file).with_suffix(".g2o")))
         self.assertEqual((values["/ugv5/scan_localizer/map_file"], values["/ugv5/trajectory_broadcaster/priority"]), (map_file, -2))
         self.assertEqual(values["/ugv5/local_replanner/horizon"], 5.0)
         broadcaster = "/ugv5/trajectory_broadcaster/"
