@@ -2,8 +2,6 @@
 // the log's poses. Prints JSON. Arguments: the log, the odometry's seed, and where the map is saved
 // (- for nowhere).
 
-#include <sys/resource.h>
-
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -24,10 +22,14 @@ constexpr double kSpacing_m = 0.02;
 constexpr double kLengths_m[] = {1.0, 10.0, 100.0};
 constexpr double kDegree = M_PI / 180.0;
 
+/// Of this program alone; getrusage() would count what was there before it began.
 double peak_memory_mib() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  double kib = 0.0;
+  while (status >> word && word != "VmHWM:") continue;
+  status >> kib;
+  return kib / 1024.0;
 }
 
 /// Where a scan was taken, as seen from the keyframe that was the newest then.
