@@ -1,6 +1,7 @@
 """A robot that finds out where it is in a saved map: how far off it is, and how long it takes.
 
-Drives by lidar and drifting odometry through worlds of which a map was made in another drive; nothing tells the robot where it begins.
+With --logs, maps of lidar logs instead. Else
+drives by lidar and drifting odometry through worlds of which a map was made in another drive; nothing tells the robot where it begins.
 Then once more each, carried 5 m away on the way without any odometry. Figures of poses are taken while the robot is localised;
 `found` counts from the first scan, or from the carrying. A scan's time is that of one core.
 """
@@ -8,7 +9,7 @@ import concurrent.futures
 import os
 import statistics
 
-from benchmarks import benchmark
+from benchmarks import benchmark, lidar_logs
 
 RUNS = 5
 CORRIDOR = ("0,0 3.4,1.5 5,0 7.2,1.1 9,0.1 10.7,1.3 12.8,0 14.6,0.9 17,0.6 18.5,1.2 18.5,-1.2 17,0 14.6,-1.3 12.6,-0.2 11,-1.1 9,0 "
@@ -22,6 +23,7 @@ SCENES = [("corridor", "config/worlds/corridor.yaml", "rover", CORRIDOR),
 
 
 def add_arguments(parser):
+    lidar_logs.add_argument(parser, "in maps of lidar logs in CARMEN's format, made at the poses of one part of their scans, by the other part:")
     parser.add_argument("--runs", type=int, default=RUNS, metavar="N", help=f"seeded drives in each world (default {RUNS})")
     parser.add_argument("--json", metavar="FILE", help="write the rows and the summary there")
 
@@ -34,7 +36,35 @@ def summarise(rows):
             "longest_ms": max(row["longest_ms"] for row in rows)}
 
 
+def summary_of_searches(searches):
+    """Of 50 places, each without a word where it is: where one scan tells the place, how many were found; wrong ones of all; the time."""
+    telling = [search for search in searches if search["tells"]]
+    found = [search for search in telling if search["scans"] > 0 and not search["wrong"]]
+    return {"places": len(searches), "telling": len(telling), "found": len(found), "found_wrong": sum(search["wrong"] for search in searches),
+            "found_s": statistics.median(search["s"] for search in found) if found else None}
+
+
+def run_on_logs(options):
+    program = benchmark.build("localization_logs")
+    print(f"{'':14}{'':6}{'median':>8}{'95 %':>7}{'worst':>7}{'median':>8}{'95 %':>7}{'worst':>7}{'localised':>11}{'wrong':>8}{'scan':>8}{'longest':>9}"
+          f"{'found where it tells':>22}{'wrong':>7}{'after':>8}")
+    print(f"{'log':14}{'part':6}{'[m]':>8}{'[m]':>7}{'[m]':>7}{'[deg]':>8}{'[deg]':>7}{'[deg]':>7}{'[%]':>11}{'[%]':>8}{'[ms]':>8}{'[ms]':>9}{'':22}{'':7}{'[s]':>8}")
+    rows = []
+    for name, log in lidar_logs.each(options.logs):
+        for part in ("rest", "odd"):
+            row = {"log": name, "part": part, **benchmark.call(program, log, 1, part)}
+            row.update(summary_of_searches(row.pop("searches")))
+            rows.append(row)
+            print(f"{name:14}{part:6}{row['median_m']:8.3f}{row['p95_m']:7.3f}{row['worst_m']:7.2f}{row['median_deg']:8.2f}{row['p95_deg']:7.2f}{row['worst_deg']:7.1f}"
+                  f"{100 * row['localized']:11.1f}{100 * row['wrong']:8.2f}{row['scan_ms']:8.2f}{row['longest_ms']:9.0f}{row['found']:14} of {row['telling']:<4}"
+                  f"{row['found_wrong']:7}{row['found_s'] if row['found_s'] is not None else float('nan'):8.1f}", flush=True)
+    benchmark.write({"rows": rows}, options.json)
+    return 0
+
+
 def run(options):
+    if options.logs:
+        return run_on_logs(options)
     program = benchmark.build("localization")
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         jobs = [(name, model, pool.submit(benchmark.call, program, world, model, 1, options.runs, *way))
