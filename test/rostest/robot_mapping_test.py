@@ -28,6 +28,11 @@ class RobotMappingTest(unittest.TestCase):
         self.assertLess(robot.distance_to(x, y), MAP_ERROR_M, robot.report())
         print("%.3f m from (%.1f, %.1f)" % (robot.distance_to(x, y), x, y))
 
+    @staticmethod
+    def made_anew(robot):
+        """How often perception has made its map anew."""
+        return max(int(values.get("maps made anew of moved keyframes", 0)) for values in robot.values.values())
+
     def test_maps_a_flat(self):
         graphs, states = [], []
         rospy.Subscriber("/ugv3/pose_graph", PoseGraph, graphs.append)
@@ -56,7 +61,16 @@ class RobotMappingTest(unittest.TestCase):
         self.drive(robot, 1.0, 3.5)
         self.assertGreater(len(graphs[-1].keyframes), len(keyframes))
         self.assertEqual(robot.truth.contacts, 0)
+
+        # Without the file it begins another map, and so does perception.
+        before = robot.process("scan_localizer")
         os.remove(rospy.get_param("/ugv3/scan_localizer/pose_graph_file"))
+        os.kill(before, signal.SIGKILL)
+        wait_until(lambda: robot.process("scan_localizer") not in (None, before), "the localiser is started again")
+        del graphs[:]
+        made = self.made_anew(robot)
+        robot.run_until(lambda: graphs and len(graphs[-1].keyframes) == 1, 20.0, "another map is begun")
+        robot.run_until(lambda: self.made_anew(robot) > made, 10.0, "perception has begun another map as well")
 
 
 if __name__ == "__main__":

@@ -66,7 +66,7 @@ std::optional<LoopCloser::Candidate> LoopCloser::candidate(const PoseGraph& grap
     const double sigma_m =
         known[i].is_known ? std::sqrt(known[i].position_variance_m2) : kLostSigma_m;
     const double far_m = (graph.poses()[i].position - graph.poses()[newest].position).norm();
-    if (sigma_m < kTogetherSigma_m || far_m > options_.radius_m + 2.0 * sigma_m) continue;
+    if (sigma_m <= kTogetherSigma_m || far_m > options_.radius_m + 2.0 * sigma_m) continue;
     if (nearest && far_m >= nearest_m) continue;
     nearest_m = far_m;
     nearest = {i, sigma_m,

@@ -47,13 +47,25 @@ void DrivenMapSource::on_graph(const mocha_ugv::PoseGraph& message) {
     fault_ = error.what();
     return;
   }
-  if (poses_.size() < mapped_.size()) {  // another map
-    mapped_.clear();
-    scans_.clear();
+  if (work_.valid()) return;
+  if (poses_.size() < mapped_.size()) {
+    begin_another_map();
+  } else {
+    add_seen();
+    if (is_due()) begin();
   }
-  // One that is new was seen when it was taken.
+}
+
+/// A single one that is new was seen when it was taken.
+void DrivenMapSource::add_seen() {
   if (poses_.size() == mapped_.size() + 1) mapped_.push_back(poses_.back());
-  if (!work_.valid() && is_due()) begin();
+}
+
+/// Keyframes have become fewer: scan_localizer has begun anew.
+void DrivenMapSource::begin_another_map() {
+  mapped_.clear();
+  scans_.clear();
+  begin();
 }
 
 bool DrivenMapSource::is_due() const {
@@ -101,11 +113,15 @@ void DrivenMapSource::finish() {
   Made made = work_.get();
   fault_ = made.fault;
   scans_ = std::move(made.scans);
+  if (poses_.size() < under_way_.size()) {
+    made.map.reset();
+    begin_another_map();
+  }
   // Where it failed, the next message begins it again.
   if (made.map) {
     ++made_;
     mapped_ = std::move(under_way_);
-    if (poses_.size() == mapped_.size() + 1) mapped_.push_back(poses_.back());
+    add_seen();
     if (is_due()) begin();
   }
   ended_(made.map.get());

@@ -40,7 +40,9 @@ class DrivenMapSource {
   };
 
   void on_graph(const mocha_ugv::PoseGraph& message);
+  void add_seen();
   bool is_due() const;
+  void begin_another_map();
   void begin();
   void finish();
   static Made make(const std::string& service, const OccupancyMapOptions& options, Scans scans,

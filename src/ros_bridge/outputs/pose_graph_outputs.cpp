@@ -45,18 +45,18 @@ void PoseGraphOutputs::publish(ros::Time now) {
   mocha_ugv::PoseGraph message;
   message.header.frame_id = frame_;
   message.header.stamp = now;
-  message.loops = mapper_->loops_closed();
-  to_message(mapper_->graph().poses(), message);
+  message.loops = session_.mapper().loops_closed();
+  to_message(session_.mapper().graph().poses(), message);
   graphs_.publish(message);
   Drawing drawing(frame_, now);
-  draw_pose_graph(mapper_->graph(), drawing);
+  draw_pose_graph(session_.mapper().graph(), drawing);
   drawings_.publish(drawing.markers());
 }
 
 void PoseGraphOutputs::save() {
   if (path_.empty() || is_saved_) return;
   try {
-    save_driven_map({mapper_->graph(), mapper_->keyframes()}, path_);
+    save_driven_map({session_.mapper().graph(), session_.mapper().keyframes()}, path_);
     is_saved_ = true;
   } catch (const MapError& error) {
     ROS_ERROR("The pose graph is not saved: %s", error.what());
