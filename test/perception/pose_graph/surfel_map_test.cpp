@@ -88,6 +88,7 @@ TEST(SurfelMapTest, KeepsTheSidesOfAThinWallApart) {
   const Pose prior{{1.9, 0.0}, 0.0};  // as if the wall had no thickness
   const Alignment alignment = map.align(seen.surfels, roughly(prior), kReach_m);
   EXPECT_NEAR(alignment.pose.position.x(), 1.9, 0.02);
+  EXPECT_LT(alignment.explained, 0.1);  // that wall is none of those of the map
 }
 
 TEST(SurfelMapTest, LeavesAScanWithoutWallsWhereItIsBelievedToBe) {
