@@ -7,6 +7,7 @@
 
 #include "perception/localization/grid_pyramid.h"
 #include "perception/localization/likelihood_field.h"
+#include "perception/localization/square_sums.h"
 #include "perception/sensor/scan_hits.h"
 
 namespace mocha {
@@ -26,7 +27,7 @@ class BranchAndBoundMatcher {
 
   struct Options {
     int budget = 0;          ///< gives up after so many bounds of places
-    std::size_t hits = 80;   ///< of the scan, at most
+    std::size_t hits = 80;   ///< of the scan, at most; up to 257
     double min_score = 0.5;  ///< worse places are none
   };
 
@@ -51,6 +52,7 @@ class BranchAndBoundMatcher {
   double spacing_m_;
   Vector2 origin_;
   GridPyramid likelihood_;  // 255 on a wall
+  SquareSums top_;          // of its coarsest level
   GridPyramid free_;        // 255 where the robot may stand
 };
 

@@ -1,50 +1,28 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
-#include "config/parameter_table.h"
 #include "perception/localization/branch_and_bound_matcher.h"
 #include "perception/localization/likelihood_field.h"
 #include "perception/localization/localizer.h"
+#include "perception/localization/place_hypotheses.h"
 #include "perception/localization/scan_fit.h"
-#include "perception/localization/scan_matcher.h"
-#include "world/robot_model.h"
+#include "perception/localization/scan_localizer_options.h"
 
 namespace mocha {
 
-struct ScanLocalizerOptions {
-  ScanMatcherOptions matcher;
-  double wall_depth_m;             ///< middle of a mapped wall behind its surface
-  std::size_t hits;                ///< of a scan, at most
-  double tolerance_m;              ///< a hit that near to a wall of the map is explained by it
-  int least_hits;                  ///< explained or not; fewer say nothing about the place
-  double sure_quality;             ///< a place that only the scans speak for is believed from here
-  double good_quality;             ///< an expected one from here; below, others are looked for
-  double poor_quality;             ///< given up below
-  double rivalry;                  ///< only places so much worse than the best are no rivals to it
-  double trial_s;                  ///< for so long a place is tried before it is believed
-  double search_interval_s;        ///< between wide searches
-  int search_budget;               ///< see BranchAndBoundMatcher
-  double max_sigma_m;              ///< a robot whose place is less sure is lost
-  double max_speed;                ///< [m/s] no robot is faster
-  double odometry_noise_distance;  ///< [m/sqrt(m)]
-  double odometry_noise_yaw;       ///< [rad/sqrt(rad)]
-
-  /// From the parameters of the same names, without units; the odometry's noise is the model's.
-  static ScanLocalizerOptions from(const ParameterTable& values, const RobotModel& model);
-};
-
 /// Where a robot is in a map, from its scans and its odometry.
 ///
-/// Keeps the places where it may be. Each follows the odometry, is fitted to every scan and judged
-/// by how much of the scan the map explains there, smoothed over the trial's time. Places that
-/// explain little, or clearly less than the best, are dropped; where none is left, all of the map
-/// is searched. Believed is only the one place that has no rival, so that of a building's many
-/// equal rooms none is guessed; driving on tells them apart.
+/// Keeps the places where it may be. Each follows the odometry, is fitted to every scan of which
+/// the map says anything there, and judged by how much of it the map explains, smoothed over the
+/// trial's time. Places that explain little, or clearly less than the best, are dropped, and those
+/// that the odometry alone has led too far. Where none is left, the robot is looked for around
+/// where the odometry has led it since it was last known; where the map says otherwise, in all of
+/// the map. Believed is only a place that has no rival and was found twice, so that of a building's
+/// many equal rooms none is guessed; driving on tells them apart.
 class ScanLocalizer : public Localizer {
  public:
-  explicit ScanLocalizer(const ScanLocalizerOptions& options) : options_(options) {}
+  explicit ScanLocalizer(const ScanLocalizerOptions& options);
 
   /// Replaces the map; the places stay. Throws std::invalid_argument for one that
   /// is empty or of no place, see LikelihoodField.
@@ -69,31 +47,33 @@ class ScanLocalizer : public Localizer {
   const Localization& localization() const override { return localization_; }
 
  private:
-  struct Place {
-    PoseEstimate base;
-    double quality;
-    double needed_quality;  ///< to be believed
-    double proved_s;        ///< when it has been tried for long enough
-    bool believed;
-  };
-
   void predict(const Pose& odometry, double dt_s);
+  const BranchAndBoundMatcher& searcher();
+  PoseEstimate match(const ScanHits& scan, const PoseEstimate& base);
   void fit(const ScanHits& scan, double dt_s);
-  void drop_hopeless(double time_s);
-  bool is_hopeless(const Place& place, double time_s) const;
+  bool says_something(const ScanFit& fit) const;
+  bool is_unsure(const PoseEstimate& base) const;
+  const PlaceHypothesis& best() const { return places_.all()[0]; }  // not without any
   bool wants_search(double time_s) const;
   void search(const ScanHits& scan);
-  void add_place(const ScanHits& scan, const PoseEstimate& guess, double needed_quality);
+  bool is_refuted(const ScanHits& scan);
+  bool search_around(const ScanHits& scan, const PoseEstimate& base, bool is_sure);
+  void search_everywhere(const ScanHits& scan);
+  void add_place(const ScanHits& scan, const PoseEstimate& guess, bool confirmed);
   void decide(double time_s, const Pose& odometry);
 
   ScanLocalizerOptions options_;
   std::optional<LikelihoodField> walls_;
   std::optional<BranchAndBoundMatcher> search_;
-  std::vector<Place> places_;  // the most likely one first
-  std::optional<PoseEstimate> expected_;
+  PlaceHypotheses places_;
+  std::optional<PoseEstimate> expected_;  // by a hint
+  std::optional<PoseEstimate> reckoned_;  // by the odometry, since the place was last known
+  int refutations_;                       // of that, by scans, since then
+  double around_s_;                       // when the robot may be looked for around there again
+  double search_s_;                       // when it may be looked for everywhere again
+  double search_interval_s_;              // grows while searches are in vain
   std::optional<Pose> odometry_;
-  std::optional<double> time_s_;      // of the newest scan
-  std::optional<double> searched_s_;  // when the map was last searched
+  std::optional<double> time_s_;  // of the newest scan
   bool searched_in_vain_ = false;
   Localization localization_;
 };

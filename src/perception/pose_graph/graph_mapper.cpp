@@ -18,11 +18,8 @@ constexpr double kSureSigma_m = 0.08;
 constexpr double kAround_m = 6.0;
 constexpr std::size_t kMostAround = 12;
 constexpr double kPairReach_m = 0.6;
-// What the odometry does not say of itself: few are measured, and a drive has many slips.
-constexpr double kLeastNoiseDistance = 0.03;  // [m/sqrt(m)]
-constexpr double kLeastNoiseYaw = 0.06;       // [rad/sqrt(rad)]
-constexpr double kSlack_m = 0.5;              // of a step that no robot can drive
-constexpr double kTurnPerMetre = 0.1;  // a metre bends the heading as such a turn does [rad/m]
+constexpr double kSlack_m = 0.5;  // of a step that no robot can drive
+constexpr double kSlip = 0.05;
 constexpr double kStepNoise_m = 0.01;
 constexpr double kStepNoise_rad = 0.004;
 constexpr double kRestartSigma_m = 0.3;
@@ -52,9 +49,7 @@ GraphMapperOptions GraphMapperOptions::from(const ParameterTable& values, const 
   options.hits = values.integer("hits");
   options.loops = {values.number("loop_radius"), values.number("loop_quality")};
   options.max_speed = model.limits.max_speed;
-  options.odometry_noise_distance =
-      std::max(kLeastNoiseDistance, 2.0 * model.odometry_noise_distance);
-  options.odometry_noise_yaw = std::max(kLeastNoiseYaw, 2.0 * model.odometry_noise_yaw);
+  options.odometry = OdometryNoise(model, kSlip);
   return options;
 }
 
@@ -76,14 +71,7 @@ void GraphMapper::begin(const PoseEstimate& base) {
 }
 
 Eigen::Matrix3d GraphMapper::noise_of(const Pose& step) const {
-  const double driven_m = step.position.norm();
-  const double along_m2 = std::pow(options_.odometry_noise_distance, 2) * driven_m;
-  const double turn_rad2 = std::pow(options_.odometry_noise_yaw, 2) *
-                           (std::abs(step.yaw_rad) + kTurnPerMetre * driven_m);
-  // What bends on the way leads aside.
-  const double aside_m2 = turn_rad2 * driven_m * driven_m / 3.0;
-  return diagonal(std::sqrt(along_m2 + aside_m2), std::sqrt(turn_rad2)) +
-         diagonal(kStepNoise_m, kStepNoise_rad);
+  return options_.odometry.of(step) + diagonal(kStepNoise_m, kStepNoise_rad);
 }
 
 PoseEstimate GraphMapper::add(const ScanHits& scan, const Pose& odometry) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/parameter_table.h"
+#include "perception/localization/odometry_noise.h"
 #include "perception/pose_graph/graph_file.h"
 #include "perception/pose_graph/keyframe.h"
 #include "perception/pose_graph/loop_closer.h"
@@ -20,9 +21,8 @@ struct GraphMapperOptions {
   double keyframe_turn_rad;
   std::size_t hits;  ///< of a scan, at most, that are aligned
   LoopCloserOptions loops;
-  double max_speed;                ///< [m/s] no robot is faster
-  double odometry_noise_distance;  ///< [m/sqrt(m)]
-  double odometry_noise_yaw;       ///< [rad/sqrt(rad)]
+  double max_speed;  ///< [m/s] no robot is faster
+  OdometryNoise odometry;
 
   /// From the parameters of the same names, without units; the odometry's noise is the model's.
   static GraphMapperOptions from(const ParameterTable& values, const RobotModel& model);
