@@ -130,10 +130,12 @@ class Run {
       top_.add_up(hits_[heading], part, sums);
       looked_at_ += part.squares() / kAbreast + 1;
       for (int i = 0; i < part.squares(); ++i) {
+        const double bound = score_of(sums[i]);
+        if (bound < least()) continue;
         const Cell corner{(part.begin[0] + i % part.columns()) << kTop,
                           (part.begin[1] + i / part.columns()) << kTop};
-        const Square square{corner, kTop, heading, score_of(sums[i])};
-        if (square.bound >= least() && is_possible(square)) squares_.push_back(square);
+        const Square square{corner, kTop, heading, bound};
+        if (is_possible(square)) squares_.push_back(square);
       }
     }
     std::make_heap(squares_.begin(), squares_.end(), is_worse);

@@ -7,6 +7,7 @@
 
 #include "perception/localization/grid_pyramid.h"
 #include "perception/localization/likelihood_field.h"
+#include "perception/localization/scan_matcher.h"
 #include "perception/localization/square_sums.h"
 #include "perception/sensor/scan_hits.h"
 
@@ -17,6 +18,11 @@ struct SearchWindow {
   Pose centre;
   double radius_m = std::numeric_limits<double>::infinity();
   double turn_rad = M_PI;  ///< to either side
+
+  /// Three standard deviations around.
+  static SearchWindow around(const PoseEstimate& base) {
+    return {base.pose, 3.0 * base.sigma_m(), 3.0 * base.sigma_rad()};
+  }
 };
 
 /// Where in a map a scan may have been taken: branch and bound over all free places and headings of

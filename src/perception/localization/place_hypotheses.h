@@ -20,9 +20,8 @@ struct PlaceHypothesis {
 
 /// All places where the robot may be.
 ///
-/// A place that explains clearly more than another one ends it. What the robot was known to be is
-/// not given up so lightly: such a place only yields to one that was tried, and to one that its
-/// odometry cannot have led to only if that is better by far.
+/// A place is given up when another one explains clearly more. One that has been believed yields
+/// only to a place that was tried, and only by far to one that the odometry cannot have led to.
 class PlaceHypotheses {
  public:
   struct Options {
@@ -55,7 +54,7 @@ class PlaceHypotheses {
 
   bool empty() const { return places_.empty(); }
   const std::vector<PlaceHypothesis>& all() const { return places_; }
-  std::vector<PlaceHypothesis>& all() { return places_; }
+  std::vector<PlaceHypothesis>& all() { return places_; }  ///< to be moved and judged anew
 
  private:
   bool is_beaten(const PlaceHypothesis& place, double tried_until_s) const;

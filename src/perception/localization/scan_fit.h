@@ -13,12 +13,11 @@ struct ScanFit {
   int behind = 0;   ///< hits that an occupied cell would have hidden
   int unknown = 0;  ///< hits of which the map says nothing
 
-  int hits() const { return on_wall + in_free + behind + unknown; }
-  /// Of the hits of which the map says anything, those that it explains; 0 without any.
-  double quality() const {
-    const int known = hits() - unknown;
-    return known == 0 ? 0.0 : static_cast<double>(on_wall) / known;
-  }
+  int hits() const { return known() + unknown; }
+  /// Those of which the map says anything.
+  int known() const { return on_wall + in_free + behind; }
+  /// Of these, the share that it explains; 0 without any.
+  double quality() const { return known() == 0 ? 0.0 : static_cast<double>(on_wall) / known(); }
 };
 
 /// Judges `scan` as seen from `pose` (map frame). A hit is on a wall within `tolerance_m` of it.

@@ -14,7 +14,6 @@ namespace {
 // What a scan's fit does not tell of itself: the map's own error, the same from scan to scan.
 constexpr double kStepNoise_m = 0.005;
 constexpr double kStepNoise_rad = 0.002;
-// Of a place that the search has found.
 constexpr double kFoundSigma_m = 0.1;
 constexpr double kFoundSigma_rad = 0.03;
 constexpr double kOdometrySlack_m = 0.5;
@@ -29,16 +28,14 @@ Eigen::Matrix3d diagonal(double sigma_m, double sigma_rad) {
   return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
 }
 
+/// Of a place that a search has found.
+PoseEstimate found_at(const Pose& pose) { return {pose, diagonal(kFoundSigma_m, kFoundSigma_rad)}; }
+
 bool is_within(const PoseEstimate& expected, const Pose& pose) {
   Eigen::Vector3d off;
   off << pose.position - expected.pose.position, wrap_angle(pose.yaw_rad - expected.pose.yaw_rad);
   return off.dot(expected.covariance.inverse() * off) <= 9.0;
 }
-
-double sigma_m(const PoseEstimate& base) {
-  return std::sqrt(base.covariance.topLeftCorner<2, 2>().trace());
-}
-double sigma_rad(const PoseEstimate& base) { return std::sqrt(base.covariance(2, 2)); }
 
 void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("ScanLocalizer: ") + what);
@@ -63,6 +60,7 @@ void ScanLocalizer::expect(const PoseEstimate& base) {
   expected_ = base;
   reckoned_.reset();
   search_s_ = around_s_ = -INFINITY;
+  search_interval_s_ = options_.search_interval_s;
 }
 
 void ScanLocalizer::forget() {
@@ -110,26 +108,33 @@ void ScanLocalizer::predict(const Pose& odometry, double dt_s) {
   if (reckoned_) move(*reckoned_);
 }
 
-bool ScanLocalizer::says_something(const ScanFit& fit) const {
-  return fit.hits() - fit.unknown >= options_.least_hits &&
-         fit.unknown <= kMostUnknown * fit.hits();
+ScanLocalizer::FittedPlace ScanLocalizer::fitted(const ScanHits& scan,
+                                                 const PoseEstimate& guess) const {
+  const PoseEstimate base = ScanMatcher(options_.matcher).match(scan, *walls_, guess);
+  return {base, fit_of(scan, base.pose, *walls_, options_.tolerance_m)};
+}
+
+/// The places within three standard deviations that a search finds.
+std::vector<ScanLocalizer::FittedPlace> ScanLocalizer::look_around(const ScanHits& scan,
+                                                                   const PoseEstimate& base) {
+  std::vector<FittedPlace> places;
+  for (const auto& found : searcher().find(scan, SearchWindow::around(base)).places) {
+    const FittedPlace place = fitted(scan, found_at(found.pose));
+    if (is_within(base, place.base.pose)) places.push_back(place);
+  }
+  return places;
 }
 
 /// Fits the scan where the robot should be. What may be farther off than hits reach is looked for
 /// around, so that a slip does not end at the wrong one of many doors.
-PoseEstimate ScanLocalizer::match(const ScanHits& scan, const PoseEstimate& base) {
-  const ScanMatcher matcher(options_.matcher);
-  PoseEstimate best = matcher.match(scan, *walls_, base);
-  if (3.0 * sigma_m(base) < options_.matcher.hit_reach_m) return best;
-  double best_quality = fit_of(scan, best.pose, *walls_, options_.tolerance_m).quality() + kJump;
-  const SearchWindow window{base.pose, 3.0 * sigma_m(base), 3.0 * sigma_rad(base)};
-  for (const BranchAndBoundMatcher::Place& found : searcher().find(scan, window).places) {
-    const PoseEstimate other =
-        matcher.match(scan, *walls_, {found.pose, diagonal(kFoundSigma_m, kFoundSigma_rad)});
-    const double quality = fit_of(scan, other.pose, *walls_, options_.tolerance_m).quality();
-    if (!is_within(base, other.pose) || quality <= best_quality) continue;
+ScanLocalizer::FittedPlace ScanLocalizer::follow(const ScanHits& scan, const PoseEstimate& base) {
+  FittedPlace best = fitted(scan, base);
+  if (3.0 * base.sigma_m() < options_.matcher.hit_reach_m) return best;
+  double needed = best.fit.quality() + kJump;
+  for (const FittedPlace& other : look_around(scan, base)) {
+    if (other.fit.quality() <= needed) continue;
     best = other;
-    best_quality = quality;
+    needed = other.fit.quality();
   }
   return best;
 }
@@ -137,16 +142,15 @@ PoseEstimate ScanLocalizer::match(const ScanHits& scan, const PoseEstimate& base
 void ScanLocalizer::fit(const ScanHits& scan, double dt_s) {
   const double weight = 2.0 * dt_s < options_.trial_s ? 2.0 * dt_s / options_.trial_s : 1.0;
   for (PlaceHypothesis& place : places_.all()) {
-    const PoseEstimate matched = match(scan, place.base);
-    const ScanFit fit = fit_of(scan, matched.pose, *walls_, options_.tolerance_m);
-    if (!says_something(fit)) continue;
-    if (fit.quality() >= options_.places.poor_quality) place.base = matched;
-    place.quality += weight * (fit.quality() - place.quality);
+    const FittedPlace now = follow(scan, place.base);
+    if (now.fit.known() < options_.least_hits) continue;
+    place.base = now.base;
+    place.quality += weight * (now.fit.quality() - place.quality);
   }
 }
 
 bool ScanLocalizer::is_unsure(const PoseEstimate& base) const {
-  return sigma_m(base) > options_.max_sigma_m || sigma_rad(base) > options_.max_sigma_yaw_rad;
+  return base.sigma_m() > options_.max_sigma_m || base.sigma_rad() > options_.max_sigma_yaw_rad;
 }
 
 /// Where nothing is known for good, and where a place has to be found once more to be believed.
@@ -184,7 +188,8 @@ void ScanLocalizer::search(const ScanHits& scan) {
 /// Whether the robot is not where the odometry has led it: the map knows that place, and does not
 /// explain several scans there.
 bool ScanLocalizer::is_refuted(const ScanHits& scan) {
-  if (!says_something(fit_of(scan, reckoned_->pose, *walls_, options_.tolerance_m))) return false;
+  const ScanFit there = fit_of(scan, reckoned_->pose, *walls_, options_.tolerance_m);
+  if (there.unknown > kMostUnknown * there.hits()) return false;
   if (++refutations_ >= kMostRefutations) return true;
   around_s_ = scan.time_s;
   return false;
@@ -192,12 +197,8 @@ bool ScanLocalizer::is_refuted(const ScanHits& scan) {
 
 /// Adds the places near to where the robot should be. Returns whether one of them is good.
 bool ScanLocalizer::search_around(const ScanHits& scan, const PoseEstimate& base, bool is_sure) {
-  add_place(scan, base, is_sure);
-  const SearchWindow window{base.pose, 3.0 * sigma_m(base), 3.0 * sigma_rad(base)};
-  for (const BranchAndBoundMatcher::Place& found : searcher().find(scan, window).places) {
-    if (!is_within(base, found.pose)) continue;
-    add_place(scan, {found.pose, diagonal(kFoundSigma_m, kFoundSigma_rad)}, is_sure);
-  }
+  add(scan.time_s, fitted(scan, base), is_sure);
+  for (const FittedPlace& place : look_around(scan, base)) add(scan.time_s, place, is_sure);
   places_.sift(scan.time_s);
   return !places_.empty() && !best().carried && best().quality >= options_.places.good_quality;
 }
@@ -210,18 +211,16 @@ void ScanLocalizer::search_everywhere(const ScanHits& scan) {
   searched_in_vain_ = !result.complete;
   if (!result.complete) return;
   for (const BranchAndBoundMatcher::Place& found : result.places)
-    add_place(scan, {found.pose, diagonal(kFoundSigma_m, kFoundSigma_rad)}, false);
+    add(scan.time_s, fitted(scan, found_at(found.pose)), false);
   places_.sift(scan.time_s);
 }
 
-void ScanLocalizer::add_place(const ScanHits& scan, const PoseEstimate& guess, bool confirmed) {
-  const PoseEstimate base = ScanMatcher(options_.matcher).match(scan, *walls_, guess);
-  const ScanFit fit = fit_of(scan, base.pose, *walls_, options_.tolerance_m);
+void ScanLocalizer::add(double time_s, const FittedPlace& place, bool confirmed) {
   // What is unknown explains nothing: the robot is not to be taken for one at the rim of the map.
-  const double quality = static_cast<double>(fit.on_wall) / fit.hits();
-  const bool carried = reckoned_ && (base.pose.position - reckoned_->pose.position).norm() >
-                                        3.0 * sigma_m(*reckoned_) + kSlip_m;
-  places_.add({base, quality, scan.time_s + options_.trial_s, carried, confirmed});
+  const double quality = static_cast<double>(place.fit.on_wall) / place.fit.hits();
+  const bool carried = reckoned_ && (place.base.pose.position - reckoned_->pose.position).norm() >
+                                        3.0 * reckoned_->sigma_m() + kSlip_m;
+  places_.add({place.base, quality, time_s + options_.trial_s, carried, confirmed});
 }
 
 void ScanLocalizer::decide(double time_s, const Pose& odometry) {

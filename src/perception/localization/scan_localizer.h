@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "perception/localization/branch_and_bound_matcher.h"
 #include "perception/localization/likelihood_field.h"
@@ -47,11 +48,17 @@ class ScanLocalizer : public Localizer {
   const Localization& localization() const override { return localization_; }
 
  private:
+  struct FittedPlace {
+    PoseEstimate base;
+    ScanFit fit;
+  };
+
   void predict(const Pose& odometry, double dt_s);
   const BranchAndBoundMatcher& searcher();
-  PoseEstimate match(const ScanHits& scan, const PoseEstimate& base);
+  FittedPlace fitted(const ScanHits& scan, const PoseEstimate& guess) const;
+  std::vector<FittedPlace> look_around(const ScanHits& scan, const PoseEstimate& base);
+  FittedPlace follow(const ScanHits& scan, const PoseEstimate& base);
   void fit(const ScanHits& scan, double dt_s);
-  bool says_something(const ScanFit& fit) const;
   bool is_unsure(const PoseEstimate& base) const;
   const PlaceHypothesis& best() const { return places_.all()[0]; }  // not without any
   bool wants_search(double time_s) const;
@@ -59,7 +66,7 @@ class ScanLocalizer : public Localizer {
   bool is_refuted(const ScanHits& scan);
   bool search_around(const ScanHits& scan, const PoseEstimate& base, bool is_sure);
   void search_everywhere(const ScanHits& scan);
-  void add_place(const ScanHits& scan, const PoseEstimate& guess, bool confirmed);
+  void add(double time_s, const FittedPlace& place, bool confirmed);
   void decide(double time_s, const Pose& odometry);
 
   ScanLocalizerOptions options_;

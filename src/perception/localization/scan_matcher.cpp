@@ -14,6 +14,10 @@ constexpr int kMostSteps = 20;
 
 }  // namespace
 
+double PoseEstimate::sigma_m() const { return std::sqrt(covariance.topLeftCorner<2, 2>().trace()); }
+
+double PoseEstimate::sigma_rad() const { return std::sqrt(covariance(2, 2)); }
+
 std::string fault_of(const PoseEstimate& estimate) {
   if (!is_usable(estimate.pose.position) || !std::isfinite(estimate.pose.yaw_rad))
     return "not finite, or too far away";

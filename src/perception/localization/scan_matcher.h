@@ -13,6 +13,10 @@ struct PoseEstimate {
   Pose pose;  ///< map frame
   Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Zero();  ///< of (x [m], y [m], yaw [rad]), map frame
+
+  /// Standard deviations.
+  double sigma_m() const;
+  double sigma_rad() const;
 };
 
 /// What is wrong with an estimate, in a few words that do not depend on its numbers; empty for one

@@ -143,9 +143,7 @@ Alignment GraphMapper::search(const ScanHits& scan, const std::vector<Surfel>& s
   const LikelihoodField walls(
       grid_of(chosen(around_, graph_, keyframes_), prior.pose.position, kSearchReach_m, kCell_m),
       kWallReach_m);
-  const SearchWindow window{prior.pose,
-                            3.0 * std::sqrt(prior.covariance.topLeftCorner<2, 2>().trace()),
-                            3.0 * std::sqrt(prior.covariance(2, 2))};
+  const SearchWindow window = SearchWindow::around(prior);
   Alignment best;
   for (const auto& found : BranchAndBoundMatcher(walls, kSearch).find(scan, window).places) {
     const Alignment alignment =

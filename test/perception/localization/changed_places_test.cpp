@@ -30,10 +30,6 @@ std::vector<Vector2> round_trip() {
           {6.0, 7.6}, {5.0, 9.9},  {3.0, 10.1}, {2.0, 9.0}};
 }
 
-Polygon box(double x0, double y0, double x1, double y1) {
-  return Polygon{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}};
-}
-
 /// What the localiser says of each sweep of a drive.
 struct Said {
   State state;

@@ -33,6 +33,10 @@ inline ScanHits hits_of(const DriveScan& sweep, const LidarModel& lidar) {
                  0.05);
 }
 
+inline Polygon box(double x0, double y0, double x1, double y1) {
+  return Polygon{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}};
+}
+
 inline double distance_m(const Pose& a, const Pose& b) { return (a.position - b.position).norm(); }
 inline double turn_rad(const Pose& a, const Pose& b) {
   return std::abs(wrap_angle(a.yaw_rad - b.yaw_rad));

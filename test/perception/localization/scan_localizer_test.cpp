@@ -121,11 +121,8 @@ World symmetric_room() {
   World world = one_robot_world("config/worlds/corridor.yaml", {{2.0, 1.5}, 0.3});
   world.circles.clear();
   world.bounds = Eigen::AlignedBox2d(Vector2(0.0, 0.0), Vector2(8.0, 5.0));
-  const auto wall = [](double x0, double y0, double x1, double y1) {
-    return Polygon{{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}};
-  };
-  world.polygons = {wall(0.0, 0.0, 8.0, 0.2), wall(0.0, 4.8, 8.0, 5.0), wall(0.0, 0.0, 0.2, 5.0),
-                    wall(7.8, 0.0, 8.0, 5.0)};
+  world.polygons = {box(0.0, 0.0, 8.0, 0.2), box(0.0, 4.8, 8.0, 5.0), box(0.0, 0.0, 0.2, 5.0),
+                    box(7.8, 0.0, 8.0, 5.0)};
   return world;
 }
 
@@ -230,6 +227,108 @@ TEST(ScanLocalizerRefusalTest, ARobotThatSeesNothingForLongIsLost) {
     odometry = composed(odometry, {{0.1, 0.0}, 0.0});
     localizer.add({time_s += 0.1, {0.0, 0.0}, {}}, odometry);
   }
+  EXPECT_NE(localizer.localization().state, State::kLocalized);
+}
+
+/// A corridor, 30 m long, with pillars along it at uneven distances.
+World pillared_corridor() {
+  World world = one_robot_world("config/worlds/corridor.yaml", {{2.0, 0.0}, 0.0});
+  world.circles.clear();
+  world.bounds = Eigen::AlignedBox2d(Vector2(-0.5, -1.5), Vector2(30.5, 1.5));
+  world.polygons = {box(0.0, -1.2, 30.0, -1.0), box(0.0, 1.0, 30.0, 1.2), box(-0.2, -1.2, 0.0, 1.2),
+                    box(30.0, -1.2, 30.2, 1.2)};
+  double x = 0.5;
+  for (const double gap : {0.5, 0.8, 0.4, 1.1, 0.6, 0.9, 0.5, 1.3, 0.7, 0.4, 1.0, 0.6, 0.8, 1.2,
+                           0.5, 0.9, 0.6, 1.1, 0.4, 0.8, 0.7, 1.3, 0.5, 0.6, 1.0, 0.9, 0.4, 0.8}) {
+    x += gap;
+    world.polygons.push_back(box(x, 0.85, x + 0.2, 1.0));
+    world.polygons.push_back(box(x + 0.15, -1.0, x + 0.35, -0.85));
+  }
+  return world;
+}
+
+TEST(ScanLocalizerRefusalTest, ASlipOnALongStepDoesNotEndAtTheWrongPillar) {
+  World world = pillared_corridor();
+  const RobotModel& model = world.robots[0].model;
+  ScanLocalizer localizer(shipped_localizer_options(model));
+  localizer.set_map(map_of(drive_through(world, {{24.0, 0.0}}, 1), model));
+  const auto drive = drive_through(world, {{24.0, 0.0}}, 2);
+  // It does not see so far as the ends of the corridor.
+  const auto near = [&](std::size_t i) {
+    ScanHits scan = hits_of(drive[i], model.lidar);
+    scan.hits.erase(std::remove_if(scan.hits.begin(), scan.hits.end(),
+                                   [](const Vector2& hit) { return hit.norm() > 4.0; }),
+                    scan.hits.end());
+    return scan;
+  };
+  localizer.expect({drive[0].truth, Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal()});
+  for (std::size_t i = 0; i < 30; ++i) localizer.add(near(i), drive[i].odometry);
+  ASSERT_EQ(localizer.localization().state, State::kLocalized);
+  Pose slipped;  // the wheels turned on
+  for (std::size_t i = 50; i < drive.size(); i += 20) {
+    slipped.position.x() += 0.4;
+    const Localization& now = localizer.add(near(i), composed(drive[i].odometry, slipped));
+    EXPECT_EQ(now.state, State::kLocalized) << i;
+    EXPECT_LT(distance_m(now.base.pose, drive[i].truth), 0.1) << i;
+  }
+}
+
+TEST(ScanLocalizerRefusalTest, ATwinOfWhereTheOdometryLedIsNoRival) {
+  World world = symmetric_room();
+  const RobotModel& model = world.robots[0].model;
+  const std::vector<Vector2> round{{6.0, 1.5}, {6.0, 3.5}, {2.0, 3.5}, {2.0, 1.5}};
+  std::vector<Vector2> way;
+  for (int i = 0; i < 4; ++i) way.insert(way.end(), round.begin(), round.end());
+  ScanLocalizer localizer(shipped_localizer_options(model));
+  localizer.set_map(map_of(drive_through(world, round, 1), model));
+  const auto drive = drive_through(world, way, 2);
+  localizer.expect({drive[0].truth, Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal()});
+  follow(localizer, drive, model.lidar, 0, 30);
+  ASSERT_EQ(localizer.localization().state, State::kLocalized);
+  Pose wrong;  // by the odometry, while it sees nothing
+  const std::size_t sees_again = drive.size() - 40;
+  for (std::size_t i = 30; i < drive.size(); ++i) {
+    ScanHits scan = hits_of(drive[i], model.lidar);
+    if (i < sees_again) {
+      scan.hits.clear();
+      wrong.yaw_rad = 0.2 * static_cast<double>(i) / static_cast<double>(sees_again);
+    }
+    localizer.add(scan, composed(drive[i].odometry, wrong));
+    if (i == sees_again) {
+      EXPECT_NE(localizer.localization().state, State::kLocalized);
+    }
+  }
+  EXPECT_EQ(localizer.localization().state, State::kLocalized);
+  EXPECT_LT(distance_m(localizer.localization().base.pose, drive.back().truth), 0.1);
+}
+
+TEST(ScanLocalizerRefusalTest, ARoomBesideTheMapIsNotTakenForItsTwinInTheMap) {
+  World world = symmetric_room();
+  const RobotModel& model = world.robots[0].model;
+  world.bounds = Eigen::AlignedBox2d(Vector2(0.0, 0.0), Vector2(17.0, 5.0));
+  world.polygons = {box(0.0, 0.0, 0.2, 5.0)};
+  for (const double x : {0.0, 7.8}) {  // two rooms, each with a door to the east
+    world.polygons.push_back(box(x, 0.0, x + 8.0, 0.2));
+    world.polygons.push_back(box(x, 4.8, x + 8.0, 5.0));
+    world.polygons.push_back(box(x + 7.8, 0.0, x + 8.0, 1.0));
+    world.polygons.push_back(box(x + 7.8, 2.0, x + 8.0, 5.0));
+    world.circles.push_back({{x + 2.0, 3.6}, 0.4});
+  }
+  OccupancyGrid map = map_of(drive_through(world, {{6.0, 1.5}, {6.0, 3.5}, {4.0, 3.5}}, 1), model);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x)
+      if (map.cell_centre(x, y).x() > 8.1) map.at(x, y) = OccupancyGrid::kUnknown;
+  }
+  ScanLocalizer localizer(shipped_localizer_options(model));
+  localizer.set_map(map);
+  std::vector<Vector2> way{{6.0, 1.5}, {10.5, 1.5}};
+  for (int i = 0; i < 4; ++i) way.insert(way.end(), {{14.0, 1.5}, {14.0, 3.5}, {11.5, 2.5}});
+  const auto drive = drive_through(world, way, 2);
+  localizer.expect({drive[0].truth, Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal()});
+  follow(localizer, drive, model.lidar, 0, 30);
+  ASSERT_EQ(localizer.localization().state, State::kLocalized);
+  const Account account = follow(localizer, drive, model.lidar, 30, drive.size());
+  EXPECT_LT(Account::quantile(account.off_m, 1.0), 0.3);
   EXPECT_NE(localizer.localization().state, State::kLocalized);
 }
 
