@@ -15,7 +15,7 @@ target_link_libraries(benchmark_classes mocha_perception)
 mocha_benchmark(localization)
 target_link_libraries(benchmark_localization mocha_perception mocha_simulation)
 
-foreach(name mapping localization_logs)
+foreach(name mapping map_merging localization_logs)
   mocha_benchmark(${name} test/benchmarks/carmen_log.cpp test/benchmarks/log_drive.cpp test/benchmarks/skid_odometry.cpp
     test/benchmarks/trajectory_error.cpp)
   target_link_libraries(benchmark_${name} mocha_perception mocha_simulation)

@@ -85,6 +85,7 @@ SERVICES = {
     "fleet/emergency_stop": "the same for the whole fleet, at any of its robots",
     "get_keyframes": "the scans of the map that is being made",
     "global_localization": "forgets where the robot is, and searches the whole map",
+    "merge_pose_graph": "takes the map of another drive (.g2o) into the one that is being made",
     "move_base/clear_costmaps": "the same as `clear_map`, as move_base has it",
     "move_base/make_plan": "the path of a plan that is not driven, as move_base has it",
     "load_map": "takes another map from a file",

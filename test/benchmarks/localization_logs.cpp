@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <stdexcept>
 
 #include "benchmarks/log_drive.h"
 #include "benchmarks/trajectory_error.h"
@@ -26,9 +27,10 @@ constexpr double kTolerance_m = 0.1;
 constexpr double kMostUnknown = 0.3;  // share of a scan, where the map has the place
 constexpr double kLikeness = 0.05;    // a place that explains so little less cannot be told apart
 constexpr int kSearches = 50;
-constexpr int kCarries = 10;
+constexpr int kCarries = 20;
 constexpr double kCarried_m = 5.0;
-constexpr std::size_t kMostScans = 40;  // to be found
+constexpr std::size_t kScansBefore = 10;  // a robot is carried away
+constexpr std::size_t kMostScans = 40;    // to be found
 constexpr double kDegree = M_PI / 180.0;
 
 struct Parts {
@@ -116,23 +118,48 @@ void follow(ScanLocalizer& localizer, const std::vector<LogScan>& drive, const J
   }
 }
 
+/// The scans from `from` on in which the robot has to be found.
+std::vector<LogScan> piece(const std::vector<LogScan>& drive, std::size_t from, std::size_t most) {
+  const auto begin = drive.begin() + static_cast<std::ptrdiff_t>(from);
+  return {begin, begin + static_cast<std::ptrdiff_t>(std::min(most, drive.size() - from))};
+}
+
+/// The scans from `from` on, to a robot that saw `before` last and was carried there.
+std::vector<LogScan> carried(const LogScan& before, const std::vector<LogScan>& drive,
+                             std::size_t from) {
+  std::vector<LogScan> result = piece(drive, from, kMostScans);
+  const double gap_s = drive[from].scan.time_s - drive[from - 1].scan.time_s;
+  const double later_s = before.scan.time_s + gap_s - drive[from].scan.time_s;
+  for (LogScan& each : result) {
+    each.odometry = composed(before.odometry, relative(drive[from].odometry, each.odometry));
+    each.scan.time_s += later_s;
+  }
+  return result;
+}
+
 struct Found {
-  bool tells = false;
-  int scans = -1;  // until it was localised; -1: it was not
-  double after_s = 0.0;
-  bool wrong = false;
+  int scans = -1;        // until it was localised where it is; -1: it was not
+  double after_s = 0.0;  // the same
+  double wrong_s = 0.0;  // localised elsewhere, before
+  bool wrong = false;    // it was
 };
 
-/// From scan `from` on.
-Found find(ScanLocalizer& localizer, const std::vector<LogScan>& drive, std::size_t from) {
+Found find(ScanLocalizer& localizer, const std::vector<LogScan>& drive) {
   Found found;
-  const std::size_t end = std::min(drive.size(), from + kMostScans);
-  for (std::size_t i = from; i < end; ++i) {
-    const Localization& now = localizer.add(drive[i].scan, drive[i].odometry);
+  double before_s = drive.front().scan.time_s;
+  for (std::size_t i = 0; i < drive.size(); ++i) {
+    const LogScan& each = drive[i];
+    const Localization& now = localizer.add(each.scan, each.odometry);
+    const double dt_s = each.scan.time_s - before_s;
+    before_s = each.scan.time_s;
     if (now.state != Localization::State::kLocalized) continue;
-    found.scans = static_cast<int>(i - from) + 1;
-    found.after_s = drive[i].scan.time_s - drive[from].scan.time_s;
-    found.wrong = is_wrong(now.base.pose, drive[i].truth);
+    if (is_wrong(now.base.pose, each.truth)) {
+      found.wrong = true;
+      found.wrong_s += dt_s;
+      continue;
+    }
+    found.scans = static_cast<int>(i) + 1;
+    found.after_s = each.scan.time_s - drive.front().scan.time_s;
     break;
   }
   return found;
@@ -150,40 +177,96 @@ void print(const Account& account) {
       quantile(account.scan_ms, 0.5), quantile(account.scan_ms, 1.0));
 }
 
+void print(const char* kind, const std::vector<Found>& all, const std::vector<bool>& tells) {
+  std::printf(", \"%s\": [", kind);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::printf(
+        "%s\n  {\"tells\": %s, \"scans\": %d, \"s\": %.1f, \"wrong\": %s, \"wrong_s\": %.1f}",
+        i == 0 ? "" : ",", tells[i] ? "true" : "false", all[i].scans, all[i].after_s,
+        all[i].wrong ? "true" : "false", all[i].wrong_s);
+  }
+  std::printf("]");
+}
+
+/// One log, one part of it.
+class Trial {
+ public:
+  Trial(const Parts& parts, const RobotModel& model, const OccupancyGrid& map)
+      : drive_(parts.driven), judge_(map), localizer_(shipped_localizer_options(model)) {
+    localizer_.set_map(map);
+    for (std::size_t i = 0; i < drive_.size(); ++i) {
+      if (judge_.has(drive_[i])) known_.push_back(i);
+    }
+  }
+
+  /// Scans at whose places the map says something.
+  const std::vector<std::size_t>& known() const { return known_; }
+
+  void follow_all() {
+    expect(known_.front());
+    Account account;
+    follow(localizer_, piece(drive_, known_.front(), drive_.size()), judge_, account);
+    print(account);
+  }
+
+  /// From nothing.
+  void search() {
+    std::vector<Found> all;
+    std::vector<bool> tells;
+    for (int i = 0; i < kSearches; ++i) {
+      const std::size_t from = known_[i * known_.size() / kSearches];
+      localizer_.forget();
+      all.push_back(find(localizer_, piece(drive_, from, kMostScans)));
+      tells.push_back(judge_.tells(drive_[from]));
+    }
+    print("searches", all, tells);
+  }
+
+  /// Lifted, and put down farther along the drive.
+  void carry() {
+    std::vector<Found> all;
+    std::vector<bool> tells;
+    for (int i = 0; i < kCarries; ++i) {
+      const std::size_t from = known_[i * known_.size() / kCarries];
+      const std::vector<LogScan> before = piece(drive_, from, kScansBefore);
+      const auto to = std::find_if(known_.begin(), known_.end(), [&](std::size_t j) {
+        return j >= from + kScansBefore &&
+               distance_m(drive_[j].truth, before.back().truth) >= kCarried_m;
+      });
+      if (to == known_.end()) break;
+      expect(from);
+      for (const LogScan& each : before) localizer_.add(each.scan, each.odometry);
+      all.push_back(find(localizer_, carried(before.back(), drive_, *to)));
+      tells.push_back(judge_.tells(drive_[*to]));
+    }
+    print("carries", all, tells);
+  }
+
+ private:
+  /// Knows where it is at that scan.
+  void expect(std::size_t scan) {
+    localizer_.forget();
+    localizer_.expect({drive_[scan].truth, Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal()});
+  }
+
+  const std::vector<LogScan> drive_;
+  const Judge judge_;
+  ScanLocalizer localizer_;
+  std::vector<std::size_t> known_;
+};
+
 void run(const char* path, int seed, bool odd) {
   std::ifstream file(path);
   const Parts parts = parts_of(read_carmen_log(file), seed, odd);
   const RobotModel model = load_robot_model("config", "waveshare_rover");
-  const OccupancyGrid map = map_of(parts.mapped, model);
-  const Judge judge(map);
-  ScanLocalizer localizer(shipped_localizer_options(model));
-  localizer.set_map(map);
-  std::vector<std::size_t> known;
-  for (std::size_t i = 0; i < parts.driven.size(); ++i) {
-    if (judge.has(parts.driven[i])) known.push_back(i);
-  }
+  Trial trial(parts, model, map_of(parts.mapped, model));
   std::printf("{\"seed\": %d, \"scans\": %zu, \"known\": %zu, ", seed, parts.driven.size(),
-              known.size());
-  Account account;
-  if (!known.empty()) {
-    const LogScan& first = parts.driven[known.front()];
-    localizer.expect({first.truth, Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal()});
-    follow(localizer,
-           {parts.driven.begin() + static_cast<std::ptrdiff_t>(known.front()), parts.driven.end()},
-           judge, account);
-  }
-  print(account);
-  std::printf(", \"searches\": [");
-  for (int i = 0; i < kSearches && !known.empty(); ++i) {
-    const std::size_t from = known[i * known.size() / kSearches];
-    localizer.forget();
-    Found found = find(localizer, parts.driven, from);
-    found.tells = judge.tells(parts.driven[from]);
-    std::printf("%s\n  {\"scan\": %zu, \"tells\": %s, \"scans\": %d, \"s\": %.1f, \"wrong\": %s}",
-                i == 0 ? "" : ",", from, found.tells ? "true" : "false", found.scans, found.after_s,
-                found.wrong ? "true" : "false");
-  }
-  std::printf("]}\n");
+              trial.known().size());
+  if (trial.known().empty()) throw std::runtime_error("the map has none of the scans' places");
+  trial.follow_all();
+  trial.search();
+  trial.carry();
+  std::printf("}\n");
 }
 
 }  // namespace

@@ -1,40 +1,23 @@
 #include "perception/pose_graph/graph_mapper.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "perception/pose_graph/graph_optimizer.h"
-#include "perception/pose_graph/scan_grid.h"
 #include "trajectory/frame_change.h"
 
 namespace mocha {
 namespace {
 
-// Keyframes that a scan is aligned with: so near, and their places known so well.
-constexpr double kSureSigma_m = 0.08;
-constexpr double kAround_m = 6.0;
-constexpr std::size_t kMostAround = 12;
-constexpr double kPairReach_m = 0.6;
 constexpr double kSlack_m = 0.5;  // of a step that no robot can drive
 constexpr double kSlip = 0.05;
 constexpr double kStepNoise_m = 0.01;
 constexpr double kStepNoise_rad = 0.004;
 constexpr double kRestartSigma_m = 0.3;
 constexpr double kRestartSigma_rad = 0.3;
-// Scans that are explained by less are looked for around; by much less, the odometry is believed.
-constexpr double kWellExplained = 0.4;
-constexpr double kExplained = 0.25;
-constexpr BranchAndBoundMatcher::Options kSearch{200000, 120, 0.2};
-constexpr double kSearchReach_m = 12.0;
-constexpr double kCell_m = 0.05;
-constexpr double kWallReach_m = 1.0;
-// Of the agreement of two keyframes.
-constexpr int kLeastSurfels = 8;
-constexpr double kLeastShare = 0.1;  // of the surfels that agree with any
-constexpr double kFaintSigma = 1.0;  // [m, rad] what every two keyframes know of each other
 
 Eigen::Matrix3d diagonal(double sigma_m, double sigma_rad) {
   return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
@@ -59,11 +42,8 @@ GraphMapper::GraphMapper(const GraphMapperOptions& options, DrivenMap map)
       keyframes_(std::move(map.keyframes)),
       closer_(options.loops),
       start_{{}, diagonal(kStepNoise_m, kStepNoise_rad)} {
-  for (ScanKeyframe& keyframe : keyframes_)
-    keyframe.surfels = surfels_of(keyframe.scan, options_.hits);
+  find_surfels(keyframes_, options_.hits);
 }
-
-GraphMapper::~GraphMapper() = default;
 
 void GraphMapper::begin(const PoseEstimate& base) {
   start_ = base;
@@ -85,11 +65,11 @@ PoseEstimate GraphMapper::add(const ScanHits& scan, const Pose& odometry) {
   std::vector<Surfel> surfels = surfels_of(scan, options_.hits);
   const Alignment place = align(scan, surfels, prior);
   explained_ = place.explained;
-  const bool is_placed = place.explained >= kExplained;
+  const bool is_placed = place.explained >= LocalMap::kExplained;
   if (is_placed) pose_ = place.pose;
   if (is_keyframe_due()) {
     add_keyframe(scan, odometry, std::move(surfels), place);
-    close(closer_.look(graph_, keyframes_));
+    close(closer_.look(graph_, keyframes_, graph_.size() - 1));
     pose_ = graph_.poses().back();
   }
   is_beginning_ = false;
@@ -123,34 +103,14 @@ void GraphMapper::take_reference() {
                          [&](const Pose& a, const Pose& b) { return far_m(a) < far_m(b); });
     centre = static_cast<int>(nearest - graph_.poses().begin());
   }
-  around_ = graph_.surely_near(centre, kSureSigma_m, kAround_m, kMostAround);
-  reference_ = std::make_unique<SurfelMap>(chosen(around_, graph_, keyframes_));
+  reference_.emplace(chosen(keyframes_around(centre, graph_.size(), graph_), graph_, keyframes_));
 }
 
 Alignment GraphMapper::align(const ScanHits& scan, const std::vector<Surfel>& surfels,
                              const PoseEstimate& prior) {
   if (keyframes_.empty()) return {};
   if (!reference_) take_reference();
-  Alignment best = reference_->align(surfels, prior, kPairReach_m);
-  if (best.explained >= kWellExplained) return best;
-  const Alignment found = search(scan, surfels, prior);
-  return found.explained > best.explained ? found : best;
-}
-
-/// Looks for the place of a scan wherever the prior lets it be.
-Alignment GraphMapper::search(const ScanHits& scan, const std::vector<Surfel>& surfels,
-                              const PoseEstimate& prior) const {
-  const LikelihoodField walls(
-      grid_of(chosen(around_, graph_, keyframes_), prior.pose.position, kSearchReach_m, kCell_m),
-      kWallReach_m);
-  const SearchWindow window = SearchWindow::around(prior);
-  Alignment best;
-  for (const auto& found : BranchAndBoundMatcher(walls, kSearch).find(scan, window).places) {
-    const Alignment alignment =
-        reference_->align(surfels, {found.pose, prior.covariance}, kPairReach_m);
-    if (alignment.explained > best.explained) best = alignment;
-  }
-  return best;
+  return reference_->place(scan, surfels, prior);
 }
 
 void GraphMapper::add_keyframe(const ScanHits& scan, const Pose& odometry,
@@ -158,34 +118,15 @@ void GraphMapper::add_keyframe(const ScanHits& scan, const Pose& odometry,
   const int id = graph_.add_keyframe(pose_);
   keyframes_.push_back({odometry, scan, std::move(surfels)});
   if (!is_beginning_) graph_.add({id - 1, id, since_, (noise_of(since_) + jumps_).inverse(), true});
-  if (place.explained >= kExplained) connect(id, place, is_beginning_);
+  if (place.explained >= LocalMap::kExplained) link(graph_, id, place, is_beginning_);
   since_ = Pose{};
   jumps_.setZero();
   reference_.reset();
 }
 
-/// Constrains a keyframe to each of those that it agrees with: what is known of their relative pose
-/// is what the errors between the two of them say.
-void GraphMapper::connect(int keyframe, const Alignment& place, bool may_be_wrong) {
-  int all = 0;
-  for (const Agreement& agreement : place.agreements) all += agreement.surfels;
-  for (const Agreement& agreement : place.agreements) {
-    if (agreement.surfels < std::max<double>(kLeastSurfels, kLeastShare * all)) continue;
-    const Eigen::Matrix3d information =
-        agreement.error.information + diagonal(kFaintSigma, kFaintSigma).inverse();
-    const Eigen::Vector3d change = -information.ldlt().solve(agreement.error.gradient);
-    const Pose best{place.pose.position + change.head<2>(), place.pose.yaw_rad + change.z()};
-    const Pose& from = graph_.poses()[agreement.keyframe];
-    Eigen::Matrix3d to_frame = Eigen::Matrix3d::Identity();
-    to_frame.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(-from.yaw_rad).toRotationMatrix();
-    graph_.add({agreement.keyframe, keyframe, relative(from, best),
-                to_frame * information * to_frame.transpose(), may_be_wrong});
-  }
-}
-
 void GraphMapper::close(const std::vector<LoopClosure>& loops) {
   if (loops.empty()) return;
-  for (const LoopClosure& loop : loops) connect(loop.keyframe, loop.place, true);
+  for (const LoopClosure& loop : loops) link(graph_, loop.keyframe, loop.place, true);
   optimize(graph_);
   loops_closed_ += static_cast<int>(loops.size());
   ++corrections_;

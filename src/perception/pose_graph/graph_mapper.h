@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,9 +8,9 @@
 #include "perception/localization/odometry_noise.h"
 #include "perception/pose_graph/graph_file.h"
 #include "perception/pose_graph/keyframe.h"
+#include "perception/pose_graph/local_map.h"
 #include "perception/pose_graph/loop_closer.h"
 #include "perception/pose_graph/pose_graph.h"
-#include "perception/pose_graph/surfel_map.h"
 #include "world/robot_model.h"
 
 namespace mocha {
@@ -38,7 +37,6 @@ class GraphMapper {
   /// Goes on with a map that was driven before, if there is one; then begin() has to be called
   /// first.
   explicit GraphMapper(const GraphMapperOptions& options, DrivenMap map = {});
-  ~GraphMapper();
 
   /// A drive begins here, at the next scan; the first one of a map at its origin, if nothing else
   /// is said.
@@ -66,13 +64,10 @@ class GraphMapper {
   PoseEstimate predict(const Pose& odometry, double dt_s);
   Alignment align(const ScanHits& scan, const std::vector<Surfel>& surfels,
                   const PoseEstimate& prior);
-  Alignment search(const ScanHits& scan, const std::vector<Surfel>& surfels,
-                   const PoseEstimate& prior) const;
   void take_reference();
   bool is_keyframe_due() const;
   void add_keyframe(const ScanHits& scan, const Pose& odometry, std::vector<Surfel> surfels,
                     const Alignment& place);
-  void connect(int keyframe, const Alignment& place, bool may_be_wrong);
   void close(const std::vector<LoopClosure>& loops);
   Eigen::Matrix3d noise_of(const Pose& step) const;
 
@@ -87,8 +82,7 @@ class GraphMapper {
   double time_s_ = 0.0;                              // of the newest scan
   Pose since_;                                       // by the odometry, since the newest keyframe
   Eigen::Matrix3d jumps_ = Eigen::Matrix3d::Zero();  // what jumps of the odometry made unsure
-  std::vector<int> around_;                          // keyframes that the reference is made of
-  std::unique_ptr<SurfelMap> reference_;             // null: has to be made
+  std::optional<LocalMap> reference_;                // empty: has to be made
   double explained_ = 0.0;
   int loops_closed_ = 0;
   int corrections_ = 0;

@@ -2,6 +2,10 @@
 
 namespace mocha {
 
+void find_surfels(std::vector<ScanKeyframe>& keyframes, std::size_t most) {
+  for (ScanKeyframe& keyframe : keyframes) keyframe.surfels = surfels_of(keyframe.scan, most);
+}
+
 std::vector<PlacedKeyframe> chosen(const std::vector<int>& ids, const PoseGraph& graph,
                                    const std::vector<ScanKeyframe>& keyframes) {
   std::vector<PlacedKeyframe> result;

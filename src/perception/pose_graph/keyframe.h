@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "perception/pose_graph/pose_graph.h"
@@ -14,6 +15,9 @@ struct ScanKeyframe {
   ScanHits scan;                ///< as seen from the robot
   std::vector<Surfel> surfels;  ///< of the scan
 };
+
+/// Finds the surfels of all scans, at most `most` of each.
+void find_surfels(std::vector<ScanKeyframe>& keyframes, std::size_t most);
 
 /// A keyframe and where its robot stood.
 struct PlacedKeyframe {

@@ -9,24 +9,20 @@
 namespace mocha {
 namespace {
 
-constexpr double kTogetherSigma_m = 0.16;  // keyframes known to that belong together
 constexpr double kLostSigma_m = 10.0;
 constexpr double kLostSigma_rad = 1.0;
 constexpr double kSpacing_m = 1.0;  // between searches, unless there is something to confirm
-// What is matched: the keyframe and those before it, with those around the candidate.
-constexpr double kSeenReach_m = 6.0;
-constexpr std::size_t kMostSeen = 8;
+// The place around a candidate.
 constexpr double kPlaceReach_m = 8.0;
 constexpr std::size_t kMostOfPlace = 15;
+constexpr double kPlaceRadius_m = 15.0;
 // The window of a search.
 constexpr double kWindow_m = 1.0;
 constexpr double kMostWindow_m = 8.0;
 constexpr double kWindow_rad = 0.1;
 constexpr double kMostWindow_rad = 0.8;
 // What is believed.
-constexpr double kRivalry = 0.1;
-constexpr double kLessQuality = 0.15;  // is enough where several keyframes find the same
-constexpr double kExpected_m = 0.5;    // a place so near needs no confirmation
+constexpr double kExpected_m = 0.5;  // a place so near needs no confirmation
 constexpr int kMostKeyframesBetween = 15;
 constexpr double kSame_m = 0.3;
 constexpr double kSamePerMetre = 0.05;
@@ -35,37 +31,36 @@ constexpr double kSame_rad = 0.06;
 }  // namespace
 
 std::vector<LoopClosure> LoopCloser::look(const PoseGraph& graph,
-                                          const std::vector<ScanKeyframe>& keyframes) {
-  const int newest = graph.size() - 1;
-  const Pose& here = graph.poses()[newest];
+                                          const std::vector<ScanKeyframe>& keyframes,
+                                          int keyframe) {
+  const Pose& here = graph.poses()[keyframe];
   if (looked_at_ && !unconfirmed_ && (here.position - *looked_at_).norm() < kSpacing_m) return {};
-  const auto found = candidate(graph);
+  const auto found = candidate(graph, keyframe);
   if (!found) return {};
   looked_at_ = here.position;
-  const std::vector<int> seen =
-      graph.surely_near(newest, kTogetherSigma_m, kSeenReach_m, kMostSeen);
-  std::vector<int> place =
-      graph.surely_near(found->keyframe, kTogetherSigma_m, kPlaceReach_m, kMostOfPlace);
+  const std::vector<int> seen = seen_together(keyframe, graph);
+  std::vector<int> place = graph.surely_near(found->keyframe, kTogetherSigma_m, kPlaceReach_m);
+  place.resize(std::min(place.size(), kMostOfPlace));
   place.erase(std::remove_if(place.begin(), place.end(),
                              [&](int id) { return std::count(seen.begin(), seen.end(), id) > 0; }),
               place.end());
   ++tried_;
   const SearchWindow window{here, std::min(kMostWindow_m, kWindow_m + 3.0 * found->sigma_m),
                             std::min(kMostWindow_rad, kWindow_rad + 3.0 * found->sigma_rad)};
-  return judge(match_loop(chosen(seen, graph, keyframes), chosen(place, graph, keyframes), window),
-               graph);
+  const LoopMatcher matcher(chosen(place, graph, keyframes), kPlaceRadius_m);
+  return judge(matcher.match(chosen(seen, graph, keyframes), window), graph, keyframe);
 }
 
 /// The nearest keyframe, as far as one knows, of those that are not surely near.
-std::optional<LoopCloser::Candidate> LoopCloser::candidate(const PoseGraph& graph) const {
-  const int newest = graph.size() - 1;
-  const std::vector<PoseGraph::Uncertainty> known = graph.uncertainties(newest, kLostSigma_m);
+std::optional<LoopCloser::Candidate> LoopCloser::candidate(const PoseGraph& graph,
+                                                           int keyframe) const {
+  const std::vector<PoseGraph::Uncertainty> known = graph.uncertainties(keyframe, kLostSigma_m);
   std::optional<Candidate> nearest;
   double nearest_m = 0.0;
-  for (int i = 0; i < newest; ++i) {
+  for (int i = 0; i < graph.size(); ++i) {
     const double sigma_m =
         known[i].is_known ? std::sqrt(known[i].position_variance_m2) : kLostSigma_m;
-    const double far_m = (graph.poses()[i].position - graph.poses()[newest].position).norm();
+    const double far_m = (graph.poses()[i].position - graph.poses()[keyframe].position).norm();
     if (sigma_m <= kTogetherSigma_m || far_m > options_.radius_m + 2.0 * sigma_m) continue;
     if (nearest && far_m >= nearest_m) continue;
     nearest_m = far_m;
@@ -75,16 +70,18 @@ std::optional<LoopCloser::Candidate> LoopCloser::candidate(const PoseGraph& grap
   return nearest;
 }
 
-std::vector<LoopClosure> LoopCloser::judge(const LoopMatch& match, const PoseGraph& graph) {
-  if (match.quality < options_.quality - kLessQuality || match.rival > match.quality - kRivalry)
-    return {};
-  const int newest = graph.size() - 1;
-  const Pose& here = graph.poses()[newest];
+std::vector<LoopClosure> LoopCloser::judge(const std::vector<LoopMatch>& matches,
+                                           const PoseGraph& graph, int keyframe) {
+  if (matches.empty()) return {};
+  const LoopMatch& match = matches.front();
+  const bool has_rival = matches.size() > 1 && matches[1].quality > match.quality - kMatchRivalry;
+  if (match.quality < options_.quality_of_several() || has_rival) return {};
+  const Pose& here = graph.poses()[keyframe];
   const Pose& found = match.place.pose;
-  const LoopClosure loop{newest, match.place};
+  const LoopClosure loop{keyframe, match.place};
   std::vector<LoopClosure> loops;
   const bool is_good = match.quality >= options_.quality;
-  if (unconfirmed_ && confirms(here, found, graph)) {
+  if (unconfirmed_ && is_confirmed_by(loop, graph)) {
     loops = {unconfirmed_->loop, loop};
   } else if (is_good && (found.position - here.position).norm() < kExpected_m) {
     loops = {loop};
@@ -94,11 +91,13 @@ std::vector<LoopClosure> LoopCloser::judge(const LoopMatch& match, const PoseGra
   return loops;
 }
 
-bool LoopCloser::confirms(const Pose& here, const Pose& found, const PoseGraph& graph) const {
+bool LoopCloser::is_confirmed_by(const LoopClosure& loop, const PoseGraph& graph) const {
   const int before = unconfirmed_->loop.keyframe;
-  if (graph.size() - 1 - before > kMostKeyframesBetween) return false;
-  const Pose expected = composed(unconfirmed_->correction, here);
+  if (std::abs(loop.keyframe - before) > kMostKeyframesBetween) return false;
+  const Pose& here = graph.poses()[loop.keyframe];
   const double driven_m = (graph.poses()[before].position - here.position).norm();
+  const Pose expected = composed(unconfirmed_->correction, here);
+  const Pose& found = loop.place.pose;
   return (expected.position - found.position).norm() < kSame_m + kSamePerMetre * driven_m &&
          std::abs(wrap_angle(expected.yaw_rad - found.yaw_rad)) < kSame_rad;
 }

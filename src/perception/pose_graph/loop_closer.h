@@ -12,6 +12,9 @@ namespace mocha {
 struct LoopCloserOptions {
   double radius_m;  ///< loops are looked for so far around, and as far as uncertainty reaches
   double quality;   ///< share of a scan that a place must explain to be believed
+
+  /// The same where several keyframes find the same place.
+  double quality_of_several() const { return quality - 0.15; }
 };
 
 /// A keyframe that was found among others that it was not surely near before.
@@ -26,8 +29,9 @@ class LoopCloser {
  public:
   explicit LoopCloser(const LoopCloserOptions& options) : options_(options) {}
 
-  /// Looks from the graph's newest keyframe. Returns the loops that are believed by now.
-  std::vector<LoopClosure> look(const PoseGraph& graph, const std::vector<ScanKeyframe>& keyframes);
+  /// Looks from the next keyframe of a drive. Returns the loops that are believed by now.
+  std::vector<LoopClosure> look(const PoseGraph& graph, const std::vector<ScanKeyframe>& keyframes,
+                                int keyframe);
 
   /// What was found, but not yet confirmed: there are no more keyframes to confirm it.
   std::vector<LoopClosure> take_unconfirmed();
@@ -46,9 +50,10 @@ class LoopCloser {
     bool is_good;     ///< would be believed where it is expected
   };
 
-  std::optional<Candidate> candidate(const PoseGraph& graph) const;
-  std::vector<LoopClosure> judge(const LoopMatch& match, const PoseGraph& graph);
-  bool confirms(const Pose& here, const Pose& found, const PoseGraph& graph) const;
+  std::optional<Candidate> candidate(const PoseGraph& graph, int keyframe) const;
+  std::vector<LoopClosure> judge(const std::vector<LoopMatch>& matches, const PoseGraph& graph,
+                                 int keyframe);
+  bool is_confirmed_by(const LoopClosure& loop, const PoseGraph& graph) const;
 
   LoopCloserOptions options_;
   std::optional<Vector2> looked_at_;  // where a search began last

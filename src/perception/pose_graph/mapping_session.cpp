@@ -36,6 +36,22 @@ void MappingSession::expect(const PoseEstimate& base) {
   if (finder_) finder_->expect(base);
 }
 
+void MappingSession::finish() {
+  if (!finder_) mapper_->finish();
+}
+
+MapMatch::Fault MappingSession::merge(const DrivenMap& other) {
+  const PoseGraph before = mapper_->graph();
+  MergedMaps both = merged({before, mapper_->keyframes()}, other, mapping_.loops, mapping_.hits);
+  if (both.fault != MapMatch::Fault::kNone) return both.fault;
+  const int newest = before.size() - 1;
+  const Pose base = composed(both.map.graph.poses()[newest],
+                             relative(before.poses()[newest], localization_.base.pose));
+  mapper_ = std::make_unique<GraphMapper>(mapping_, std::move(both.map));
+  mapper_->begin({base, localization_.base.covariance});
+  return both.fault;
+}
+
 const Localization& MappingSession::add(const ScanHits& scan, const Pose& odometry) {
   if (finder_) {
     localization_ = finder_->add(scan, odometry);

@@ -5,6 +5,7 @@
 
 #include "perception/localization/scan_localizer.h"
 #include "perception/pose_graph/graph_mapper.h"
+#include "perception/pose_graph/map_merging.h"
 
 namespace mocha {
 
@@ -22,6 +23,13 @@ class MappingSession : public Localizer {
 
   /// Makes the map anew, from the one that it began with.
   void forget() override;
+
+  /// Makes one map of this one and another, if it is known how they lie; the robot stays where it
+  /// is. Takes seconds where the maps are large.
+  MapMatch::Fault merge(const DrivenMap& other);
+
+  /// No scans come any more, see GraphMapper::finish().
+  void finish();
 
   const Localization& localization() const override { return localization_; }
 

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "trajectory/frame_change.h"
+
 namespace mocha {
 
 int PoseGraph::add_keyframe(const Pose& pose) {
@@ -22,6 +24,16 @@ void PoseGraph::add(const Constraint& constraint) {
   of_keyframe_[constraint.to].push_back(index);
   const Eigen::Matrix3d covariance = constraint.information.inverse();
   added_.push_back({true, covariance.topLeftCorner<2, 2>().trace(), covariance(2, 2)});
+}
+
+void PoseGraph::append(const PoseGraph& other, const Pose& frame) {
+  const int first = size();
+  for (const Pose& pose : other.poses()) add_keyframe(composed(frame, pose));
+  for (Constraint constraint : other.constraints()) {
+    constraint.from += first;
+    constraint.to += first;
+    add(constraint);
+  }
 }
 
 std::vector<PoseGraph::Uncertainty> PoseGraph::uncertainties(int keyframe, double sigma_m) const {
@@ -47,8 +59,7 @@ std::vector<PoseGraph::Uncertainty> PoseGraph::uncertainties(int keyframe, doubl
   return result;
 }
 
-std::vector<int> PoseGraph::surely_near(int keyframe, double sigma_m, double distance_m,
-                                        std::size_t most) const {
+std::vector<int> PoseGraph::surely_near(int keyframe, double sigma_m, double distance_m) const {
   const std::vector<Uncertainty> known = uncertainties(keyframe, sigma_m);
   std::vector<std::pair<double, int>> near;
   for (int i = 0; i < size(); ++i) {
@@ -56,7 +67,6 @@ std::vector<int> PoseGraph::surely_near(int keyframe, double sigma_m, double dis
     if (known[i].is_known && far_m <= distance_m) near.emplace_back(far_m, i);
   }
   std::sort(near.begin(), near.end());
-  if (near.size() > most) near.resize(most);
   std::vector<int> result;
   for (const auto& [far_m, i] : near) result.push_back(i);
   return result;

@@ -25,6 +25,10 @@ class PoseGraph {
   /// Between two different keyframes of the graph.
   void add(const Constraint& constraint);
 
+  /// Adds all of another graph, its frame placed at `frame`: its keyframes after those of this one,
+  /// with the constraints between them.
+  void append(const PoseGraph& other, const Pose& frame);
+
   int size() const { return static_cast<int>(poses_.size()); }
   const std::vector<Pose>& poses() const { return poses_; }
   const std::vector<Constraint>& constraints() const { return constraints_; }
@@ -44,9 +48,8 @@ class PoseGraph {
   std::vector<Uncertainty> uncertainties(int keyframe, double sigma_m) const;
 
   /// The keyframes within `distance_m` whose positions are known to `sigma_m`, as seen from
-  /// `keyframe`, itself among them: the nearest first, at most `most`.
-  std::vector<int> surely_near(int keyframe, double sigma_m, double distance_m,
-                               std::size_t most) const;
+  /// `keyframe`, itself among them: the nearest first.
+  std::vector<int> surely_near(int keyframe, double sigma_m, double distance_m) const;
 
  private:
   std::vector<Pose> poses_;

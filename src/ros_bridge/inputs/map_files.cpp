@@ -1,34 +1,10 @@
 #include "ros_bridge/inputs/map_files.h"
 
-#include <ros/console.h>
-
-#include <exception>
-#include <filesystem>
 #include <utility>
 
+#include "ros_bridge/runtime/file_service.h"
+
 namespace mocha {
-namespace {
-
-std::string absolute(const std::string& path) {
-  return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
-}
-
-/// `work` returns in words what was done.
-template <class Response, class Work>
-bool answer(Response& response, Work work) {
-  try {
-    response.message = work();
-    response.success = true;
-  } catch (const std::exception& error) {
-    response.success = false;
-    response.message = error.what();
-    ROS_ERROR("%s", error.what());
-  }
-  return true;
-}
-
-}  // namespace
-
 MapFiles::MapFiles(ros::NodeHandle& node, OccupancyMap& map, std::function<void(bool)> replaced)
     : map_(map),
       replaced_(std::move(replaced)),

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ros_bridge/messages/pose_graph_messages.h"
+#include "ros_bridge/runtime/file_service.h"
 #include "ros_bridge/rviz/pose_graph_drawing.h"
 
 namespace mocha {
@@ -13,18 +14,31 @@ namespace {
 
 constexpr double kSavingPeriod_s = 30.0;
 
+/// Throws what keeps a map of another drive from being merged.
+void check(MapMatch::Fault fault, const std::string& path) {
+  if (fault == MapMatch::Fault::kNothingInCommon)
+    throw MapError(path + ": has no places in common with this map, as far as one can tell");
+  if (fault == MapMatch::Fault::kAmbiguous)
+    throw MapError(path + ": fits this map in several ways");
+}
+
 }  // namespace
 
 PoseGraphOutputs::PoseGraphOutputs(ros::NodeHandle& node, const RobotIdentity& robot,
-                                   const MappingSession& session, std::string path)
+                                   MappingSession& session, std::string path)
     : frame_(robot.map_frame),
       path_(std::move(path)),
       session_(session),
       graphs_(node.advertise<mocha_ugv::PoseGraph>("pose_graph", 2, true)),
       drawings_(node.advertise<visualization_msgs::MarkerArray>("pose_graph_markers", 2, true)),
-      service_(node.advertiseService("get_keyframes", &PoseGraphOutputs::on_get, this)) {}
+      services_{node.advertiseService("get_keyframes", &PoseGraphOutputs::on_get, this),
+                node.advertiseService("merge_pose_graph", &PoseGraphOutputs::on_merge, this)} {}
 
-PoseGraphOutputs::~PoseGraphOutputs() { save(); }
+PoseGraphOutputs::~PoseGraphOutputs() {
+  session_.finish();
+  is_saved_ = session_.is_looking();
+  save();
+}
 
 void PoseGraphOutputs::step(ros::Time now) {
   const GraphMapper& mapper = session_.mapper();
@@ -69,6 +83,18 @@ bool PoseGraphOutputs::on_get(mocha_ugv::GetKeyframes::Request& request,
   for (std::size_t i = request.first; i < keyframes.size(); ++i)
     response.keyframes.push_back(to_message(keyframes[i].scan));
   return true;
+}
+
+bool PoseGraphOutputs::on_merge(mocha_ugv::LoadMap::Request& request,
+                                mocha_ugv::LoadMap::Response& response) {
+  return answer(response, [&] {
+    if (session_.is_looking()) throw MapError("the robot's place in its own map is not known yet");
+    const std::string path = absolute(request.path);
+    const int before = session_.mapper().graph().size();
+    check(session_.merge(load_driven_map(path)), path);
+    const int more = session_.mapper().graph().size() - before;
+    return "merged " + path + ": " + std::to_string(more) + " keyframes more";
+  });
 }
 
 }  // namespace mocha

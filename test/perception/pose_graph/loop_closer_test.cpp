@@ -33,7 +33,7 @@ class LoopCloserTest : public testing::Test {
   /// The next keyframe of the second pass.
   std::vector<LoopClosure> pass_again(const Pose& truth, const Pose& drift) {
     add(truth, drift, graph_.size() == 5 ? 1.0 : 0.01);
-    return closer_.look(graph_, keyframes_);
+    return closer_.look(graph_, keyframes_, graph_.size() - 1);
   }
 
   void add(const Pose& truth, const Pose& drift, double sigma_m) {
@@ -54,7 +54,7 @@ class LoopCloserTest : public testing::Test {
 TEST_F(LoopCloserTest, LooksNowhereWhereAllIsSure) {
   for (int i = 0; i < 5; ++i) {
     add({{-2.0 + i, -1.5}, 0.0}, {}, 0.01);
-    EXPECT_TRUE(closer_.look(graph_, keyframes_).empty());
+    EXPECT_TRUE(closer_.look(graph_, keyframes_, graph_.size() - 1).empty());
   }
   EXPECT_EQ(closer_.tried(), 0);
 }

@@ -44,18 +44,19 @@ inline MappingDrive mapping_drive(const std::string& world_path, const Pose& sta
 }
 
 /// How far keyframes are from where they were taken, after the map is moved to fit best. The drives
-/// are all that the mapper got; no two of their scans are of the same time.
-inline std::vector<double> keyframe_errors_m(const GraphMapper& mapper,
+/// are all that the map is of; no two of their scans are of the same time.
+inline std::vector<double> keyframe_errors_m(const PoseGraph& graph,
+                                             const std::vector<ScanKeyframe>& keyframes,
                                              const std::vector<MappingDrive>& drives) {
   std::vector<Pose> truth;
-  for (const ScanKeyframe& keyframe : mapper.keyframes()) {
+  for (const ScanKeyframe& keyframe : keyframes) {
     for (const MappingDrive& drive : drives) {
       for (std::size_t i = 0; i < drive.scans.size(); ++i) {
         if (drive.scans[i].time_s == keyframe.scan.time_s) truth.push_back(drive.truth[i]);
       }
     }
   }
-  return absolute_errors_m(mapper.graph().poses(), truth);
+  return absolute_errors_m(graph.poses(), truth);
 }
 
 }  // namespace mocha

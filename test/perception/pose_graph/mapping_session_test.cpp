@@ -85,6 +85,40 @@ TEST_F(MappingSessionTest, IsHelpedToFindItsPlace) {
       0.1);
 }
 
+TEST_F(MappingSessionTest, GoesOnWhereItIsWhenAnotherMapIsMergedIn) {
+  MappingSession first = session();
+  const MappingDrive one =
+      flat({{2.0, 1.05}, {4.0, 1.2}, {4.85, 3.2}, {6.2, 3.3}}, {{0.0, 0.0}, 0.0}, 7);
+  for (std::size_t i = 0; i < one.scans.size(); ++i) first.add(one.scans[i], one.odometry[i]);
+  MappingSession second = session();
+  const MappingDrive two =
+      flat({{2.4, 1.2}, {2.4, 4.2}, {0.3, 4.2}, {2.4, 4.2}, {2.4, 1.2}}, {{4.0, 1.2}, 3.0}, 8);
+  const std::size_t half = two.scans.size() / 2;
+  for (std::size_t i = 0; i < half; ++i) second.add(two.scans[i], two.odometry[i]);
+  const int keyframes = second.mapper().graph().size();
+
+  ASSERT_EQ(second.merge({first.mapper().graph(), first.mapper().keyframes()}),
+            MapMatch::Fault::kNone);
+  EXPECT_EQ(second.mapper().graph().size(), keyframes + first.mapper().graph().size());
+  EXPECT_FALSE(second.is_looking());
+  for (std::size_t i = half; i < two.scans.size(); ++i) {
+    const Localization& now = second.add(two.scans[i], two.odometry[i]);
+    ASSERT_EQ(now.state, State::kLocalized);
+    EXPECT_LT(distance_m(now.base.pose, relative(two.truth.front(), two.truth[i])), 0.1);
+  }
+  EXPECT_GT(second.mapper().graph().size(), keyframes + first.mapper().graph().size() + 3);
+
+  const MappingDrive elsewhere =
+      mapping_drive("config/worlds/office.yaml", {{14.0, 2.0}, 0.0}, {{14.0, 3.5}}, 9);
+  MappingSession third = session();
+  for (std::size_t i = 0; i < elsewhere.scans.size(); ++i)
+    third.add(elsewhere.scans[i], elsewhere.odometry[i]);
+  const int all = second.mapper().graph().size();
+  EXPECT_EQ(second.merge({third.mapper().graph(), third.mapper().keyframes()}),
+            MapMatch::Fault::kNothingInCommon);
+  EXPECT_EQ(second.mapper().graph().size(), all);
+}
+
 TEST_F(MappingSessionTest, SaysNothingOfAPlaceThatIsNotInTheMap) {
   MappingSession first = session();
   const MappingDrive one = flat({{1.0, 0.5}}, {{0.0, 0.0}, 0.0}, 5);

@@ -53,9 +53,9 @@ TEST(PoseGraphTest, WhatIsNotConnectedOrNotSureIsNotKnown) {
   EXPECT_TRUE(known[3].is_known);   // sqrt(3 * 0.02) = 0.245
   EXPECT_FALSE(known[4].is_known);  // 0.283
   EXPECT_FALSE(known[5].is_known);
-  EXPECT_EQ(graph.surely_near(0, 0.25, 10.0, 100), (std::vector<int>{0, 1, 2, 3}));
-  EXPECT_EQ(graph.surely_near(0, 0.25, 1.5, 100), (std::vector<int>{0, 1}));
-  EXPECT_EQ(graph.surely_near(3, 0.25, 10.0, 2), (std::vector<int>{3, 2}));
+  EXPECT_EQ(graph.surely_near(0, 0.25, 10.0), (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(graph.surely_near(0, 0.25, 1.5), (std::vector<int>{0, 1}));
+  EXPECT_EQ(graph.surely_near(3, 0.25, 10.0), (std::vector<int>{3, 2, 4, 1, 0}));
 }
 
 /// A square of 40 keyframes, whose odometry turns too little.
