@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kSamePlace_m = 0.2;
 constexpr double kSamePlace_rad = 0.2;
-constexpr double kCarried = 4.0;  // so many times the rivalry shows that the robot was carried
+constexpr double kHopeless = 0.6;  // so much of what is poor ends the trust in the odometry
+constexpr double kCarried = 4.0;   // so many times the rivalry shows that the robot was carried
 
 bool is_same(const Pose& a, const Pose& b) {
   return (a.position - b.position).norm() < kSamePlace_m &&
@@ -39,16 +40,24 @@ void PlaceHypotheses::merge(PlaceHypothesis& kept, const PlaceHypothesis& other)
   kept.proved_s = std::min(kept.proved_s, other.proved_s);
   kept.known = kept.known || other.known;
   kept.believed = kept.believed || other.believed;
+  kept.doubted = kept.doubted || other.doubted;
   kept.carried = kept.carried && other.carried;
 }
 
-void PlaceHypotheses::sift(double time_s) {
+bool PlaceHypotheses::sift(double time_s) {
+  for (PlaceHypothesis& place : places_) {
+    const double poor = options_.poor_quality;
+    if (place.quality < poor) place.believed = false;
+    if (place.known && place.quality < kHopeless * poor) place.doubted = true;
+  }
+  const bool was_doubted = is_doubted();
+  if (was_doubted) {
+    for (PlaceHypothesis& place : places_) place.carried = false;
+  }
   std::stable_sort(places_.begin(), places_.end(), is_likelier);
   std::vector<PlaceHypothesis> kept;
-  for (PlaceHypothesis& place : places_) {
-    const bool is_poor = place.quality < options_.poor_quality;
-    if (is_poor && !place.known) continue;
-    if (is_poor) place.believed = false;
+  for (const PlaceHypothesis& place : places_) {
+    if (place.quality < options_.poor_quality && !place.known) continue;
     const auto same = std::find_if(kept.begin(), kept.end(), [&](const PlaceHypothesis& other) {
       return is_same(place.base.pose, other.base.pose);
     });
@@ -59,6 +68,12 @@ void PlaceHypotheses::sift(double time_s) {
     }
   }
   places_ = std::move(kept);
+  return was_doubted && !is_doubted();
+}
+
+bool PlaceHypotheses::is_doubted() const {
+  return std::any_of(places_.begin(), places_.end(),
+                     [](const PlaceHypothesis& place) { return place.doubted; });
 }
 
 bool PlaceHypotheses::believe(double time_s) {
@@ -68,12 +83,15 @@ bool PlaceHypotheses::believe(double time_s) {
   if (best.believed || !best.confirmed || !is_alone) return false;
   if (best.quality < options_.good_quality || best.proved_s > time_s) return false;
   best.known = best.believed = true;
-  best.carried = false;
+  best.carried = best.doubted = false;
   return true;
 }
 
 bool PlaceHypotheses::is_certain() const {
-  return !places_.empty() && places_[0].believed && !is_beaten(places_[0], INFINITY);
+  if (places_.empty() || !places_[0].believed || is_beaten(places_[0], INFINITY)) return false;
+  return std::none_of(places_.begin(), places_.end(), [&](const PlaceHypothesis& other) {
+    return other.confirmed && other.quality > places_[0].quality + options_.rivalry;
+  });
 }
 
 }  // namespace mocha

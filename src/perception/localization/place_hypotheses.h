@@ -16,12 +16,14 @@ struct PlaceHypothesis {
   bool confirmed = false;  ///< found more than once, or expected
   bool known = false;      ///< has been believed
   bool believed = false;
+  bool doubted = false;  ///< explained next to nothing since it was believed
 };
 
 /// All places where the robot may be.
 ///
 /// A place is given up when another one explains clearly more. One that has been believed yields
-/// only to a place that was tried, and only by far to one that the odometry cannot have led to.
+/// only to a place that was tried, and only by far to one that the odometry cannot have led to;
+/// until it explains next to nothing: then the odometry's word counts no more than any other.
 class PlaceHypotheses {
  public:
   struct Options {
@@ -36,8 +38,8 @@ class PlaceHypotheses {
   void clear() { places_.clear(); }
 
   /// Merges those that have become one place, drops those without a chance, and puts the likeliest
-  /// first.
-  void sift(double time_s);
+  /// first. Returns whether a doubted place was dropped.
+  bool sift(double time_s);
 
   /// Drops those for which `is_lost(place)` holds.
   template <class IsLost>
@@ -51,6 +53,9 @@ class PlaceHypotheses {
 
   /// Whether the likeliest place is believed, and none is clearly better.
   bool is_certain() const;
+
+  /// Whether the place that was believed explained next to nothing since.
+  bool is_doubted() const;
 
   bool empty() const { return places_.empty(); }
   const std::vector<PlaceHypothesis>& all() const { return places_; }

@@ -86,7 +86,7 @@ const Localization& ScanLocalizer::add(const ScanHits& scan, const Pose& odometr
   const bool may_tell = walls_ && static_cast<int>(thin.hits.size()) >= options_.least_hits;
   if (may_tell) fit(thin, dt_s);
   places_.drop([this](const PlaceHypothesis& place) { return is_unsure(place.base); });
-  places_.sift(scan.time_s);
+  sift(scan.time_s);
   if (may_tell && wants_search(scan.time_s)) search(thin);
   decide(scan.time_s, odometry);
   return localization_;
@@ -149,6 +149,11 @@ void ScanLocalizer::fit(const ScanHits& scan, double dt_s) {
   }
 }
 
+/// What the odometry says ends with the place that it led on from.
+void ScanLocalizer::sift(double time_s) {
+  if (places_.sift(time_s)) reckoned_.reset();
+}
+
 bool ScanLocalizer::is_unsure(const PoseEstimate& base) const {
   return base.sigma_m() > options_.max_sigma_m || base.sigma_rad() > options_.max_sigma_yaw_rad;
 }
@@ -179,7 +184,8 @@ void ScanLocalizer::search(const ScanHits& scan) {
     around_s_ = scan.time_s + options_.search_interval_s;
     // Where the odometry has led far, much looks alike.
     if (search_around(scan, *reckoned_, !is_unsure(*reckoned_))) return;
-    const bool doubts = !places_.empty() && (best().believed || best().carried);
+    const bool doubts =
+        places_.is_doubted() || (!places_.empty() && (best().believed || best().carried));
     if (!doubts && !is_refuted(scan)) return;
   }
   if (scan.time_s >= search_s_) search_everywhere(scan);
@@ -199,7 +205,7 @@ bool ScanLocalizer::is_refuted(const ScanHits& scan) {
 bool ScanLocalizer::search_around(const ScanHits& scan, const PoseEstimate& base, bool is_sure) {
   add(scan.time_s, fitted(scan, base), is_sure);
   for (const FittedPlace& place : look_around(scan, base)) add(scan.time_s, place, is_sure);
-  places_.sift(scan.time_s);
+  sift(scan.time_s);
   return !places_.empty() && !best().carried && best().quality >= options_.places.good_quality;
 }
 
@@ -212,14 +218,15 @@ void ScanLocalizer::search_everywhere(const ScanHits& scan) {
   if (!result.complete) return;
   for (const BranchAndBoundMatcher::Place& found : result.places)
     add(scan.time_s, fitted(scan, found_at(found.pose)), false);
-  places_.sift(scan.time_s);
+  sift(scan.time_s);
 }
 
 void ScanLocalizer::add(double time_s, const FittedPlace& place, bool confirmed) {
   // What is unknown explains nothing: the robot is not to be taken for one at the rim of the map.
   const double quality = static_cast<double>(place.fit.on_wall) / place.fit.hits();
-  const bool carried = reckoned_ && (place.base.pose.position - reckoned_->pose.position).norm() >
-                                        3.0 * reckoned_->sigma_m() + kSlip_m;
+  const bool carried = reckoned_ && !places_.is_doubted() &&
+                       (place.base.pose.position - reckoned_->pose.position).norm() >
+                           3.0 * reckoned_->sigma_m() + kSlip_m;
   places_.add({place.base, quality, time_s + options_.trial_s, carried, confirmed});
 }
 

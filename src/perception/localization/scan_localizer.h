@@ -59,6 +59,7 @@ class ScanLocalizer : public Localizer {
   std::vector<FittedPlace> look_around(const ScanHits& scan, const PoseEstimate& base);
   FittedPlace follow(const ScanHits& scan, const PoseEstimate& base);
   void fit(const ScanHits& scan, double dt_s);
+  void sift(double time_s);
   bool is_unsure(const PoseEstimate& base) const;
   const PlaceHypothesis& best() const { return places_.all()[0]; }  // not without any
   bool wants_search(double time_s) const;

@@ -64,26 +64,63 @@ TEST(PlaceHypothesesTest, FoundAgainByAnotherSearchIsConfirmed) {
   EXPECT_FALSE(is_confirmed(place(0.1, 0.95, 5.0))) << "by the same search";
 }
 
+/// Another place, which the robot must have been carried to.
+PlaceHypothesis far_away(double quality, double proved_s = 5.0) {
+  PlaceHypothesis far = place(7.0, quality, proved_s);
+  far.carried = true;
+  return far;
+}
+
 TEST(PlaceHypothesesTest, WhatWasBelievedIsKeptAsLongAsNothingIsBetterByFar) {
-  PlaceHypotheses places = known(0.4);
-  places.sift(kNow_s);
-  ASSERT_EQ(places.all().size(), 1u);
-  EXPECT_FALSE(places.is_certain());
-  EXPECT_FALSE(places.believe(kNow_s)) << "not by so little";
-  PlaceHypothesis far = place(7.0, 0.79);
-  far.carried = far.confirmed = true;
-  places.add(far);
+  PlaceHypotheses places = known(0.55);
+  places.add(far_away(0.94));
   places.sift(kNow_s);
   EXPECT_EQ(places.all().size(), 2u);
-  EXPECT_FALSE(places.believe(kNow_s));
-  places.all()[0].quality = 0.8;
-  EXPECT_TRUE(places.believe(kNow_s)) << "a place that it was carried to is no rival";
   EXPECT_TRUE(places.is_certain());
-  places.all()[0].quality = 0.38;
+  places.all()[0].quality = 0.53;
   places.sift(kNow_s);
   ASSERT_EQ(places.all().size(), 1u);
   EXPECT_EQ(places.all()[0].base.pose.position.x(), 7.0);
+}
+
+TEST(PlaceHypothesesTest, NothingIsCertainWhileAPlaceThatWasFoundTwiceIsBetter) {
+  PlaceHypotheses places = known(0.7);
+  PlaceHypothesis far = far_away(0.85);
+  far.confirmed = true;
+  places.add(far);
+  places.sift(kNow_s);
+  EXPECT_EQ(places.all().size(), 2u);
+  EXPECT_FALSE(places.is_certain());
+  places.all()[0].quality = 0.76;
+  EXPECT_TRUE(places.is_certain());
+}
+
+TEST(PlaceHypothesesTest, APlaceThatExplainedNextToNothingHasToBeAloneToBeBelievedAgain) {
+  PlaceHypotheses places = known(0.25);
+  places.add(far_away(0.54, kNow_s + 1.0));
+  places.sift(kNow_s);
+  ASSERT_EQ(places.all().size(), 2u);
+  EXPECT_TRUE(places.is_doubted());
+  EXPECT_FALSE(places.is_certain());
+  for (PlaceHypothesis& place : places.all()) place.quality = place.known ? 0.9 : 0.85;
+  places.sift(kNow_s);
+  EXPECT_TRUE(places.all()[0].known);
+  EXPECT_FALSE(places.believe(kNow_s)) << "the robot may have been carried";
+  places.all()[1].quality = 0.75;
+  places.sift(kNow_s);
   EXPECT_TRUE(places.believe(kNow_s));
+  EXPECT_FALSE(places.is_doubted());
+}
+
+TEST(PlaceHypothesesTest, APlaceThatExplainsNextToNothingYieldsToOneThatExplainsMore) {
+  PlaceHypotheses places = known(0.25);
+  places.add(far_away(0.6, kNow_s + 1.0));
+  EXPECT_FALSE(places.sift(kNow_s)) << "not tried";
+  EXPECT_EQ(places.all().size(), 2u);
+  EXPECT_TRUE(places.sift(kNow_s + 1.0));
+  ASSERT_EQ(places.all().size(), 1u);
+  EXPECT_EQ(places.all()[0].base.pose.position.x(), 7.0);
+  EXPECT_FALSE(places.all()[0].carried);
 }
 
 TEST(PlaceHypothesesTest, ASlipIsNoticedAtOnceAndBelievedAfterATrial) {
