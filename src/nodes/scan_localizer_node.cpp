@@ -18,7 +18,7 @@
 #include <variant>
 #include <vector>
 
-#include "perception/localization/scan_localizer.h"
+#include "perception/localization/learning_localizer.h"
 #include "perception/mapping/saved_map.h"
 #include "perception/pose_graph/graph_file.h"
 #include "perception/pose_graph/mapping_session.h"
@@ -26,6 +26,7 @@
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/localization_messages.h"
 #include "ros_bridge/messages/sensor_conversions.h"
+#include "ros_bridge/outputs/learned_map.h"
 #include "ros_bridge/outputs/pose_graph_outputs.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/robot_identity.h"
@@ -100,11 +101,23 @@ class ScanLocalizerNode {
                     values.text("pose_graph_file"));
       return;
     }
-    auto localizer = std::make_unique<ScanLocalizer>(options);
-    localizer->set_map(
-        load_saved_slice(path, values.number("min_height"), values.number("max_height")));
-    localizer_ = std::move(localizer);
+    begin_localizing(options, path, values);
     expect(values.text("last_known_pose"));
+  }
+
+  /// In what was learnt of the map, if there is any.
+  void begin_localizing(const ScanLocalizerOptions& options, const std::string& path,
+                        const ParameterTable& values) {
+    const std::string& learned = values.text("learned_map_file");
+    if (!learned.empty() && std::filesystem::path(learned).extension() != ".yaml")
+      throw ParameterError("learned_map_file = " + learned + ": expected a .yaml file");
+    auto localizer = std::make_unique<LearningLocalizer>(
+        options,
+        load_saved_slice(std::filesystem::exists(learned) ? learned : path,
+                         values.number("min_height"), values.number("max_height")),
+        values.number("learn_changes"));
+    learned_map_.emplace(*localizer, learned);
+    localizer_ = std::move(localizer);
   }
 
   /// In the map of the file, if it is there by now.
@@ -164,6 +177,7 @@ class ScanLocalizerNode {
     for (const Measurement& measurement : queue_.take_ready(transforms_, now, refusals_))
       localize(measurement);
     if (pose_graph_) pose_graph_->step(now);
+    if (learned_map_) learned_map_->step(now);
     refusals_.warn();
     diagnostics_.update();
   }
@@ -248,6 +262,7 @@ class ScanLocalizerNode {
   std::unique_ptr<Localizer> localizer_;
   MappingSession* session_ = nullptr;  // the localizer, while mapping
   std::optional<PoseGraphOutputs> pose_graph_;
+  std::optional<LearnedMap> learned_map_;
   mocha_ugv::Localization state_;
 
   ScanQueue queue_;

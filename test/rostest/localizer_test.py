@@ -254,6 +254,28 @@ class LocalizerTest(unittest.TestCase):
         self.localize(place, 15.0)
         self.assertGreater(self.newest_transform_s(), before)
 
+    def test_with_walls_that_are_new_for_good_it_learns_them(self):
+        place, column = (6.2, -0.9, 2.0), (4.9, 0.4, 0.2)
+        changed = World(numpy.vstack([self.corridor.circles, column]), self.corridor.walls)
+        learned = rospy.get_param(NODE + "/learned_map_file")
+        self.assertFalse(os.path.exists(learned))
+        self.localize(place)
+        self.see(changed, place, lambda: False, 5.0)
+        strange = self.state.quality
+        self.assertTrue(self.see(changed, place, lambda: os.path.exists(learned), 80.0))
+        self.see(changed, place, lambda: False, 5.0)
+        self.assertGreater(self.state.quality, strange + 0.02)
+        end(NODE, signal.SIGTERM)
+        self.start()
+        LocalizerTest.state = LocalizerTest.pose = None
+        self.assertTrue(self.see(changed, place, lambda: self.is_at(place), 15.0), f"{self.state} {self.pose}")
+        self.see(changed, place, lambda: False, 5.0)
+        self.assertGreater(self.state.quality, strange + 0.02)
+        with open(learned) as file:
+            image = yaml.safe_load(file)["image"]
+        for path in (learned, os.path.join(os.path.dirname(learned), image)):
+            os.remove(path)
+
 
 if __name__ == "__main__":
     rospy.init_node("localizer_test", disable_rostime=True)
