@@ -64,6 +64,19 @@ class BeamCounts {
   std::vector<int> ended_;
 };
 
+/// In the cell of a place, or beside it.
+bool stands_at(const OccupancyGrid& grid, const Vector2& place) {
+  const Vector2 at = (place - grid.origin) / grid.resolution_m;
+  const int x = static_cast<int>(std::floor(at.x()));
+  const int y = static_cast<int>(std::floor(at.y()));
+  for (int j = y - 1; j <= y + 1; ++j) {
+    for (int i = x - 1; i <= x + 1; ++i) {
+      if (grid.contains(i, j) && grid.at(i, j) == OccupancyGrid::kOccupied) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 OccupancyGrid grid_of(const std::vector<PlacedKeyframe>& keyframes, const Vector2& centre,
@@ -77,6 +90,15 @@ OccupancyGrid grid_of(const std::vector<PlacedKeyframe>& keyframes, const Vector
   for (std::size_t cell = 0; cell < grid.cells.size(); ++cell)
     grid.cells[cell] = counts.value(cell);
   return grid;
+}
+
+std::vector<Beam> lasting_beams(const PlacedKeyframe& keyframe, const OccupancyGrid& all) {
+  std::vector<Beam> beams = beams_of(keyframe.keyframe->scan, keyframe.pose);
+  for (Beam& beam : beams) {
+    if (beam.kind == BeamEnd::kHit && !stands_at(all, beam.end.head<2>()))
+      beam.kind = BeamEnd::kIgnored;
+  }
+  return beams;
 }
 
 }  // namespace mocha

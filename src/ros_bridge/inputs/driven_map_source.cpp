@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "perception/pose_graph/scan_grid.h"
 #include "ros_bridge/messages/pose_graph_messages.h"
 #include "ros_bridge/runtime/callback_queue.h"
 
@@ -16,10 +18,24 @@ namespace {
 // Of a keyframe, since it is in the map; less is not seen in cells.
 constexpr double kMoved_m = 0.03;
 constexpr double kMoved_rad = 0.01;
+constexpr double kGhostCell_m = 0.05;
 
 bool has_moved(const Pose& from, const Pose& to) {
   return (to.position - from.position).norm() > kMoved_m ||
          std::abs(wrap_angle(to.yaw_rad - from.yaw_rad)) > kMoved_rad;
+}
+
+/// All keyframes, but for those who only went by.
+void insert(const std::vector<ScanHits>& scans, const std::vector<Pose>& poses, OccupancyMap& map) {
+  std::vector<ScanKeyframe> keyframes(poses.size());
+  std::vector<PlacedKeyframe> placed;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    keyframes[i].scan = scans[i];
+    placed.push_back({static_cast<int>(i), poses[i], &keyframes[i]});
+  }
+  const OccupancyGrid all =
+      grid_of(placed, Vector2::Zero(), std::numeric_limits<double>::max(), kGhostCell_m);
+  for (const PlacedKeyframe& keyframe : placed) map.insert_scan(lasting_beams(keyframe, all));
 }
 
 }  // namespace
@@ -100,8 +116,7 @@ DrivenMapSource::Made DrivenMapSource::make(const std::string& service,
     if (made.scans.size() < poses.size())
       throw std::invalid_argument(service + " has fewer keyframes than were announced");
     made.map = std::make_unique<OccupancyMap>(options);
-    for (std::size_t i = 0; i < poses.size(); ++i)
-      made.map->insert_scan(beams_of(made.scans[i], poses[i]));
+    insert(made.scans, poses, *made.map);
   } catch (const std::exception& error) {
     made.map.reset();
     made.fault = error.what();
