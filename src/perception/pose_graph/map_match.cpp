@@ -1,6 +1,7 @@
 #include "perception/pose_graph/map_match.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <utility>
