@@ -111,13 +111,19 @@ class ScanLocalizerNode {
     const std::string& learned = values.text("learned_map_file");
     if (!learned.empty() && std::filesystem::path(learned).extension() != ".yaml")
       throw ParameterError("learned_map_file = " + learned + ": expected a .yaml file");
-    auto localizer = std::make_unique<LearningLocalizer>(
-        options,
+    const OccupancyGrid map =
         load_saved_slice(std::filesystem::exists(learned) ? learned : path,
-                         values.number("min_height"), values.number("max_height")),
-        values.number("learn_changes"));
-    learned_map_.emplace(*localizer, learned);
-    localizer_ = std::move(localizer);
+                         values.number("min_height"), values.number("max_height"));
+    const double lasting_s = values.number("learn_changes");
+    if (lasting_s > 0.0) {
+      auto localizer = std::make_unique<LearningLocalizer>(options, map, lasting_s);
+      learned_map_.emplace(*localizer, learned);
+      localizer_ = std::move(localizer);
+    } else {
+      auto localizer = std::make_unique<ScanLocalizer>(options);
+      localizer->set_map(map);
+      localizer_ = std::move(localizer);
+    }
   }
 
   /// In the map of the file, if it is there by now.

@@ -7,6 +7,18 @@
 
 namespace mocha {
 
+bool is_occupied_beside(const OccupancyGrid& grid, const Vector2& place) {
+  const Vector2 at = (place - grid.origin) / grid.resolution_m;
+  const int x = static_cast<int>(std::floor(at.x()));
+  const int y = static_cast<int>(std::floor(at.y()));
+  for (int j = y - 1; j <= y + 1; ++j) {
+    for (int i = x - 1; i <= x + 1; ++i) {
+      if (grid.contains(i, j) && grid.at(i, j) == OccupancyGrid::kOccupied) return true;
+    }
+  }
+  return false;
+}
+
 int8_t cell_of_probability(int8_t percent) {
   constexpr int kOccupiedFrom = 65;
   constexpr int kFreeUpTo = 25;

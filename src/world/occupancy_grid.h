@@ -28,6 +28,9 @@ struct OccupancyGrid {
   }
 };
 
+/// Whether the cell of a place, or one beside it, is occupied.
+bool is_occupied_beside(const OccupancyGrid& grid, const Vector2& place);
+
 /// The cell that is meant by how likely it is occupied [%], as nav_msgs/OccupancyGrid has it:
 /// kOccupied from 65 on, kFree from 0 to 25, else kUnknown.
 int8_t cell_of_probability(int8_t percent);

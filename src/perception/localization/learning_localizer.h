@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "perception/localization/map_changes.h"
 #include "perception/localization/scan_localizer.h"
 
@@ -11,7 +9,7 @@ namespace mocha {
 /// explains most.
 class LearningLocalizer : public Localizer {
  public:
-  /// Changes are learnt that have lasted for `lasting_s`; never where that is 0. Throws what
+  /// Changes are learnt that have lasted for `lasting_s`, which is positive. Throws what
   /// ScanLocalizer::set_map() throws.
   LearningLocalizer(const ScanLocalizerOptions& options, const OccupancyGrid& map,
                     double lasting_s);
@@ -28,7 +26,6 @@ class LearningLocalizer : public Localizer {
 
  private:
   const double good_quality_;
-  const bool is_learning_;
   ScanLocalizer localizer_;
   MapChanges changes_;
   int changed_ = 0;

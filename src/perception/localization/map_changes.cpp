@@ -37,14 +37,6 @@ void MapChanges::visit_around(const Vector2& place, Visit visit) const {
   }
 }
 
-bool MapChanges::is_wall_near(const Vector2& place) const {
-  bool result = false;
-  visit_around(place, [&](std::size_t cell, bool) {
-    result = result || map_.cells[cell] == OccupancyGrid::kOccupied;
-  });
-  return result;
-}
-
 bool MapChanges::add(const ScanHits& scan, const Pose& base) {
   if (scan.time_s < looked_s_ + kPeriod_s) return false;
   looked_s_ = scan.time_s;
@@ -58,7 +50,7 @@ bool MapChanges::add(const ScanHits& scan, const Pose& base) {
 }
 
 void MapChanges::see_hit(const Vector2& place, double time_s, Cells& near_hits) {
-  const bool is_new = !is_wall_near(place);
+  const bool is_new = !is_occupied_beside(map_, place);
   visit_around(place, [&](std::size_t cell, bool is_there) {
     near_hits.insert(cell);
     if (map_.cells[cell] == OccupancyGrid::kOccupied) doubts_.erase(cell);
@@ -89,7 +81,8 @@ void MapChanges::doubt(std::size_t cell, int8_t value, double time_s) {
   doubt.newest_s = time_s;
 }
 
-/// All at once, as whoever uses the map has to prepare it anew.
+/// Changes all cells that are due at once, a few times in lasting_s_: whoever uses the map has to
+/// prepare it anew.
 bool MapChanges::change(double time_s) {
   if (time_s < changed_s_ + lasting_s_ / kTimes) return false;
   bool has_changed = false;

@@ -40,7 +40,6 @@ class MapChanges {
 
   template <class Visit>
   void visit_around(const Vector2& place, Visit visit) const;
-  bool is_wall_near(const Vector2& place) const;
   void see_hit(const Vector2& place, double time_s, Cells& near_hits);
   void see_passed(const Beam& beam, const Cells& near_hits);
   void doubt(std::size_t cell, int8_t value, double time_s);

@@ -25,7 +25,7 @@ class MappingSession : public Localizer {
   void forget() override;
 
   /// Makes one map of this one and another, if it is known how they lie; the robot stays where it
-  /// is. Takes seconds where the maps are large.
+  /// is. Not while is_looking(). Takes seconds where the maps are large.
   MapMatch::Fault merge(const DrivenMap& other);
 
   /// No scans come any more, see GraphMapper::finish().

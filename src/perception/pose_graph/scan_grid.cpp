@@ -64,19 +64,6 @@ class BeamCounts {
   std::vector<int> ended_;
 };
 
-/// In the cell of a place, or beside it.
-bool stands_at(const OccupancyGrid& grid, const Vector2& place) {
-  const Vector2 at = (place - grid.origin) / grid.resolution_m;
-  const int x = static_cast<int>(std::floor(at.x()));
-  const int y = static_cast<int>(std::floor(at.y()));
-  for (int j = y - 1; j <= y + 1; ++j) {
-    for (int i = x - 1; i <= x + 1; ++i) {
-      if (grid.contains(i, j) && grid.at(i, j) == OccupancyGrid::kOccupied) return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 OccupancyGrid grid_of(const std::vector<PlacedKeyframe>& keyframes, const Vector2& centre,
@@ -95,7 +82,7 @@ OccupancyGrid grid_of(const std::vector<PlacedKeyframe>& keyframes, const Vector
 std::vector<Beam> lasting_beams(const PlacedKeyframe& keyframe, const OccupancyGrid& all) {
   std::vector<Beam> beams = beams_of(keyframe.keyframe->scan, keyframe.pose);
   for (Beam& beam : beams) {
-    if (beam.kind == BeamEnd::kHit && !stands_at(all, beam.end.head<2>()))
+    if (beam.kind == BeamEnd::kHit && !is_occupied_beside(all, beam.end.head<2>()))
       beam.kind = BeamEnd::kIgnored;
   }
   return beams;

@@ -5,6 +5,7 @@
 #include "ros_bridge/runtime/file_service.h"
 
 namespace mocha {
+
 MapFiles::MapFiles(ros::NodeHandle& node, OccupancyMap& map, std::function<void(bool)> replaced)
     : map_(map),
       replaced_(std::move(replaced)),
