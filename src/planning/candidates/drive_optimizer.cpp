@@ -12,6 +12,7 @@
 #include "optimization/turning_penalty.h"
 #include "optimization/wheel_penalty.h"
 #include "optimization/zone_speed_penalty.h"
+#include "planning/candidates/knot_spacing.h"
 #include "planning/candidates/path_clearance.h"
 #include "planning/candidates/start_maneuver.h"
 #include "planning/candidates/timed_guide.h"
@@ -33,8 +34,6 @@ constexpr double kRelativeCost = 1e-4;
 constexpr double kRelativeModelledCost = 1e-3;
 constexpr int kManyPieces = 50;
 constexpr double kNarrowStep_m = 0.05;  // between the places where a path may be narrow, at least
-constexpr double kSpacingOfRoom = 1.5;  // knots apart, over the room beside the path
-constexpr double kLeastPieces = 10.0;   // of a drive, for its ramps
 constexpr double kLeastTimedPieces = 3.0;
 constexpr double kMostTimedPieces = 60.0;
 constexpr double kSoftSpeed =
@@ -102,26 +101,6 @@ Effort raised(const Effort& effort, const Violation& violation, double factor) {
 
 const MotionLimits& DriveOptimizer::limits_of(const DriveQuery& query) const {
   return query.limits ? *query.limits : robot_.limits;
-}
-
-double DriveOptimizer::knot_spacing_m(const std::vector<Vector2>& path,
-                                      const ObstacleField<2>& field) const {
-  std::vector<double> room_m;
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Vector2 step = path[i] - path[i - 1];
-    const int parts = 1 + static_cast<int>(std::min(step.norm() / options_.knot_spacing_m, 1e3));
-    for (int k = 0; k < parts; ++k) {
-      room_m.push_back(field.distance_bound(path[i - 1] + step * k / parts));
-    }
-    length_m += step.norm();
-  }
-  // The narrower fifth decides.
-  const auto fifth = room_m.begin() + static_cast<std::ptrdiff_t>(room_m.size() / 5);
-  std::nth_element(room_m.begin(), fifth, room_m.end());
-  const double coarsest = std::max(options_.knot_spacing_m,
-                                   std::min(options_.open_knot_spacing_m, length_m / kLeastPieces));
-  return std::clamp(kSpacingOfRoom * *fifth, options_.knot_spacing_m, coarsest);
 }
 
 std::shared_ptr<const KnotMap<2>> DriveOptimizer::knot_map(const Eigen::Matrix2Xd& path,
@@ -224,13 +203,15 @@ InitialKnots<2> DriveOptimizer::initial_knots(const DriveQuery& query,
   MotionLimits limits = limits_of(query);
   limits.max_speed *= effort.speed;
   if (query.times_s.empty()) {
-    return spread_knots<2>(
-        query.path, query.start.col(1).norm(), limits,
-        effort.spacing * knot_spacing_m(query.path, field), [&](const Vector2& place) {
-          const double fastest = fastest_at(place, field);
-          return query.speed_zones ? std::min(fastest, query.speed_zones->fastest_at(place))
-                                   : fastest;
-        });
+    const double spacing_m = knot_spacing_for_room<2>(
+        query.path, field, {options_.knot_spacing_m, options_.open_knot_spacing_m});
+    return spread_knots<2>(query.path, query.start.col(1).norm(), limits,
+                           effort.spacing * spacing_m, [&](const Vector2& place) {
+                             const double fastest = fastest_at(place, field);
+                             return query.speed_zones
+                                        ? std::min(fastest, query.speed_zones->fastest_at(place))
+                                        : fastest;
+                           });
   }
   const double piece_s = effort.spacing * options_.knot_spacing_m / limits.max_speed;
   const double pieces = std::ceil(query.times_s.back() / piece_s);

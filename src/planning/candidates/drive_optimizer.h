@@ -72,10 +72,6 @@ class DriveOptimizer {
       const std::function<bool()>& should_stop,
       double most_work = std::numeric_limits<double>::infinity()) const;
 
-  /// Distance of knots on a path [m]: it follows the room between the obstacles, within the bounds
-  /// that the options give.
-  double knot_spacing_m(const std::vector<Vector2>& path, const ObstacleField<2>& field) const;
-
  private:
   const MotionLimits& limits_of(const DriveQuery& query) const;
   /// How fast the base may be there, about, in the direction in which it needs the least room, and

@@ -75,21 +75,6 @@ TEST_F(DriveOptimizerTest, SlowsDownBetweenWallsButBesideOneKeepsOff) {
   EXPECT_TRUE(term({}, "obstacle"));
 }
 
-TEST_F(DriveOptimizerTest, TheSpacingOfKnotsFollowsTheClutter) {
-  const PlannerOptions options = default_options();
-  const auto spacing_beside_m = [&](double distance_m) {
-    std::vector<CircleField::Circle> row;
-    for (double x = 0.0; x <= 100.0; x += 0.5) row.push_back({{x, distance_m + 0.1}, 0.1});
-    return optimizer_.knot_spacing_m({{0.0, 0.0}, {100.0, 0.0}}, CircleField(row));
-  };
-  EXPECT_EQ(spacing_beside_m(0.4), options.knot_spacing_m);
-  EXPECT_GT(spacing_beside_m(1.2), 1.5 * options.knot_spacing_m);
-  EXPECT_LT(spacing_beside_m(1.2), spacing_beside_m(2.0));
-  EXPECT_EQ(spacing_beside_m(30.0), options.open_knot_spacing_m);
-  EXPECT_LT(optimizer_.knot_spacing_m({{0.0, 0.0}, {10.0, 0.0}}, open_),
-            options.open_knot_spacing_m);  // a short drive needs its pieces
-}
-
 TEST_F(DriveOptimizerTest, ALongDriveInTheOpenIsNearlyTimeOptimal) {
   const Motion motion = drive(from_rest({{0.0, 0.0}, {100.0, 0.0}}), open_);
   EXPECT_FALSE(check_limits(motion, robot_.limits, 0.0));
