@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "world/window_joining.h"
+#include "world/distances/window_joining.h"
 
 namespace mocha {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "world/distances/distance_repair.h"
 #include "world/distances/distance_transform.h"
-#include "world/window_joining.h"
+#include "world/distances/window_joining.h"
 
 namespace mocha {
 namespace {

@@ -13,15 +13,15 @@ constexpr float kFar = 1e6f;  // cells; its square is kNoSite
 float lesser(float a, float b) { return a < b ? a : b; }
 
 /// Squared distances within each column, by a sweep up and one down over whole rows.
-void transform_columns(std::vector<float>& squared, int columns, int rows) {
+void transform_columns(float* squared, int columns, int rows) {
   std::vector<float> away(columns, kFar);  // from the nearest site behind
   for (int y = 0; y < rows; ++y) {
-    float* row = &squared[static_cast<std::size_t>(y) * columns];
+    float* row = squared + static_cast<std::size_t>(y) * columns;
     for (int x = 0; x < columns; ++x) row[x] = away[x] = lesser(row[x], away[x] + 1.0f);
   }
   std::fill(away.begin(), away.end(), kFar);
   for (int y = rows - 1; y >= 0; --y) {
-    float* row = &squared[static_cast<std::size_t>(y) * columns];
+    float* row = squared + static_cast<std::size_t>(y) * columns;
     for (int x = 0; x < columns; ++x) {
       away[x] = lesser(row[x], away[x] + 1.0f);
       const float capped = lesser(away[x], kFar);
@@ -102,10 +102,36 @@ void distance_transform(std::vector<float>& squared, int columns, int rows) {
 
 void distance_transform(std::vector<float>& squared, int columns, int rows, int first_row,
                         int end_row) {
-  transform_columns(squared, columns, rows);
+  transform_columns(squared.data(), columns, rows);
   RowTransform row(columns);
   for (int y = first_row; y < end_row; ++y)
     row.run(&squared[static_cast<std::size_t>(y) * columns], columns);
+}
+
+void distance_transform_in_space(std::vector<float>& squared, int columns, int rows, int layers) {
+  const std::size_t layer = static_cast<std::size_t>(columns) * rows;
+  RowTransform row(columns);
+  for (int z = 0; z < layers; ++z) {
+    float* const in_layer = squared.data() + z * layer;
+    transform_columns(in_layer, columns, rows);
+    for (int y = 0; y < rows; ++y)
+      row.run(in_layer + static_cast<std::size_t>(y) * columns, columns);
+  }
+  RowTransform upward(layers);
+  std::vector<float> upright(static_cast<std::size_t>(columns) * layers);
+  for (int y = 0; y < rows; ++y) {
+    float* const first = squared.data() + static_cast<std::size_t>(y) * columns;
+    for (int z = 0; z < layers; ++z) {
+      for (int x = 0; x < columns; ++x)
+        upright[static_cast<std::size_t>(x) * layers + z] = first[z * layer + x];
+    }
+    for (int x = 0; x < columns; ++x)
+      upward.run(&upright[static_cast<std::size_t>(x) * layers], layers);
+    for (int z = 0; z < layers; ++z) {
+      for (int x = 0; x < columns; ++x)
+        first[z * layer + x] = upright[static_cast<std::size_t>(x) * layers + z];
+    }
+  }
 }
 
 }  // namespace mocha

@@ -15,4 +15,7 @@ void distance_transform(std::vector<float>& squared, int columns, int rows);
 void distance_transform(std::vector<float>& squared, int columns, int rows, int first_row,
                         int end_row);
 
+/// The same in space, layer by layer.
+void distance_transform_in_space(std::vector<float>& squared, int columns, int rows, int layers);
+
 }  // namespace mocha

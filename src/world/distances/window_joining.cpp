@@ -1,4 +1,4 @@
-#include "world/window_joining.h"
+#include "world/distances/window_joining.h"
 
 #include <algorithm>
 #include <tuple>

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <random>
 
@@ -57,6 +58,31 @@ TEST(DistanceTransform, LeavesALatticeWithoutSitesFar) {
   std::vector<float> squared(12, kNoSite);
   distance_transform(squared, 4, 3);
   EXPECT_EQ(squared, std::vector<float>(12, kNoSite));
+}
+
+TEST(DistanceTransform, IsExactInSpace) {
+  std::mt19937 random(2);
+  for (int run = 0; run < 60; ++run) {
+    const int columns = std::uniform_int_distribution<int>(1, 16)(random);
+    const int rows = std::uniform_int_distribution<int>(1, 14)(random);
+    const int layers = std::uniform_int_distribution<int>(1, 12)(random);
+    std::bernoulli_distribution is_site(run % 2 == 0 ? 0.01 : 0.2);
+    std::vector<float> sites(static_cast<std::size_t>(columns) * rows * layers);
+    for (float& site : sites) site = is_site(random) ? 0.0f : kNoSite;
+    std::vector<float> squared = sites;
+    distance_transform_in_space(squared, columns, rows, layers);
+    const auto place = [&](int i) {
+      return Eigen::Vector3i(i % columns, i / columns % rows, i / columns / rows);
+    };
+    for (int i = 0; i < static_cast<int>(sites.size()); ++i) {
+      float least = kNoSite;
+      for (int k = 0; k < static_cast<int>(sites.size()); ++k) {
+        if (sites[k] == 0.0f)
+          least = std::min(least, static_cast<float>((place(k) - place(i)).squaredNorm()));
+      }
+      ASSERT_EQ(squared[i], least) << columns << " x " << rows << " x " << layers << ", " << i;
+    }
+  }
 }
 
 }  // namespace
