@@ -47,19 +47,26 @@ Cuts<2>::Cuts(const std::vector<Point>& representatives) {
 Cuts<3>::Cuts(const std::vector<Curve>& curves)
     : obstacles_(static_cast<int>(curves.size())), columns_(feet_of(curves)) {
   for (int r = 0; r < obstacles_; ++r) {
-    const auto* loop = std::get_if<Loop>(&curves[r]);
-    if (loop == nullptr) {
+    if (const auto* loop = std::get_if<Loop>(&curves[r])) {
+      add_sides(loop->corners, 3, true, r);
+    } else if (const auto* arch = std::get_if<Arch>(&curves[r])) {
+      add_sides(arch->corners, 2, false, r);
+    } else {
       column_obstacles_.push_back(r);
-      continue;
-    }
-    const std::size_t corners = loop->corners.size();
-    if (corners < 3) {
-      throw std::invalid_argument("loop: corners = " + std::to_string(corners) + ", at least 3");
-    }
-    for (std::size_t i = 0; i < corners; ++i) {
-      sides_.push_back({snapped(loop->corners[i]), snapped(loop->corners[(i + 1) % corners]), r});
     }
   }
+}
+
+void Cuts<3>::add_sides(const std::vector<Point>& corners, std::size_t least, bool is_closed,
+                        int obstacle) {
+  if (corners.size() < least) {
+    throw std::invalid_argument(std::string(is_closed ? "loop" : "arch") +
+                                ": corners = " + std::to_string(corners.size()) + ", at least " +
+                                std::to_string(least));
+  }
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    sides_.push_back({snapped(corners[i - 1]), snapped(corners[i]), obstacle});
+  if (is_closed) sides_.push_back({snapped(corners.back()), snapped(corners.front()), obstacle});
 }
 
 /// To a grid so coarse that turns of points up to 500 m from the origin are exact.

@@ -81,17 +81,24 @@ struct Loop {
   std::vector<Eigen::Vector3d> corners;  ///< the last is joined to the first
 };
 
+/// An open polygon in space that goes on straight up from both of its ends, without end: such as
+/// what stands between two windows, and goes on through the wall to where nobody can be.
+struct Arch {
+  std::vector<Eigen::Vector3d> corners;
+};
+
 /// The cuts of obstacles in space, each shrunk to a curve inside of its solid matter: half planes
-/// that stand on columns (towards +y), and curtains that stand on loops (towards +z). The sum over
-/// a closed path is its Gauss linking number with the curve: exact for coordinates up to 500 m if
-/// the path keeps more than 0.1 mm off the curve.
+/// that stand on columns (towards +y), and curtains that stand on loops and arches (towards +z).
+/// The sum over a closed path is its Gauss linking number with the curve: exact for coordinates up
+/// to 500 m if the path keeps more than 0.1 mm off the curve.
 template <>
 class Cuts<3> {
  public:
   using Point = Eigen::Vector3d;
-  using Curve = std::variant<Column, Loop>;
+  using Curve = std::variant<Column, Loop, Arch>;
 
-  /// Throws std::invalid_argument for a loop with fewer than three corners.
+  /// Throws std::invalid_argument for a loop with fewer than three corners, an arch with fewer than
+  /// two.
   explicit Cuts(const std::vector<Curve>& curves);
 
   int obstacles() const { return obstacles_; }
@@ -114,6 +121,8 @@ class Cuts<3> {
     Point to;
     int obstacle;
   };
+  void add_sides(const std::vector<Point>& corners, std::size_t least, bool is_closed,
+                 int obstacle);
   static Point snapped(const Point& p);
   static int crossing(const Side& side, const Point& p, const Point& q);
 
