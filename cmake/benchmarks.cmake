@@ -9,6 +9,9 @@ foreach(name evaluation table1 table1_curves)
   mocha_benchmark(${name})
 endforeach()
 
+mocha_benchmark(space)
+target_link_libraries(benchmark_space octomap octomath)
+
 mocha_benchmark(classes)
 target_link_libraries(benchmark_classes mocha_perception)
 

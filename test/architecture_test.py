@@ -23,7 +23,7 @@ LEVELS = [["config", "trajectory"],
           ["nodes", "rviz_panel"]]
 LEVEL = {folder: level for level, folders in enumerate(LEVELS) for folder in folders}
 # The same for the rooms of a folder.
-ROOM_LEVELS = {"planning": [["candidates", "passing"], ["global", "local", "maneuvers"], ["executive", "replanner"]]}
+ROOM_LEVELS = {"planning": [["candidates", "passing"], ["global", "local", "maneuvers", "space"], ["executive", "replanner"]]}
 ROOM_LEVEL = {f"{folder}/{room}": level for folder, levels in ROOM_LEVELS.items() for level, rooms in enumerate(levels) for room in rooms}
 WITH_ROS = {"ros_bridge", "nodes", "rviz_panel"}
 
@@ -51,6 +51,7 @@ ROOMS = {
     "planning/maneuvers": "One maneuver a file: each only generates candidate motions.",
     "planning/passing": "In which order robots that stand in each other's way pass, and by which places.",
     "planning/replanner": "Which maneuver is driven, proved how, promised how.",
+    "planning/space": "The same in three dimensions: paths of several classes, optimised, certified, the cheapest selected.",
     "python": "Planning from Python: what is handed over, checked, and handed back.",
     "ros_bridge/inputs": "What is heard from topics and services, checked, until a node asks for it.",
     "ros_bridge/messages": "Conversions between messages and the core's types.",
@@ -65,6 +66,7 @@ ROOMS = {
     "topology/paths": "The cheapest paths of several homotopy classes, and shortcuts that keep the class.",
     "topology/roadmaps": "Graphs that stand for the free space.",
     "topology/signatures": "What tells homotopy classes apart, and how long a path of one is at least.",
+    "topology/space": "What stands in a map in space, shrunk to curves and thinned to ways, and the paths of several classes past it.",
     "topology/space_time": "The same with time as an axis.",
     "topology/static_map": "What stands, as searches for paths see it.",
     "trajectory": "What a motion is: polynomials, MINCO, timed phases, braking, separation.",

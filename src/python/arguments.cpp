@@ -86,6 +86,11 @@ Goal to_goal(const py::object& goal) {
   return result;
 }
 
+Eigen::Vector3d to_place(const char* name, const py::object& place) {
+  const std::vector<double> at = to_numbers(name, "(x, y, z), finite numbers", place, 3, 3);
+  return {at[0], at[1], at[2]};
+}
+
 void assign(const py::dict& parameters, ParameterTable& values) {
   YAML::Node node(YAML::NodeType::Map);
   for (const auto& [name, value] : parameters) {

@@ -21,6 +21,8 @@ OccupancyGrid to_grid(const pybind11::object& cells, double resolution_m,
 Pose to_start(const pybind11::object& start);
 /// Of (x, y) or (x, y, yaw).
 Goal to_goal(const pybind11::object& goal);
+/// Of (x, y, z), the argument `name`.
+Eigen::Vector3d to_place(const char* name, const pybind11::object& place);
 /// Sets the values of a dictionary by name. What the table refuses, it throws as ParameterError.
 void assign(const pybind11::dict& parameters, ParameterTable& values);
 

@@ -1,32 +1,23 @@
 // The Python module mocha_planner: plans on numpy maps. docs/library.md shows its use.
 
-#include <dlfcn.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "python/arguments.h"
+#include "python/config_directory.h"
+#include "python/space_module.h"
 #include "stack/map_planner.h"
 
 namespace mocha {
 namespace {
 
 namespace py = pybind11;
-
-/// config/ of the package that this module is a part of, in the devel or the install space.
-std::string config_directory() {
-  Dl_info self;
-  if (dladdr(reinterpret_cast<const void*>(&config_directory), &self) == 0)
-    throw std::runtime_error("the module mocha_planner does not find its own file");
-  const auto module = std::filesystem::absolute(self.dli_fname);
-  return (module.parent_path() / MOCHA_CONFIG_FROM_MODULE).lexically_normal();
-}
 
 PlanResult plan(const py::object& cells, double resolution_m, const py::object& start,
                 const py::object& goal, const py::object& origin, const std::string& model,
@@ -142,6 +133,7 @@ PYBIND11_MODULE(mocha_planner, module) {
     }
   });
   add_types(module);
+  add_space_planning(module);
   module.def(
       "plan", &plan, py::arg("grid"), py::arg("resolution_m"), py::arg("start"), py::arg("goal"),
       py::arg("origin") = py::make_tuple(0.0, 0.0), py::arg("model") = "rover",

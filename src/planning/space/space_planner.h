@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "planning/space/space_optimizer.h"
+#include "planning/space/space_plan.h"
+#include "planning/space/space_planner_options.h"
+#include "topology/space/space_region.h"
+#include "world/distances/voxel_distance_field.h"
+
+namespace mocha {
+
+/// From where to where [m, map frame].
+struct SpaceQuery {
+  Eigen::Vector3d start;
+  Eigen::Vector3d goal;
+  /// Ends the planning early; several threads may call it at once.
+  std::function<bool()> should_stop = [] { return false; };
+};
+
+/// Plans in space, paper III to V with d = 3: several paths of different classes, each optimised
+/// with camouflage and certified; the cheapest is selected.
+class SpacePlanner {
+ public:
+  SpacePlanner(std::shared_ptr<const VoxelDistanceField> field, const SpacePlannerOptions& options);
+
+  /// What can be reached from a place, as topology sees it; null where that is nowhere. Made when
+  /// it is first asked for, which takes about as long as the field did.
+  std::shared_ptr<const SpaceRegion> region_of(const Eigen::Vector3d& start);
+
+  SpacePlan plan(const SpaceQuery& query);
+
+  const VoxelDistanceField& field() const { return *field_; }
+
+ private:
+  PlanReason fault_of(const SpaceQuery& query) const;
+
+  const std::shared_ptr<const VoxelDistanceField> field_;
+  const SpacePlannerOptions options_;
+  const SpaceOptimizer optimizer_;
+  std::vector<std::shared_ptr<const SpaceRegion>> regions_;
+};
+
+}  // namespace mocha

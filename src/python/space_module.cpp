@@ -1,0 +1,196 @@
+#include "python/space_module.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "python/arguments.h"
+#include "python/config_directory.h"
+#include "stack/space_planning.h"
+#include "trajectory/arc_length.h"
+
+namespace mocha {
+namespace {
+
+namespace py = pybind11;
+
+std::unique_ptr<SpacePlanner> make_planner(const std::string& map_file, const py::dict& parameters,
+                                           const std::vector<py::object>& held) {
+  ParameterTable values = ParameterTable::from_schema(config_directory() + "/space_planner.yaml");
+  assign(parameters, values);
+  YAML::Node map;
+  map["map_file"] = map_file;
+  values.assign(map, "SpacePlanner");
+  const SpacePlannerOptions options = SpacePlannerOptions::from(values);
+  const Eigen::Vector3d room = Eigen::Vector3d::Constant(options.required_clearance_m());
+  Eigen::AlignedBox3d box;
+  for (const py::object& place : held) {
+    const Eigen::Vector3d at = to_place("held", place);
+    box.extend(at - room);
+    box.extend(at + room);
+  }
+  const py::gil_scoped_release others_may_run;
+  return make_space_planner(values, box);
+}
+
+/// What of a kind the map holds, by its name.
+py::dict count_curves(const ObstacleCurves& found) {
+  struct Counts {
+    int columns = 0;
+    int loops = 0;
+    int arches = 0;
+    void operator()(const Column&) { ++columns; }
+    void operator()(const Loop&) { ++loops; }
+    void operator()(const Arch&) { ++arches; }
+  } counts;
+  for (const auto& curve : found.curves) std::visit(counts, curve);
+  using py::literals::operator""_a;
+  return py::dict("columns"_a = counts.columns, "loops"_a = counts.loops,
+                  "arches"_a = counts.arches, "bodies"_a = found.bodies,
+                  "surface_voxels"_a = found.surface_voxels);
+}
+
+py::list corners_of(const ObstacleCurves& found) {
+  py::list curves;
+  for (const auto& curve : found.curves) {
+    if (const auto* column = std::get_if<Column>(&curve)) {
+      curves.append(py::make_tuple("column", column->foot));
+    } else if (const auto* loop = std::get_if<Loop>(&curve)) {
+      curves.append(py::make_tuple("loop", loop->corners));
+    } else {
+      curves.append(py::make_tuple("arch", std::get<Arch>(curve).corners));
+    }
+  }
+  return curves;
+}
+
+/// Every `step_s` from begin to end, both of them included: times, places and speeds.
+py::dict sample_curve(const SpaceCandidate& candidate, double step_s) {
+  if (!(step_s > 0.0)) throw std::invalid_argument("step_s: has to be above 0 s");
+  const double duration_s = candidate.curve.pieces() > 0 ? candidate.curve.duration() : 0.0;
+  std::vector<double> time_s, speed_mps;
+  std::vector<Eigen::Vector3d> place;
+  const int steps = static_cast<int>(std::ceil(duration_s / step_s));
+  for (int i = 0; candidate.curve.pieces() > 0 && i <= steps; ++i) {
+    time_s.push_back(std::min(i * step_s, duration_s));
+    place.push_back(candidate.curve.position(time_s.back()));
+    speed_mps.push_back(candidate.curve.derivative(time_s.back(), 1).norm());
+  }
+  using py::literals::operator""_a;
+  return py::dict("time_s"_a = time_s, "place_m"_a = place, "speed_mps"_a = speed_mps);
+}
+
+/// Centres of solid cells beside open ones, evenly thinned out to about `most`.
+std::vector<Eigen::Vector3d> surface_of(const VoxelDistanceField& field, int most) {
+  std::vector<Eigen::Vector3d> centres;
+  const double cell_m = field.resolution_m();
+  Eigen::Vector3i at;
+  for (at.z() = 0; at.z() < field.size().z(); ++at.z()) {
+    for (at.y() = 0; at.y() < field.size().y(); ++at.y()) {
+      for (at.x() = 0; at.x() < field.size().x(); ++at.x()) {
+        const auto distances = field.of_cell(at);
+        if (distances.largest_m > 0.0 || distances.mean_m < -cell_m) continue;
+        centres.push_back(field.bounds().min() +
+                          cell_m * (at.cast<double>().array() + 0.5).matrix());
+      }
+    }
+  }
+  const std::size_t stride = 1 + centres.size() / static_cast<std::size_t>(std::max(1, most));
+  std::vector<Eigen::Vector3d> some;
+  for (std::size_t i = 0; i < centres.size(); i += stride) some.push_back(centres[i]);
+  return some;
+}
+
+void add_candidate(py::module_& module) {
+  py::class_<SpaceCandidate>(module, "SpaceCandidate", "One way through space, of its own class.")
+      .def_property_readonly(
+          "certified", [](const SpaceCandidate& c) { return c.reason == PlanReason::kSolved; })
+      .def_property_readonly(
+          "outcome",
+          [](const SpaceCandidate& c) {
+            return c.violation ? describe(c.violation) : std::string(to_text(c.reason));
+          },
+          "\"solved\", or why it is not certified.")
+      .def_readonly("cost", &SpaceCandidate::cost)
+      .def_property_readonly(
+          "terms",
+          [](const SpaceCandidate& c) {
+            py::dict terms;
+            for (const auto& [name, value] : c.terms) terms[name.c_str()] = value;
+            return terms;
+          },
+          "The cost by its parts.")
+      .def_readonly("evaluations", &SpaceCandidate::evaluations)
+      .def_readonly("signature", &SpaceCandidate::signature,
+                    "Its class: the linking number with each curve of the map.")
+      .def_readonly("path", &SpaceCandidate::path, "What it was made of: a list of (x, y, z).")
+      .def_property_readonly(
+          "duration_s",
+          [](const SpaceCandidate& c) { return c.curve.pieces() > 0 ? c.curve.duration() : 0.0; })
+      .def_property_readonly(
+          "length_m",
+          [](const SpaceCandidate& c) { return c.curve.pieces() > 0 ? arc_length(c.curve) : 0.0; })
+      .def("sample", &sample_curve, py::arg("step_s") = 0.05,
+           "A dict of lists, one value every step_s and one at the end: time_s, place_m, "
+           "speed_mps.");
+}
+
+}  // namespace
+
+void add_space_planning(py::module_& module) {
+  add_candidate(module);
+  py::class_<SpacePlan>(module, "SpacePlan", "The cheapest certified trajectory, or why none.")
+      .def_property_readonly("solved",
+                             [](const SpacePlan& p) { return p.reason == PlanReason::kSolved; })
+      .def_property_readonly("reason", [](const SpacePlan& p) { return to_text(p.reason); })
+      .def_readonly("message", &SpacePlan::message, "The same in a sentence.")
+      .def_readonly("candidates", &SpacePlan::candidates,
+                    "One for each class; certified ones first, the cheapest of them first.");
+  py::class_<SpacePlanner>(module, "SpacePlanner", R"(Plans in an OctoMap, in three dimensions.
+
+map_file: .bt or .ot. parameters: values by name, as config/space_planner.yaml lists them. held:
+places (x, y, z) that the map is to reach as far as, if it knows less.
+Bad arguments raise ValueError; a map that cannot be used, RuntimeError.)")
+      .def(py::init(&make_planner), py::arg("map_file"), py::arg("parameters") = py::dict(),
+           py::arg("held") = std::vector<py::object>())
+      .def(
+          "plan",
+          [](SpacePlanner& planner, const py::object& start, const py::object& goal) {
+            const SpaceQuery query{to_place("start", start), to_place("goal", goal)};
+            const py::gil_scoped_release others_may_run;
+            return planner.plan(query);
+          },
+          py::arg("start"), py::arg("goal"), "From rest at start to rest at goal, (x, y, z) [m].")
+      .def(
+          "curves",
+          [](SpacePlanner& planner, const py::object& start) -> py::object {
+            const auto region = planner.region_of(to_place("start", start));
+            if (!region) return py::none();
+            using py::literals::operator""_a;
+            return py::dict("counts"_a = count_curves(region->curves()),
+                            "curves"_a = corners_of(region->curves()));
+          },
+          py::arg("start"),
+          "What tells classes apart where one comes from start, or None: how many curves of each "
+          "kind and what is none, and their corners.")
+      .def(
+          "surface", [](const SpacePlanner& p, int most) { return surface_of(p.field(), most); },
+          py::arg("most"), "For pictures: centres of about so many solid cells beside open ones.")
+      .def_property_readonly("resolution_m",
+                             [](const SpacePlanner& p) { return p.field().resolution_m(); })
+      .def_property_readonly(
+          "bounds",
+          [](const SpacePlanner& p) {
+            return py::make_tuple(p.field().bounds().min(), p.field().bounds().max());
+          },
+          "The lowest and the highest corner of where the robot may be.");
+}
+
+}  // namespace mocha
