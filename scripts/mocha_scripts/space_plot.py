@@ -27,7 +27,8 @@ def curve_points(kind, corners, bounds):
 def draw_plan(planner, curves, plan, options):
     """Writes the picture that the options name."""
     bounds = np.array(planner.bounds)
-    surface = np.array(planner.surface(MOST_POINTS)).reshape(-1, 3)
+    surface = np.array(planner.surface()).reshape(-1, 3)
+    surface = surface[::1 + len(surface) // MOST_POINTS]
     figure = plt.figure(figsize=(15, 7))
     for column, (elevation, azimuth) in enumerate(VIEWS, 1):
         axes = figure.add_subplot(1, 2, column, projection="3d", computed_zorder=False)

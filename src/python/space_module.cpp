@@ -87,36 +87,12 @@ py::dict sample_curve(const SpaceCandidate& candidate, double step_s) {
   return py::dict("time_s"_a = time_s, "place_m"_a = place, "speed_mps"_a = speed_mps);
 }
 
-/// Centres of solid cells beside open ones, evenly thinned out to about `most`.
-std::vector<Eigen::Vector3d> surface_of(const VoxelDistanceField& field, int most) {
-  std::vector<Eigen::Vector3d> centres;
-  const double cell_m = field.resolution_m();
-  Eigen::Vector3i at;
-  for (at.z() = 0; at.z() < field.size().z(); ++at.z()) {
-    for (at.y() = 0; at.y() < field.size().y(); ++at.y()) {
-      for (at.x() = 0; at.x() < field.size().x(); ++at.x()) {
-        const auto distances = field.of_cell(at);
-        if (distances.largest_m > 0.0 || distances.mean_m < -cell_m) continue;
-        centres.push_back(field.bounds().min() +
-                          cell_m * (at.cast<double>().array() + 0.5).matrix());
-      }
-    }
-  }
-  const std::size_t stride = 1 + centres.size() / static_cast<std::size_t>(std::max(1, most));
-  std::vector<Eigen::Vector3d> some;
-  for (std::size_t i = 0; i < centres.size(); i += stride) some.push_back(centres[i]);
-  return some;
-}
-
 void add_candidate(py::module_& module) {
   py::class_<SpaceCandidate>(module, "SpaceCandidate", "One way through space, of its own class.")
       .def_property_readonly(
           "certified", [](const SpaceCandidate& c) { return c.reason == PlanReason::kSolved; })
       .def_property_readonly(
-          "outcome",
-          [](const SpaceCandidate& c) {
-            return c.violation ? describe(c.violation) : std::string(to_text(c.reason));
-          },
+          "outcome", [](const SpaceCandidate& c) { return outcome(c); },
           "\"solved\", or why it is not certified.")
       .def_readonly("cost", &SpaceCandidate::cost)
       .def_property_readonly(
@@ -181,8 +157,8 @@ Bad arguments raise ValueError; a map that cannot be used, RuntimeError.)")
           "What tells classes apart where one comes from start, or None: how many curves of each "
           "kind and what is none, and their corners.")
       .def(
-          "surface", [](const SpacePlanner& p, int most) { return surface_of(p.field(), most); },
-          py::arg("most"), "For pictures: centres of about so many solid cells beside open ones.")
+          "surface", [](const SpacePlanner& p) { return p.field().surface(); },
+          "For pictures: the centres of solid cells beside open ones.")
       .def_property_readonly("resolution_m",
                              [](const SpacePlanner& p) { return p.field().resolution_m(); })
       .def_property_readonly(

@@ -25,6 +25,9 @@ struct SpaceCandidate {
   PiecewisePolynomial<3, 3> curve;  ///< from rest to rest; empty where there is none
 };
 
+/// In a few words: solved, what is violated, or why there is no curve.
+std::string outcome(const SpaceCandidate& candidate);
+
 /// What planning in space gives: candidates of pairwise different classes, cheapest certified
 /// first.
 struct SpacePlan {

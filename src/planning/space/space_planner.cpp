@@ -46,51 +46,56 @@ SpacePlanner::SpacePlanner(std::shared_ptr<const VoxelDistanceField> field,
     : field_(std::move(field)), options_(options), optimizer_(options) {}
 
 std::shared_ptr<const SpaceRegion> SpacePlanner::region_of(const Eigen::Vector3d& start) {
+  if (!field_->bounds().contains(start)) return nullptr;
   for (const auto& region : regions_) {
     if (region->contains(start)) return region;
   }
-  auto voxels =
-      solid_voxels(*field_, options_.required_clearance_m(), start, options_.escape_radius_m);
+  auto voxels = solid_voxels(*field_, options_.required_clearance_m(), start);
   if (!voxels) return nullptr;
   regions_.push_back(
       std::make_shared<SpaceRegion>(*field_, options_.required_clearance_m(), std::move(*voxels)));
   return regions_.back();
 }
 
-PlanReason SpacePlanner::fault_of(const SpaceQuery& query) const {
-  if (!query.start.allFinite() || !query.goal.allFinite() || query.start == query.goal)
-    return PlanReason::kInvalidInput;
-  if (field_->distance_bound(query.start) <= options_.radius_m) return PlanReason::kStartOccupied;
-  if (field_->distance_bound(query.goal) < options_.required_clearance_m())
-    return PlanReason::kGoalOccupied;
-  return PlanReason::kSolved;
+/// Whether nothing can be planned, and why.
+bool SpacePlanner::is_refused(const SpaceQuery& query, SpacePlan& plan) const {
+  if (!query.start.allFinite() || !query.goal.allFinite() || query.start == query.goal) {
+    plan.reason = PlanReason::kInvalidInput;
+    plan.message = "start and goal have to be finite and different";
+    return true;
+  }
+  const auto is_occupied = [&](const char* name, const Eigen::Vector3d& place, double required_m) {
+    const double distance_m = field_->distance_bound(place);
+    if (distance_m >= required_m) return false;
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "the %s %s has %.3f m to the nearest obstacle or to what is unknown, needs %.3f m", name,
+        coordinates(place).c_str(), distance_m, required_m);
+    plan.message = text;
+    return true;
+  };
+  plan.reason = PlanReason::kStartOccupied;
+  if (is_occupied("start", query.start, options_.required_clearance_m())) return true;
+  plan.reason = PlanReason::kGoalOccupied;
+  return is_occupied("goal", query.goal, options_.required_clearance_m());
+}
+
+std::vector<SpacePath> SpacePlanner::paths_for(const SpaceQuery& query,
+                                               const SpaceRegion& region) const {
+  const SpacePathOptions options{{options_.required_clearance_m(), 0.0},
+                                 query.classes > 0 ? query.classes : options_.classes,
+                                 options_.longest_ratio,
+                                 {options_.prm_samples, kSeed, options_.prm_reach_m}};
+  return find_space_paths(*field_, region, query.start, query.goal, options, query.should_stop);
 }
 
 SpacePlan SpacePlanner::plan(const SpaceQuery& query) {
   SpacePlan plan;
-  plan.reason = fault_of(query);
-  if (plan.reason == PlanReason::kInvalidInput)
-    plan.message = "start and goal have to be finite and different";
-  if (plan.reason == PlanReason::kStartOccupied || plan.reason == PlanReason::kGoalOccupied) {
-    const Eigen::Vector3d& place =
-        plan.reason == PlanReason::kStartOccupied ? query.start : query.goal;
-    char text[128];
-    std::snprintf(text, sizeof text,
-                  " has %.3f m to the nearest obstacle; the robot's radius is %.3f m",
-                  field_->distance_bound(place), options_.radius_m);
-    plan.message = coordinates(place) + text;
-  }
-  if (plan.reason != PlanReason::kSolved) return plan;
+  if (is_refused(query, plan)) return plan;
   const auto region = region_of(query.start);
-  std::vector<SpacePath> paths;
-  if (region) {
-    paths = find_space_paths(*field_, *region, query.start, query.goal,
-                             {{options_.required_clearance_m(), options_.escape_radius_m},
-                              options_.classes,
-                              options_.longest_ratio,
-                              {options_.prm_samples, kSeed, options_.prm_reach_m}},
-                             query.should_stop);
-  }
+  const std::vector<SpacePath> paths =
+      region ? paths_for(query, *region) : std::vector<SpacePath>();
   if (paths.empty()) {
     plan.reason = query.should_stop() ? PlanReason::kBudgetExhausted : PlanReason::kNoPath;
     plan.message = "no path from " + coordinates(query.start) + " to " + coordinates(query.goal);
@@ -104,7 +109,7 @@ SpacePlan SpacePlanner::plan(const SpaceQuery& query) {
   keep_best_of_each_class(plan.candidates);
   const SpaceCandidate& best = plan.candidates.front();
   plan.reason = best.reason;
-  plan.message = is_certified(best) ? "solved" : describe(best.violation);
+  plan.message = outcome(best);
   return plan;
 }
 

@@ -7,6 +7,7 @@
 #include "planning/space/space_optimizer.h"
 #include "planning/space/space_plan.h"
 #include "planning/space/space_planner_options.h"
+#include "topology/space/space_paths.h"
 #include "topology/space/space_region.h"
 #include "world/distances/voxel_distance_field.h"
 
@@ -16,6 +17,7 @@ namespace mocha {
 struct SpaceQuery {
   Eigen::Vector3d start;
   Eigen::Vector3d goal;
+  int classes = 0;  ///< paths of different topology at most; 0: as the options say
   /// Ends the planning early; several threads may call it at once.
   std::function<bool()> should_stop = [] { return false; };
 };
@@ -35,7 +37,8 @@ class SpacePlanner {
   const VoxelDistanceField& field() const { return *field_; }
 
  private:
-  PlanReason fault_of(const SpaceQuery& query) const;
+  bool is_refused(const SpaceQuery& query, SpacePlan& plan) const;
+  std::vector<SpacePath> paths_for(const SpaceQuery& query, const SpaceRegion& region) const;
 
   const std::shared_ptr<const VoxelDistanceField> field_;
   const SpacePlannerOptions options_;

@@ -18,7 +18,6 @@ SpacePlannerOptions SpacePlannerOptions::from(const ParameterTable& values) {
   options.knot_travel_m = values.number("knot_travel");
   options.soft_margin_m = values.number("soft_margin");
   options.max_evaluations = values.integer("max_evaluations");
-  options.escape_radius_m = values.number("escape_radius");
   options.classes = values.integer("classes");
   options.longest_ratio = values.number("longest_ratio");
   options.prm_samples = values.integer("prm_samples");

@@ -21,7 +21,6 @@ struct SpacePlannerOptions {
   double knot_travel_m;
   double soft_margin_m;
   int max_evaluations;
-  double escape_radius_m;
   int classes;
   double longest_ratio;
   int prm_samples;

@@ -14,18 +14,6 @@ constexpr double kRateSlack =
 
 }  // namespace
 
-void Refusals::add(const std::string& reason, const std::string& detail) {
-  ++counts_[reason];
-  ++total_;
-  newest_ = detail.empty() ? reason : reason + " (" + detail + ")";
-}
-
-void Refusals::warn() {
-  if (total_ == warned_of_) return;
-  ROS_WARN_THROTTLE(10.0, "Refused: %s", newest_.c_str());
-  warned_of_ = total_;
-}
-
 ScanQueue::ScanQueue(std::string map_frame, double rate, double patience_s)
     : map_frame_(std::move(map_frame)), spacing_(kRateSlack / rate), patience_s_(patience_s) {}
 

@@ -7,13 +7,13 @@
 
 #include <Eigen/Geometry>
 #include <deque>
-#include <map>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "perception/sensor/planar_scan.h"
+#include "ros_bridge/inputs/refusals.h"
 
 namespace mocha {
 
@@ -24,24 +24,6 @@ struct Measurement {
   ros::Time last;   ///< time of the last beam
   std::variant<PlanarScan, std::vector<Eigen::Vector3f>> data;
   SweepPoses poses;  ///< in the map frame
-};
-
-/// Messages that were not used, counted by reason.
-class Refusals {
- public:
-  /// `reason` is counted; `detail`, as it was refused, is kept until the next one.
-  void add(const std::string& reason, const std::string& detail = "");
-  const std::map<std::string, int>& counts() const { return counts_; }
-  const std::string& newest() const { return newest_; }
-
-  /// Warns of the newest, if there are any since the last time; at most every ten seconds.
-  void warn();
-
- private:
-  std::map<std::string, int> counts_;
-  int total_ = 0;
-  int warned_of_ = 0;
-  std::string newest_;
 };
 
 /// Scans and clouds that wait for their transforms. What is malformed is refused at once.

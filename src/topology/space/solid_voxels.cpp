@@ -10,30 +10,6 @@ namespace {
 constexpr double kHalfDiagonal = 0.8660254037844387;  // of a cube
 constexpr std::uint8_t kOpen = 2;                     // not solid, not reached yet
 
-/// The open voxel whose centre is nearest to p, not farther than `radius_m` and two voxels.
-std::optional<int> nearest_open(const SolidVoxels& voxels, const Eigen::Vector3d& p,
-                                double radius_m) {
-  const Eigen::Vector3i around =
-      Eigen::Vector3i::Constant(2 + static_cast<int>(radius_m / voxels.resolution_m));
-  const Eigen::Vector3i middle = voxels.voxel_at(p);
-  const Eigen::Vector3i low = (middle - around).cwiseMax(0);
-  const Eigen::Vector3i high = (middle + around).cwiseMin((voxels.size.array() - 1).matrix());
-  std::optional<int> nearest;
-  double nearest_m = std::numeric_limits<double>::infinity();
-  Eigen::Vector3i at;
-  for (at.z() = low.z(); at.z() <= high.z(); ++at.z()) {
-    for (at.y() = low.y(); at.y() <= high.y(); ++at.y()) {
-      for (at.x() = low.x(); at.x() <= high.x(); ++at.x()) {
-        const double away_m = (voxels.centre(at) - p).norm();
-        if (voxels.solid[voxels.number(at)] != kOpen || away_m >= nearest_m) continue;
-        nearest_m = away_m;
-        nearest = voxels.number(at);
-      }
-    }
-  }
-  return nearest;
-}
-
 /// Marks as reached what is linked to the seed face to face, and all else that is open as solid.
 void reach_from(int seed, SolidVoxels& voxels) {
   const Eigen::Vector3i steps = voxels.steps();
@@ -56,7 +32,7 @@ void reach_from(int seed, SolidVoxels& voxels) {
 }  // namespace
 
 std::optional<SolidVoxels> solid_voxels(const VoxelDistanceField& field, double clearance_m,
-                                        const Eigen::Vector3d& seed, double escape_m) {
+                                        const Eigen::Vector3d& seed) {
   SolidVoxels voxels;
   voxels.resolution_m = field.resolution_m();
   voxels.origin = field.bounds().min();
@@ -79,9 +55,9 @@ std::optional<SolidVoxels> solid_voxels(const VoxelDistanceField& field, double 
       }
     }
   }
-  const auto first = nearest_open(voxels, seed, escape_m);
-  if (!first) return std::nullopt;
-  reach_from(*first, voxels);
+  const Eigen::Vector3i first = voxels.voxel_at(seed);
+  if (!voxels.contains(first) || voxels.solid[voxels.number(first)] != kOpen) return std::nullopt;
+  reach_from(voxels.number(first), voxels);
   return voxels;
 }
 

@@ -104,6 +104,21 @@ auto VoxelDistanceField::of_cell(const Eigen::Vector3i& cell) const -> CellDista
   return distances;
 }
 
+auto VoxelDistanceField::surface() const -> std::vector<Vector> {
+  std::vector<Vector> centres;
+  Eigen::Vector3i at;
+  for (at.z() = 0; at.z() < size().z(); ++at.z()) {
+    for (at.y() = 0; at.y() < size().y(); ++at.y()) {
+      for (at.x() = 0; at.x() < size().x(); ++at.x()) {
+        const CellDistances distances = of_cell(at);
+        if (distances.largest_m > 0.0 || distances.mean_m < -resolution_m_) continue;
+        centres.push_back(origin_ + resolution_m_ * (at.cast<double>().array() + 0.5).matrix());
+      }
+    }
+  }
+  return centres;
+}
+
 VoxelDistanceField::Sample VoxelDistanceField::sample(const Vector& p) const {
   const Vector at = cells_per_m_ * (p - origin_);
   if (is_inside(at)) return interpolated(at);

@@ -36,6 +36,9 @@ class VoxelDistanceField : public ObstacleField<3> {
   };
   CellDistances of_cell(const Eigen::Vector3i& cell) const;
 
+  /// The centres of the solid cells that are beside open ones [m], for pictures.
+  std::vector<Vector> surface() const;
+
  private:
   bool is_inside(const Vector& at) const {
     return (at.array() >= 0.0).all() && (at.array() <= corners_.array().cast<double>() - 1.0).all();

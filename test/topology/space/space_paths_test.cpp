@@ -19,7 +19,7 @@ class SpacePathsTest : public testing::Test {
   void use(const SpaceWorld& world) {
     world_ = world;
     field_ = std::make_unique<VoxelDistanceField>(world.grid, VoxelDistanceField::Solid::kOccupied);
-    auto voxels = solid_voxels(*field_, kClearance_m, world.start, 0.5);
+    auto voxels = solid_voxels(*field_, kClearance_m, world.start);
     ASSERT_TRUE(voxels);
     region_ = std::make_unique<SpaceRegion>(*field_, kClearance_m, std::move(*voxels));
   }
@@ -27,7 +27,7 @@ class SpacePathsTest : public testing::Test {
   std::vector<SpacePath> find(double longest_ratio = 1.5, int classes = 8, int samples = 300,
                               std::uint64_t seed = 1) const {
     return find_space_paths(*field_, *region_, world_.start, world_.goal,
-                            {{kClearance_m, 0.5}, classes, longest_ratio, {samples, seed, 10.0}},
+                            {{kClearance_m, 0.0}, classes, longest_ratio, {samples, seed, 10.0}},
                             kGoOn);
   }
 

@@ -1,0 +1,130 @@
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/PointStamped.h>
+#include <ros/ros.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "ros_bridge/inputs/refusals.h"
+#include "ros_bridge/messages/space_conversions.h"
+#include "ros_bridge/runtime/parameters.h"
+#include "ros_bridge/runtime/robot_identity.h"
+#include "ros_bridge/runtime/run_node.h"
+#include "ros_bridge/rviz/space_drawing.h"
+#include "stack/space_planning.h"
+
+namespace mocha {
+namespace {
+
+constexpr double kDiagnosticsPeriod_s = 1.0;
+
+/// Plans in an OctoMap in three dimensions, when it is asked to: by its service, or by points
+/// clicked in rviz, each the goal from the one before.
+class SpacePlannerNode {
+ public:
+  SpacePlannerNode(ros::NodeHandle& node, const ParameterTable& values)
+      : identity_(robot_identity()),
+        values_(values),
+        planning_time_s_(values.number("planning_time")),
+        paths_(node.advertise<nav_msgs::Path>("space_path", 1, true)),
+        trajectories_(node.advertise<mocha_ugv::SpaceTrajectory>("space_trajectory", 1, true)),
+        markers_(node.advertise<visualization_msgs::MarkerArray>("space_markers", 1, true)),
+        cells_(node.advertise<sensor_msgs::PointCloud2>("space_cells", 1, true)) {
+    if (values.text("map_file").empty())
+      throw ParameterError("parameter `map_file` is not set: no map to plan in");
+    planner_ = make_space_planner(values_, {});
+    cells_.publish(solid_cells_message(planner_->field(), identity_.map_frame, ros::Time::now()));
+    diagnostics_.setHardwareID(identity_.name);
+    diagnostics_.add("planning in space", this, &SpacePlannerNode::diagnose);
+    timer_ = node.createTimer(ros::Duration(kDiagnosticsPeriod_s),
+                              [this](const ros::TimerEvent&) { diagnostics_.update(); });
+    clicks_ = node.subscribe("clicked_point", 5, &SpacePlannerNode::on_click, this);
+    service_ = node.advertiseService("plan_in_space", &SpacePlannerNode::on_request, this);
+  }
+
+ private:
+  bool on_request(mocha_ugv::PlanInSpace::Request& request,
+                  mocha_ugv::PlanInSpace::Response& response) {
+    response = plan(from_message(request.start), from_message(request.goal), request.classes);
+    return true;
+  }
+
+  void on_click(const geometry_msgs::PointStamped& click) {
+    const Eigen::Vector3d place = from_message(click.point);
+    if (click.header.frame_id != identity_.map_frame || !place.allFinite()) {
+      refusals_.add("clicked_point: is not in the frame " + identity_.map_frame +
+                    ", or not finite");
+      return;
+    }
+    if (clicked_) plan(*clicked_, place, 0);
+    clicked_ = place;
+  }
+
+  mocha_ugv::PlanInSpace::Response plan(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
+                                        std::uint32_t classes) {
+    const ros::SteadyTime begin = ros::SteadyTime::now();
+    const auto should_stop = [&] {
+      return !ros::ok() || (ros::SteadyTime::now() - begin).toSec() > planning_time_s_;
+    };
+    const SpacePlan plan =
+        planner_->plan({start, goal, static_cast<int>(std::min(classes, 50u)), should_stop});
+    took_s_ = (ros::SteadyTime::now() - begin).toSec();
+    ++plans_;
+    solved_ += plan.reason == PlanReason::kSolved;
+    last_ = to_text(plan.reason) + (": " + plan.message);
+    const ros::Time now = ros::Time::now();
+    const auto response = to_message(plan, values_.number("radius"), identity_.map_frame, now);
+    paths_.publish(response.path);
+    trajectories_.publish(response.trajectory);
+    if (const auto region = planner_->region_of(start)) {
+      markers_.publish(
+          space_markers(plan, region->curves(), planner_->field(), identity_.map_frame, now));
+    }
+    if (response.success) {
+      ROS_INFO("%zu classes in %.0f ms, the cheapest of %.2f m in %.2f s",
+               response.candidates.size(), 1e3 * took_s_, response.candidates.front().length,
+               response.candidates.front().duration);
+    } else {
+      ROS_WARN("No plan: %s", last_.c_str());
+    }
+    return response;
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    status.summary(DiagnosticStatus::OK, plans_ == 0 ? "nothing was asked yet" : last_);
+    status.add("plans", plans_);
+    status.add("solved", solved_);
+    status.add("time of the last plan [s]", took_s_);
+    for (const auto& [reason, times] : refusals_.counts()) status.add("refused: " + reason, times);
+  }
+
+  const RobotIdentity identity_;
+  const ParameterTable values_;
+  const double planning_time_s_;
+  std::unique_ptr<SpacePlanner> planner_;
+  std::optional<Eigen::Vector3d> clicked_;
+  Refusals refusals_;
+  int plans_ = 0;
+  int solved_ = 0;
+  double took_s_ = 0.0;
+  std::string last_;
+
+  ros::Publisher paths_;
+  ros::Publisher trajectories_;
+  ros::Publisher markers_;
+  ros::Publisher cells_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::Timer timer_;
+  ros::Subscriber clicks_;
+  ros::ServiceServer service_;
+};
+
+}  // namespace
+}  // namespace mocha
+
+int main(int argc, char** argv) {
+  return mocha::run_node<mocha::SpacePlannerNode>(argc, argv, "space_planner");
+}
