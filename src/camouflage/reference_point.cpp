@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace mocha {
 namespace {
@@ -34,6 +35,16 @@ class ReferenceChooser {
       if (!apex || sparser) apex = there;
     }
     return apex;
+  }
+
+  /// Why the knot has no reference, not even one of its own.
+  ReferenceFault fault_at(int knot) const {
+    for (const int k : {knot, knot + 1}) {
+      // Written so that a step that is not finite counts, too.
+      if (!((path_.col(k) - path_.col(k - 1)).norm() > kLeastLeverage_m))
+        return ReferenceFault::kCoincidentPoints;
+    }
+    return ReferenceFault::kSharpBend;
   }
 
  private:
@@ -98,28 +109,28 @@ class ReferenceChooser {
 }  // namespace
 
 template <int D>
-std::optional<Eigen::Matrix<double, D, Eigen::Dynamic>> choose_references(
-    const Eigen::Matrix<double, D, Eigen::Dynamic>& path, const ObstacleField<D>& field,
-    double side_depth_m) {
+ReferencesOrFault<D> choose_references(const Eigen::Matrix<double, D, Eigen::Dynamic>& path,
+                                       const ObstacleField<D>& field, double side_depth_m) {
   const ReferenceChooser<D> chooser(path, field, side_depth_m);
   const int last = static_cast<int>(path.cols()) - 1;
-  Eigen::Matrix<double, D, Eigen::Dynamic> references(D, std::max(0, last - 1));
+  ReferencesOrFault<D> result;
+  result.references.resize(D, std::max(0, last - 1));
   for (int from = 0; from + 1 < last;) {
     int to = last;
     std::optional<Eigen::Matrix<double, D, 1>> reference;
     // Stretches overlap by one step, so that every interior knot lies strictly inside one of them.
     for (; to >= from + 2 && !reference; --to) reference = chooser.reference_for(from, to);
-    if (!reference) return std::nullopt;
+    if (!reference) return {{}, chooser.fault_at(from + 1), path.col(from + 1)};
     ++to;
-    for (int k = from + 1; k < to; ++k) references.col(k - 1) = *reference;
+    for (int k = from + 1; k < to; ++k) result.references.col(k - 1) = *reference;
     from = to - 1;
   }
-  return references;
+  return result;
 }
 
-template std::optional<Eigen::Matrix2Xd> choose_references<2>(const Eigen::Matrix2Xd&,
-                                                              const ObstacleField<2>&, double);
-template std::optional<Eigen::Matrix3Xd> choose_references<3>(const Eigen::Matrix3Xd&,
-                                                              const ObstacleField<3>&, double);
+template ReferencesOrFault<2> choose_references<2>(const Eigen::Matrix2Xd&, const ObstacleField<2>&,
+                                                   double);
+template ReferencesOrFault<3> choose_references<3>(const Eigen::Matrix3Xd&, const ObstacleField<3>&,
+                                                   double);
 
 }  // namespace mocha

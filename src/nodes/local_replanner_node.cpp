@@ -6,6 +6,7 @@
 #include <mocha_ugv/Trajectory.h>
 #include <ros/ros.h>
 
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -18,6 +19,7 @@
 #include "ros_bridge/messages/committed_trajectory_conversions.h"
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/status_conversions.h"
+#include "ros_bridge/outputs/effort_diagnostics.h"
 #include "ros_bridge/outputs/local_outputs.h"
 #include "ros_bridge/runtime/parameters.h"
 #include "ros_bridge/runtime/robot_identity.h"
@@ -32,6 +34,12 @@ namespace mocha {
 namespace {
 
 constexpr double kMapBorder_m = 2.0;
+
+std::set<FallbackKind> in_last_plan(const PlanningRecord& record) {
+  std::set<FallbackKind> kinds;
+  for (const Fallback& each : record.last().fallbacks) kinds.insert(each.kind);
+  return kinds;
+}
 
 /// Promises what the global planner planned and makes detours around what moves: plans and
 /// predictions in, proposals and leases out.
@@ -105,9 +113,11 @@ class LocalReplannerNode {
   void step(ros::Time now) {
     now_ = now;
     diagnostics_.update();
+    const ros::SteadyTime begun = ros::SteadyTime::now();
     const auto output = replanning_.step(now.toSec(), knowledge(now));
+    const double took_s = (ros::SteadyTime::now() - begun).toSec();
     if (output.scene)
-      local_.show(output, replanning_.replanner().plan(), output.scene->confident, now);
+      local_.show(output, took_s, replanning_.replanner().plan(), output.scene->confident, now);
     else
       local_.clear(now);
     if (output.row == Row::kLastResort)
@@ -173,13 +183,18 @@ class LocalReplannerNode {
   }
 
   void report(ros::Time now, const LocalReplanner::Output& output) {
-    const bool news = output.row != row_ || output.reason != reason_ || output.message != text_;
+    const std::set<FallbackKind> fallbacks = in_last_plan(local_.record());
+    const bool news = output.row != row_ || output.reason != reason_ || output.message != text_ ||
+                      fallbacks != fallbacks_;
+    fallbacks_ = fallbacks;
     row_ = output.row;
     reason_ = output.reason;
     text_ = output.message;
     if (!news) return;
-    statuses_.publish(
-        to_message(row_, to_message(reason_, output.violation, text_, identity_.map_frame, now)));
+    mocha_ugv::PlannerStatus status =
+        to_message(reason_, output.violation, text_, identity_.map_frame, now);
+    status.effort = to_message(local_.record());
+    statuses_.publish(to_message(row_, status));
     if (!text_.empty())
       ROS_INFO_THROTTLE(1.0, "%s: %s: %s", identity_.name.c_str(), to_text(reason_), text_.c_str());
   }
@@ -198,7 +213,7 @@ class LocalReplannerNode {
     status.addf("age of the predictions", "%.2f s", age_s);
     status.add("predictions refused", predictions_.refused());
     status.add("last refusal of predictions", predictions_.refusal());
-    status.add("local plans made", counts.made);
+    diagnose_effort(local_.record(), status);
     status.add("local plans solved", counts.solved);
     status.add("local plans followed", counts.followed);
     status.add("switches of class while swerving", counts.switches);
@@ -251,6 +266,7 @@ class LocalReplannerNode {
   Row row_ = Row::kKeep;
   PlanReason reason_ = PlanReason::kNoPose;
   std::string text_ = "starting";
+  std::set<FallbackKind> fallbacks_;  // of the last local plan
   StepLoop loop_;
 };
 

@@ -11,13 +11,15 @@ constexpr std::size_t kKept = 200;  // plans
 
 }  // namespace
 
-PlanningEffort PlanningEffort::of(const PlanResult& result) {
+PlanningEffort PlanningEffort::of(const Selection& selection, double took_s) {
   PlanningEffort effort;
-  effort.took_s = result.took_s;
-  effort.classes = static_cast<int>(result.candidates.size());
-  for (const PlanCandidate& candidate : result.candidates) {
+  effort.took_s = took_s;
+  effort.classes = static_cast<int>(selection.candidates.size());
+  for (const PlanCandidate& candidate : selection.candidates) {
     effort.evaluations += candidate.evaluations;
-    if (candidate.selected) effort.parameterisation = candidate.parameterisation;
+    if (!candidate.selected) continue;
+    effort.parameterisation = candidate.parameterisation;
+    effort.fallbacks = candidate.fallbacks;
   }
   return effort;
 }
@@ -25,6 +27,11 @@ PlanningEffort PlanningEffort::of(const PlanResult& result) {
 void PlanningRecord::add(const PlanningEffort& effort) {
   last_ = effort;
   ++plans_;
+  for (auto& [kind, count] : fallbacks_) count.in_last_plan = false;
+  for (const Fallback& fallback : effort.fallbacks) {
+    FallbackCount& count = fallbacks_[fallback.kind];
+    count = {count.plans + 1, fallback.place, true};
+  }
   times_s_.push_back(effort.took_s);
   if (times_s_.size() > kKept) times_s_.pop_front();
 }

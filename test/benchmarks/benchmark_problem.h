@@ -56,7 +56,7 @@ Eigen::Matrix<double, D, Eigen::Dynamic> table_references(const BenchmarkWorld<D
                                                           const TableOptions& options) {
   const auto references = choose_references<D>(knots.path, world.field, options.travel_m);
   if (!references) throw std::runtime_error("table1: no reference points");
-  return *references;
+  return references.references;
 }
 
 /// J of paper (14) from rest to rest; with camouflage, or with waypoints as variables.

@@ -7,7 +7,7 @@ import unittest
 
 import rospy
 import rostest
-from mocha_ugv.msg import Candidates, GroundTruth
+from mocha_ugv.msg import Candidates, GroundTruth, ReplannerStatus
 from visualization_msgs.msg import MarkerArray
 
 from simulated_robot import SimulatedRobot
@@ -34,6 +34,8 @@ class DetourTest(unittest.TestCase):
         self.plan = []  # the first global one
         self.rejoin_points = []  # of the detours that were driven
         rospy.Subscriber("/fleet_simulator/ground_truth", GroundTruth, self.on_truth)
+        self.efforts = []  # of local plans
+        rospy.Subscriber("/ugv1/replanner_status", ReplannerStatus, lambda message: self.efforts.append(message.status.effort))
         rospy.Subscriber("/ugv1/candidates", Candidates, self.on_candidates)
         rospy.Subscriber("/ugv1/local_markers", MarkerArray, self.on_markers)
         self.robot = SimulatedRobot()
@@ -69,6 +71,18 @@ class DetourTest(unittest.TestCase):
         for place in self.driven:
             if place[0] > rejoin_point[0]:
                 self.assertLess(off_line(place, self.plan), 0.2, "it left the plan again")
+        self.says_what_planning_took()
+
+    def says_what_planning_took(self):
+        self.robot.run(1.5)  # diagnostics come every second
+        effort, told = self.efforts[-1], self.robot.values["ugv1/local_replanner: detours"]
+        self.assertGreater(effort.plans, 0)
+        self.assertGreater(effort.time, 0.0)
+        self.assertGreaterEqual(int(told["plans made"]), effort.plans)
+        self.assertIn("the last plan fell back on", told)
+        for fallback in effort.fallbacks:
+            words = fallback.message.rsplit(", at ", 1)[0]
+            self.assertGreaterEqual(int(told["plans with " + words]), fallback.plans)
 
 
 if __name__ == "__main__":

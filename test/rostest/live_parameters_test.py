@@ -17,6 +17,7 @@ from dynamic_reconfigure.client import Client
 from dynamic_reconfigure.msg import BoolParameter, Config, DoubleParameter, IntParameter, StrParameter
 from dynamic_reconfigure.srv import Reconfigure
 from geometry_msgs.msg import PoseStamped, Vector3Stamped
+from mocha_ugv.msg import Fallback, PlannerStatus
 from mocha_ugv.srv import PlanTrajectory
 
 from map_listener import MapListener
@@ -41,7 +42,9 @@ class LiveParametersTest(unittest.TestCase):
         cls.diagnosed = {}  # node -> newest values in diagnostics
         cls.maps = MapListener()
         cls.errors = []
+        cls.fallbacks = []  # of the newest status
         rospy.Subscriber("/diagnostics", DiagnosticArray, cls.on_diagnostics)
+        rospy.Subscriber("/ugv1/planner_status", PlannerStatus, cls.on_status)
         rospy.Subscriber("/ugv1/tracking_error", Vector3Stamped, cls.errors.append)
         cls.plan = rospy.ServiceProxy("/ugv1/plan", PlanTrajectory)
         cls.robot.start()
@@ -51,6 +54,10 @@ class LiveParametersTest(unittest.TestCase):
         for status in message.status:
             node = status.name.split(":")[0].split("/")[-1]
             cls.diagnosed.setdefault(node, {}).update((entry.key, entry.value) for entry in status.values)
+
+    @classmethod
+    def on_status(cls, status):
+        cls.fallbacks = status.effort.fallbacks
 
     def client(self, node="global_planner"):
         client = Client("/ugv1/" + node, timeout=TIMEOUT_S)
@@ -100,6 +107,20 @@ class LiveParametersTest(unittest.TestCase):
         self.assertEqual(rospy.get_param("/ugv1/global_planner/roadmap"), "visibility_prm")
         client.update_configuration({"classes": 6, "roadmap": "best"})
         self.assertGreater(self.ways(), 1)
+
+    def test_says_that_paths_are_the_lattices_where_the_roadmap_has_too_few_samples(self):
+        words = "a path of the lattice: the roadmap led nowhere"
+        self.client().update_configuration({"roadmap": "visibility_prm", "prm_samples": 1})
+        answer = self.plan(PoseStamped(), pose(*BEHIND_THE_BLOCK))
+        self.assertEqual([one.kind for one in answer.candidates[0].status.effort.fallbacks if one.message.startswith(words)], [Fallback.LATTICE_PATH])
+        before = int(self.diagnosed["global_planner"]["plans with " + words])
+        self.robot.send(*BEHIND_THE_BLOCK)
+        self.robot.run_until(lambda: int(self.diagnosed["global_planner"]["plans with " + words]) > before, PATIENCE_S, "diagnostics count it")
+        self.assertIn(words + ", at (", self.diagnosed["global_planner"]["the last plan fell back on"])
+        told = [one for one in self.fallbacks if one.kind == Fallback.LATTICE_PATH]
+        self.assertEqual([(one.in_last_plan, one.plans > before) for one in told], [(True, True)])
+        self.robot.client.cancel_all_goals()
+        self.robot.run_until(self.robot.done, PATIENCE_S, "it gives the goal up")
 
     def test_a_tolerance_counts_for_the_next_look_at_a_goal(self):
         x, y = self.robot.place()

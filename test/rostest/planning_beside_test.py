@@ -153,6 +153,9 @@ class PlanningBesideTest(unittest.TestCase):
         wait_until(lambda: self.diagnosed.get("plans made") == str(effort.plans), "diagnostics", 20.0)
         self.assertAlmostEqual(float(self.diagnosed["planning time, last (s)"]), effort.time, places=3)
         self.assertIn(self.diagnosed["parameterisation of the last plan"], ("camouflage", "waypoints"))
+        falls_back = [each for each in effort.fallbacks if each.in_last_plan]
+        self.assertEqual(any("plain waypoints" in each.message for each in falls_back), effort.parameterisation == PlanningEffort.WAYPOINTS)
+        self.assertEqual(set(self.diagnosed["the last plan fell back on"].split("; ")), {each.message for each in falls_back} or {"nothing"})
 
 
 if __name__ == "__main__":

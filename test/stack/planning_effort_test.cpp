@@ -13,18 +13,53 @@ PlanningEffort that_took(double time_s) {
 
 TEST(PlanningEffort, CountsAllCandidatesAndNamesTheParameterisationOfTheSelected) {
   PlanResult result;
-  result.took_s = 0.02;
   result.candidates.resize(3);
   for (int i = 0; i < 3; ++i) result.candidates[i].evaluations = 10 * (i + 1);
   result.candidates[0].parameterisation = Parameterisation::kCamouflage;
   result.candidates[1].parameterisation = Parameterisation::kWaypoints;
-  EXPECT_EQ(PlanningEffort::of(result).parameterisation, Parameterisation::kNone);
+  EXPECT_EQ(PlanningEffort::of(result, 0.02).parameterisation, Parameterisation::kNone);
   result.candidates[1].selected = true;
-  const PlanningEffort effort = PlanningEffort::of(result);
+  const PlanningEffort effort = PlanningEffort::of(result, 0.02);
   EXPECT_EQ(effort.took_s, 0.02);
   EXPECT_EQ(effort.classes, 3);
   EXPECT_EQ(effort.evaluations, 60);
   EXPECT_EQ(effort.parameterisation, Parameterisation::kWaypoints);
+}
+
+TEST(PlanningEffort, HasWhatTheSelectedFellBackOn) {
+  Selection selection;
+  selection.candidates.resize(2);
+  selection.candidates[0].fallbacks = {{FallbackKind::kSharpBend, {1.0, 2.0}}};
+  selection.candidates[1].selected = true;
+  EXPECT_TRUE(PlanningEffort::of(selection, 0.0).fallbacks.empty());
+  std::swap(selection.candidates[0], selection.candidates[1]);
+  selection.candidates[0].selected = false;
+  selection.candidates[1].selected = true;
+  ASSERT_EQ(PlanningEffort::of(selection, 0.0).fallbacks.size(), 1u);
+  EXPECT_EQ(PlanningEffort::of(selection, 0.0).fallbacks[0].kind, FallbackKind::kSharpBend);
+}
+
+TEST(PlanningRecord, CountsThePlansThatFellBack) {
+  PlanningRecord record;
+  PlanningEffort effort;
+  record.add(effort);
+  EXPECT_TRUE(record.fallbacks().empty());
+  effort.fallbacks = {{FallbackKind::kSharpBend, {1.0, 2.0}}};
+  record.add(effort);
+  effort.fallbacks = {{FallbackKind::kSharpBend, {3.0, 4.0}},
+                      {FallbackKind::kLatticePath, {5.0, 6.0}}};
+  record.add(effort);
+  effort.fallbacks = {{FallbackKind::kLatticePath, {7.0, 8.0}}};
+  record.add(effort);
+  ASSERT_EQ(record.fallbacks().size(), 2u);
+  const FallbackCount& bends = record.fallbacks().at(FallbackKind::kSharpBend);
+  EXPECT_EQ(bends.plans, 2);
+  EXPECT_EQ(bends.place, Vector2(3.0, 4.0));
+  EXPECT_FALSE(bends.in_last_plan);
+  const FallbackCount& lattice = record.fallbacks().at(FallbackKind::kLatticePath);
+  EXPECT_EQ(lattice.plans, 2);
+  EXPECT_EQ(lattice.place, Vector2(7.0, 8.0));
+  EXPECT_TRUE(lattice.in_last_plan);
 }
 
 TEST(PlanningRecord, HasTheLastTheMedianAndTheLongest) {

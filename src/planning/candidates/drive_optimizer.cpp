@@ -62,6 +62,11 @@ bool is_sound(const DriveQuery& query) {
              0.0;
 }
 
+Fallback fallback_of(const ReferencesOrFault<2>& chosen) {
+  const bool bends = chosen.fault == ReferenceFault::kSharpBend;
+  return {bends ? FallbackKind::kSharpBend : FallbackKind::kCoincidentPoints, chosen.place};
+}
+
 /// The cost at the weights of the options, so that drives found with different effort compare.
 void undo(const Effort& effort, OptimizedTrajectory<2, 3>& found) {
   found.cost = 0.0;
@@ -93,9 +98,10 @@ Effort raised(const Effort& effort, const Violation& violation, double factor) {
     default:
       more.limit_weight *= factor;
   }
-  more.camouflage = effort.camouflage && effort.spacing == 1.0;
+  if (!more.fallback && effort.spacing != 1.0)
+    more.fallback = Fallback{FallbackKind::kCamouflageGivenUp, violation.place};
   more.spacing = std::max(0.4, 0.7 * effort.spacing);
-  if (!more.camouflage) more.speed *= 0.8;
+  if (more.fallback) more.speed *= 0.8;
   return more;
 }
 
@@ -103,14 +109,15 @@ const MotionLimits& DriveOptimizer::limits_of(const DriveQuery& query) const {
   return query.limits ? *query.limits : robot_.limits;
 }
 
-std::shared_ptr<const KnotMap<2>> DriveOptimizer::knot_map(const Eigen::Matrix2Xd& path,
-                                                           const ObstacleField<2>& field,
-                                                           bool camouflage) const {
+std::shared_ptr<const KnotMap<2>> DriveOptimizer::knot_map(
+    const Eigen::Matrix2Xd& path, const ObstacleField<2>& field,
+    std::optional<Fallback>& fallback) const {
   const Eigen::Matrix2Xd prey = path.middleCols(1, path.cols() - 2);
-  if (camouflage) {
-    const auto references = choose_references(path, field, options_.knot_travel_m);
-    if (references)
-      return std::make_shared<CamouflageMap<2>>(prey, *references, options_.knot_travel_m);
+  if (!fallback) {
+    const auto chosen = choose_references(path, field, options_.knot_travel_m);
+    if (chosen)
+      return std::make_shared<CamouflageMap<2>>(prey, chosen.references, options_.knot_travel_m);
+    fallback = fallback_of(chosen);
   }
   return std::make_shared<WaypointMap<2>>(prey);
 }
@@ -230,18 +237,18 @@ PlanarMinco::State DriveOptimizer::end_state(const DriveQuery& query) const {
   return end;
 }
 
-OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(const DriveQuery& query,
-                                                         const ObstacleField<2>& field,
-                                                         const Effort& effort,
-                                                         const std::function<bool()>& should_stop,
-                                                         double most_work) const {
+OptimizedDrive DriveOptimizer::optimize_drive(const DriveQuery& query,
+                                              const ObstacleField<2>& field, const Effort& effort,
+                                              const std::function<bool()>& should_stop,
+                                              double most_work) const {
   if (!is_sound(query)) return {};
   const InitialKnots<2> knots = initial_knots(query, field, effort);
   const double a_max = limits_of(query).max_acceleration;
   TrajectoryObjective<2, 3>::Options options;
   options.start = query.start;
   options.end = end_state(query);
-  options.knot_map = knot_map(knots.path, field, effort.camouflage);
+  std::optional<Fallback> fallback = effort.fallback;
+  options.knot_map = knot_map(knots.path, field, fallback);
   options.effort_weight = options_.weight_effort / (a_max * a_max);
   options.duration_cost = query.duration_cost;
   options.penalties = penalties(query, field, effort);
@@ -251,9 +258,11 @@ OptimizedTrajectory<2, 3> DriveOptimizer::optimize_drive(const DriveQuery& query
   const bool many = objective.pieces() >= kManyPieces;
   const double affordable = std::max(1.0, most_work / objective.pieces());
   const int evaluations = static_cast<int>(std::min<double>(options_.max_evaluations, affordable));
-  auto found = optimize<2, 3>(
-      objective, objective.initial(knots.durations_s),
-      {evaluations, many ? kRelativeModelledCost : kRelativeCost, should_stop, many});
+  OptimizedDrive found{optimize<2, 3>(objective, objective.initial(knots.durations_s),
+                                      {evaluations, many ? kRelativeModelledCost : kRelativeCost,
+                                       should_stop, many}),
+                       {}};
+  if (fallback) found.fallbacks.push_back(*fallback);
   undo(effort, found);
   return found;
 }

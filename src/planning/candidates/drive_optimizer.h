@@ -10,6 +10,7 @@
 #include "optimization/moving_penalty.h"
 #include "optimization/trajectory_optimizer.h"
 #include "planning/candidates/drive_options.h"
+#include "planning/candidates/fallback.h"
 #include "planning/candidates/speed_profile.h"
 #include "safety/certificate.h"
 #include "world/obstacle_field.h"
@@ -43,8 +44,9 @@ struct DriveQuery {
 /// How hard the optimiser tries to satisfy the constraints; raised step by step where a result is
 /// not certified.
 struct Effort {
-  bool from_found = true;        ///< begins at what was found before, if anything was
-  bool camouflage = true;        ///< one variable a knot, else waypoints
+  bool from_found = true;  ///< begins at what was found before, if anything was
+  /// Why waypoints are the variables; nothing: camouflage, one variable a knot.
+  std::optional<Fallback> fallback = std::nullopt;
   double spacing = 1.0;          ///< of the knots, relative to the options
   double obstacle_weight = 1.0;  ///< the same, as all that follows
   double moving_weight = 1.0;
@@ -55,6 +57,11 @@ struct Effort {
 /// More effort, by the factor, where it is missing: against obstacles, against what moves, or
 /// against the limits of the robot.
 Effort raised(const Effort& effort, const Violation& violation, double factor);
+
+/// A drive, and what the optimiser fell back on to find it.
+struct OptimizedDrive : OptimizedTrajectory<2, 3> {
+  std::vector<Fallback> fallbacks;
+};
 
 /// Turns front-end paths into smooth drives: MINCO through knots that camouflage moves, paper (14).
 class DriveOptimizer {
@@ -67,10 +74,9 @@ class DriveOptimizer {
   /// 1e6, fewer than two points, no length. Cost and terms are those at the weights of the options,
   /// whatever the effort. `most_work`: evaluations of single pieces; one of the whole is made in
   /// any case.
-  OptimizedTrajectory<2, 3> optimize_drive(
-      const DriveQuery& query, const ObstacleField<2>& field, const Effort& effort,
-      const std::function<bool()>& should_stop,
-      double most_work = std::numeric_limits<double>::infinity()) const;
+  OptimizedDrive optimize_drive(const DriveQuery& query, const ObstacleField<2>& field,
+                                const Effort& effort, const std::function<bool()>& should_stop,
+                                double most_work = std::numeric_limits<double>::infinity()) const;
 
  private:
   const MotionLimits& limits_of(const DriveQuery& query) const;
@@ -83,8 +89,10 @@ class DriveOptimizer {
   InitialKnots<2> initial_knots(const DriveQuery& query, const ObstacleField<2>& field,
                                 const Effort& effort) const;
   PlanarMinco::State end_state(const DriveQuery& query) const;
+  /// Sets the fallback where there is none yet, and camouflage is not possible.
   std::shared_ptr<const KnotMap<2>> knot_map(const Eigen::Matrix2Xd& path,
-                                             const ObstacleField<2>& field, bool camouflage) const;
+                                             const ObstacleField<2>& field,
+                                             std::optional<Fallback>& fallback) const;
   std::vector<std::unique_ptr<Penalty<2>>> penalties(const DriveQuery& query,
                                                      const ObstacleField<2>& field,
                                                      const Effort& effort) const;

@@ -51,9 +51,10 @@ class CostToBeat {
   std::atomic<double> cost_{std::numeric_limits<double>::infinity()};
 };
 
-/// Slower than optimised by a factor, and dearer by what that costs.
-OptimizedTrajectory<2, 3> slowed(OptimizedTrajectory<2, 3> found, double factor,
-                                 const DurationCost& cost) {
+/// Slower than optimised by a factor, as the proof failed at the place, and dearer by what that
+/// costs.
+OptimizedDrive slowed(OptimizedDrive found, double factor, const Vector2& place,
+                      const DurationCost& cost) {
   const double optimised_s = found.curve.duration();
   const double more = cost.value(factor * optimised_s) - cost.value(optimised_s);
   found.curve = found.curve.stretched(factor);
@@ -61,16 +62,17 @@ OptimizedTrajectory<2, 3> slowed(OptimizedTrajectory<2, 3> found, double factor,
   for (auto& [name, value] : found.terms) {
     if (name == "duration") value += more;
   }
+  if (factor > kRepairable) found.fallbacks.push_back({FallbackKind::kSlowedDown, place});
   return found;
 }
 
 }  // namespace
 
-bool CandidatePipeline::prove(const StartManeuver& start_maneuver,
-                              const OptimizedTrajectory<2, 3>& found,
+bool CandidatePipeline::prove(const StartManeuver& start_maneuver, const OptimizedDrive& found,
                               PlanCandidate& candidate) const {
   candidate.cost = found.cost;
   candidate.parameterisation = found.parameterisation;
+  candidate.fallbacks = found.fallbacks;
   candidate.terms = found.terms;
   if (!rules_.assemble(start_maneuver, found.curve, candidate)) return false;
   rules_.certify(candidate);
@@ -85,8 +87,9 @@ void CandidatePipeline::climb(const Seed& seed, const StartManeuver& start_maneu
   const EffortLadder ladder = rules_.ladder();
   Effort effort;
   for (int attempt = 1; attempt <= ladder.attempts && !should_stop(); ++attempt) {
-    const auto found = optimizer_.optimize_drive(query, obstacles_, effort, should_stop,
-                                                 ladder.most_work - best.work);
+    auto found = optimizer_.optimize_drive(query, obstacles_, effort, should_stop,
+                                           ladder.most_work - best.work);
+    if (seed.fallback) found.fallbacks.push_back(*seed.fallback);
     best.evaluations += found.evaluations;
     best.work += static_cast<double>(found.evaluations) * found.curve.pieces();
     PlanCandidate tried = best;
@@ -97,7 +100,8 @@ void CandidatePipeline::climb(const Seed& seed, const StartManeuver& start_maneu
     const double cost = tried.cost;
     const double slower = is_free_in_time(query) ? slow_down(tried.violation) : 1.0;
     if (slower > 1.0 && slower <= (attempt == ladder.attempts ? kSlowest : kRepairable))
-      prove(start_maneuver, slowed(found, slower, query.duration_cost), tried);
+      prove(start_maneuver, slowed(found, slower, tried.violation.place, query.duration_cost),
+            tried);
     const Violation violation = tried.violation;
     if (tried.met <= best.met) best = std::move(tried);
     if (best.met == rules_.wanted() || !rules_.may_be_mended(violation)) return;

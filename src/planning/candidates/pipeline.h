@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "planning/candidates/drive_optimizer.h"
@@ -17,8 +18,9 @@ struct Seed {
   /// When the path is at its points, from 0, increasing; empty: as early as the limits allow.
   std::vector<double> times_s;
   Signature signature;
-  double least_cost;  ///< of every candidate of this class, proved
-  bool driven;        ///< the class of what is being driven
+  double least_cost;                                ///< of every candidate of this class, proved
+  bool driven;                                      ///< the class of what is being driven
+  std::optional<Fallback> fallback = std::nullopt;  ///< of the search for the path
 };
 
 /// How often a drive is optimised until it is certified, and how much harder each time.
@@ -82,7 +84,7 @@ class CandidatePipeline {
              const std::function<bool()>& should_stop,
              const std::function<bool(double)>& is_too_dear, PlanCandidate& best) const;
   /// Makes a candidate's motion of what was found, and certifies it; false where that is none.
-  bool prove(const StartManeuver& start_maneuver, const OptimizedTrajectory<2, 3>& found,
+  bool prove(const StartManeuver& start_maneuver, const OptimizedDrive& found,
              PlanCandidate& candidate) const;
 
   const DriveOptimizer& optimizer_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "optimization/trajectory_objective.h"
+#include "planning/candidates/fallback.h"
 #include "safety/certificate.h"
 #include "safety/requirement.h"
 #include "topology/signatures/h_signature.h"
@@ -42,6 +43,7 @@ struct PlanCandidate {
   double cost = 0.0;  ///< J, paper (14), and what comes before and after the drive
   CostTerms terms;    ///< sum up to the cost
   Parameterisation parameterisation = Parameterisation::kNone;  ///< of the motion
+  std::vector<Fallback> fallbacks;                              ///< the same
   int evaluations = 0;
   double work = 0.0;          ///< evaluations of single pieces
   std::vector<Vector2> path;  ///< of the front end, from which the optimisation started

@@ -123,11 +123,14 @@ Seed FrontEnd::seed_of(const HomotopyPath& path, std::vector<StartManeuver> star
     least_s = std::min(
         least_s, start.duration_s + least_duration_s(path.least_length_m, speed, robot_.limits));
   }
-  return {std::move(start_maneuvers),
-          {},
-          path.signature,
-          weight_duration_ * least_s,
-          path.signature == driven};
+  Seed seed{std::move(start_maneuvers),
+            {},
+            path.signature,
+            weight_duration_ * least_s,
+            path.signature == driven};
+  if (path.narrowest_on_lattice)
+    seed.fallback = Fallback{FallbackKind::kLatticePath, *path.narrowest_on_lattice};
+  return seed;
 }
 
 Drives FrontEnd::drives_of(const PlanQuery& query) const {

@@ -21,6 +21,9 @@ static_assert(static_cast<int>(ViolatedTerm::kZoneSpeed) == Status::ZONE_SPEED);
 using EffortMessage = mocha_ugv::PlanningEffort;
 static_assert(static_cast<int>(Parameterisation::kCamouflage) == EffortMessage::CAMOUFLAGE);
 static_assert(static_cast<int>(Parameterisation::kWaypoints) == EffortMessage::WAYPOINTS);
+using FallbackMessage = mocha_ugv::Fallback;
+static_assert(static_cast<int>(FallbackKind::kLatticePath) == FallbackMessage::LATTICE_PATH);
+static_assert(static_cast<int>(FallbackKind::kSlowedDown) == FallbackMessage::SLOWED_DOWN);
 using ReplannerStatus = mocha_ugv::ReplannerStatus;
 static_assert(static_cast<int>(Row::kEmergencyStop) == ReplannerStatus::EMERGENCY_STOP);
 static_assert(static_cast<int>(Row::kDetourLikely) == ReplannerStatus::DETOUR_LIKELY);
@@ -60,6 +63,17 @@ GoalExecutive::Report from_message(const Status& status) {
   return report;
 }
 
+FallbackMessage to_message(FallbackKind kind, const FallbackCount& count) {
+  FallbackMessage message;
+  message.kind = static_cast<uint8_t>(kind);
+  message.message = describe(Fallback{kind, count.place});
+  message.place.x = count.place.x();
+  message.place.y = count.place.y();
+  message.plans = count.plans;
+  message.in_last_plan = count.in_last_plan;
+  return message;
+}
+
 EffortMessage to_message(const PlanningRecord& record) {
   EffortMessage effort;
   effort.time = record.last().took_s;
@@ -70,6 +84,8 @@ EffortMessage to_message(const PlanningRecord& record) {
   effort.classes = record.last().classes;
   effort.evaluations = record.last().evaluations;
   effort.parameterisation = static_cast<uint8_t>(record.last().parameterisation);
+  for (const auto& [kind, count] : record.fallbacks())
+    effort.fallbacks.push_back(to_message(kind, count));
   return effort;
 }
 
@@ -110,6 +126,8 @@ mocha_ugv::Candidate to_message(const PlanCandidate& candidate, const std::strin
       to_message(candidate.reason, candidate.violation, outcome(candidate), frame, stamp);
   message.status.effort.evaluations = candidate.evaluations;
   message.status.effort.parameterisation = static_cast<uint8_t>(candidate.parameterisation);
+  for (const Fallback& fallback : candidate.fallbacks)
+    message.status.effort.fallbacks.push_back(to_message(fallback.kind, {0, fallback.place, true}));
   if (!candidate.motion.empty()) {
     message.duration = candidate.motion.end_time() - candidate.motion.start_time();
     message.length = candidate.motion.length_m();

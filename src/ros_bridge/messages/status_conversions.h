@@ -25,6 +25,9 @@ mocha_ugv::ReplannerStatus to_message(Row row, const mocha_ugv::PlannerStatus& s
 mocha_ugv::Candidate to_message(const PlanCandidate& candidate, const std::string& frame,
                                 ros::Time stamp);
 
+/// Counts no plans where it is of a candidate.
+mocha_ugv::Fallback to_message(FallbackKind kind, const FallbackCount& count);
+
 mocha_ugv::PlanningEffort to_message(const PlanningRecord& record);
 
 /// "camouflage", "waypoints", or "nothing".

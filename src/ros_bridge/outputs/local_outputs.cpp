@@ -27,14 +27,14 @@ LocalOutputs::LocalOutputs(ros::NodeHandle& node, const RobotIdentity& identity,
       plans_(node.advertise<mocha_ugv::Trajectory>("local_trajectory", 2, true)),
       drawings_(node.advertise<visualization_msgs::MarkerArray>("local_markers", 2, true)) {}
 
-void LocalOutputs::show(const LocalReplanner::Output& output, const Motion& plan,
+void LocalOutputs::show(const LocalReplanner::Output& output, double took_s, const Motion& plan,
                         const Predictions& predictions, ros::Time now) {
   if (output.local) {
     counts_.switches +=
         output.swerves && output.local->switches_class && now.toSec() < local_.rejoins_s;
     counts_.followed += output.swerves;
     counts_.solved += output.local->reason == PlanReason::kSolved;
-    ++counts_.made;
+    record_.add(PlanningEffort::of(*output.local, took_s));
     local_ = *output.local;
     planned_at_ = now;
     if (output.swerves) publish(plan, now);
@@ -58,8 +58,8 @@ void LocalOutputs::publish(const Motion& plan, ros::Time now) {
 
 void LocalOutputs::draw(const Motion& plan, const Predictions& predictions, ros::Time now) {
   const bool swerves = follows(plan, local_) && now.toSec() < local_.rejoins_s;
-  const bool failed =
-      counts_.made > 0 && !follows(plan, local_) && (now - planned_at_).toSec() < kFailureShown_s;
+  const bool failed = record_.plans() > 0 && !follows(plan, local_) &&
+                      (now - planned_at_).toSec() < kFailureShown_s;
   if (predictions.empty() && !swerves && !failed) {
     clear(now);
     return;

@@ -9,6 +9,7 @@
 
 #include "planning/replanner/local_replanner.h"
 #include "ros_bridge/runtime/robot_identity.h"
+#include "stack/planning_effort.h"
 #include "world/moving_obstacle.h"
 
 namespace mocha {
@@ -20,8 +21,7 @@ class LocalOutputs {
   using Predictions = std::vector<std::shared_ptr<const MovingObstacle>>;
 
   struct Counts {
-    int made = 0;      ///< local plans
-    int solved = 0;    ///< of these
+    int solved = 0;    ///< local plans
     int followed = 0;  ///< of these, for they could be promised
     int switches = 0;  ///< to another class before the plan was met again
   };
@@ -30,13 +30,15 @@ class LocalOutputs {
   LocalOutputs(ros::NodeHandle& node, const RobotIdentity& identity, const RobotModel& model,
                double horizon_s);
 
-  /// What a step decided, and the plan that is followed since.
-  void show(const LocalReplanner::Output& output, const Motion& plan,
+  /// What a step decided, which took `took_s`, and the plan that is followed since.
+  void show(const LocalReplanner::Output& output, double took_s, const Motion& plan,
             const Predictions& predictions, ros::Time now);
   /// Nothing is known to be going on.
   void clear(ros::Time now);
 
   const Counts& counts() const { return counts_; }
+  /// What local plans took; each the whole step.
+  const PlanningRecord& record() const { return record_; }
   /// What the newest local plan said.
   const std::string& message() const { return local_.message; }
 
@@ -51,6 +53,7 @@ class LocalOutputs {
   ros::Publisher plans_;
   ros::Publisher drawings_;
   Counts counts_;
+  PlanningRecord record_;
   LocalPlan local_;  // the newest
   ros::Time planned_at_;
   ros::Time drawn_at_;

@@ -10,6 +10,7 @@
 
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/status_conversions.h"
+#include "ros_bridge/outputs/effort_diagnostics.h"
 #include "ros_bridge/rviz/candidate_drawing.h"
 #include "ros_bridge/rviz/markers.h"
 
@@ -92,7 +93,7 @@ void PlannerOutputs::adopt(const Motion& motion, ros::Time now, PlanKind kind) {
 }
 
 void PlannerOutputs::show_candidates(const PlanResult& result, const Goal& goal, ros::Time now) {
-  record_.add(PlanningEffort::of(result));
+  record_.add(PlanningEffort::of(result, result.took_s));
   mocha_ugv::Candidates message;
   message.header.stamp = now;
   message.header.frame_id = identity_.map_frame;
@@ -105,15 +106,8 @@ void PlannerOutputs::show_candidates(const PlanResult& result, const Goal& goal,
 }
 
 void PlannerOutputs::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
-  status.add("plans made", record_.plans());
   status.add("plans adopted", adopted_);
-  status.add("planning time, last (s)", record_.last().took_s);
-  status.add("planning time, median (s)", record_.quantile_s(0.5));
-  status.add("planning time, 95 % (s)", record_.quantile_s(0.95));
-  status.add("planning time, longest (s)", record_.quantile_s(1.0));
-  status.add("classes of paths in the last plan", record_.last().classes);
-  status.add("evaluations in the last plan", record_.last().evaluations);
-  status.add("parameterisation of the last plan", to_text(record_.last().parameterisation));
+  diagnose_effort(record_, status);
 }
 
 void PlannerOutputs::report(PlanReason reason, const Violation& violation, const std::string& what,

@@ -36,7 +36,7 @@ class PlannerOutputs {
   /// success.
   void report(PlanReason reason, const Violation& violation, const std::string& text,
               const GoalQueue::Progress& progress, ros::Time now);
-  /// How many plans there were, and what they took.
+  /// How many plans there were, what they took, and what they fell back on.
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   /// The last report.
   PlanReason reason() const { return reason_; }

@@ -17,22 +17,36 @@ namespace {
 
 constexpr int kSpare = 2;  // paths that are shortened, for each one that is kept
 
-/// From the start that `cost` knows, no dearer than `most_m`.
-std::vector<std::vector<Vector2>> paths_of_classes(const TravelCost& cost,
-                                                   const ClassRoadmap& classes,
-                                                   const HomotopyPathQuery& query,
-                                                   const HomotopyPathOptions& options,
-                                                   double most_m) {
-  std::vector<std::vector<Vector2>> paths;
+HomotopyPath through(std::vector<Vector2> points) {
+  HomotopyPath path;
+  path.points = std::move(points);
+  return path;
+}
+
+/// The point with the least room.
+Vector2 narrowest(const std::vector<Vector2>& points, const ObstacleField<2>& field) {
+  return *std::min_element(points.begin(), points.end(), [&](const Vector2& a, const Vector2& b) {
+    return field.distance_bound(a) < field.distance_bound(b);
+  });
+}
+
+/// From the start that `cost` knows, no dearer than `most_m`; only their points.
+std::vector<HomotopyPath> paths_of_classes(const TravelCost& cost, const ClassRoadmap& classes,
+                                           const HomotopyPathQuery& query,
+                                           const HomotopyPathOptions& options, double most_m) {
+  std::vector<HomotopyPath> paths;
   for (auto& path :
        shortest_classes(classes.roadmap, classes.cuts,
                         {kSpare * options.classes, options.longest_ratio / kShortened, most_m}))
-    paths.push_back(std::move(path.points));
+    paths.push_back(through(std::move(path.points)));
   if (!paths.empty() || query.below_driven) return paths;
   // Too narrow for the roadmap's circles, perhaps; the lattice is slower, but misses nothing.
   GridPath path = find_grid_path(cost.static_map(), cost.start(), query.goal, cost, kLatticeStep_m,
                                  query.should_stop);
-  if (path.outcome == GridPath::Outcome::kFound) paths.push_back(std::move(path.points));
+  if (path.outcome != GridPath::Outcome::kFound) return paths;
+  const Vector2 tight = narrowest(path.points, cost.static_map().field());
+  paths.push_back(through(std::move(path.points)));
+  paths.back().narrowest_on_lattice = tight;
   return paths;
 }
 
@@ -45,22 +59,19 @@ std::vector<Vector2> still_drivable(std::vector<Vector2> path, const TravelCost&
 }
 
 /// Makes each path as cheap as its class allows.
-std::vector<HomotopyPath> paths_along(const std::vector<std::vector<Vector2>>& paths,
-                                      const TravelCost& cost, const Cuts<2>& cuts,
-                                      const HomotopyPathQuery& query) {
+void shorten(std::vector<HomotopyPath>& paths, const TravelCost& cost, const Cuts<2>& cuts,
+             const HomotopyPathQuery& query) {
   const Signature before = signature_of<2>(cuts, query.lead_in);
-  std::vector<HomotopyPath> found(paths.size());
   tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
     if (query.should_stop()) return;
-    HomotopyPath& found_path = found[i];
-    found_path.points = with_shortcuts(paths[i], cost, cuts);
+    HomotopyPath& found_path = paths[i];
+    found_path.points = with_shortcuts(found_path.points, cost, cuts);
     found_path.cost_m = cost_of(found_path.points, cost);
     found_path.signature = signature_of<2>(cuts, found_path.points);
     std::transform(before.begin(), before.end(), found_path.signature.begin(),
                    found_path.signature.begin(), std::plus<int>());
     found_path.least_length_m = least_length_m(found_path.points, cost.static_map().field());
   });
-  return found;
 }
 
 /// Of each class the cheapest, cheapest first; what is driven stays in any case.
@@ -104,9 +115,9 @@ HomotopyPaths find_homotopy_paths(const StaticMap& static_map, const HomotopyPat
   ClassRoadmap classes =
       class_roadmap(cost, query.goal, options.roadmap, options.prm_samples, query.should_stop);
   if (query.should_stop()) return result;
-  std::vector<std::vector<Vector2>> paths = paths_of_classes(cost, classes, query, options, most_m);
-  if (query.lead_in.size() == 1 && !driven.empty()) paths.push_back(driven);
-  std::vector<HomotopyPath> found = paths_along(paths, cost, classes.cuts, query);
+  std::vector<HomotopyPath> found = paths_of_classes(cost, classes, query, options, most_m);
+  if (query.lead_in.size() == 1 && !driven.empty()) found.push_back(through(driven));
+  shorten(found, cost, classes.cuts, query);
   if (query.should_stop()) return result;
   result.paths = std::move(found);
   if (!query.driven.empty()) result.driven = signature_of<2>(classes.cuts, query.driven);

@@ -29,6 +29,8 @@ struct HomotopyPath {
   double cost_m = 0.0;          ///< length, longer where it is narrow
   double least_length_m = 0.0;  ///< of any path of this class, proved
   Signature signature;          ///< lead-in included
+  /// Where the path is narrowest, if it is one of the lattice, as the roadmap led nowhere [m].
+  std::optional<Vector2> narrowest_on_lattice = std::nullopt;
 };
 
 struct HomotopyPaths {

@@ -215,6 +215,38 @@ TEST_F(DriveOptimizerTest, SharpCornersComeOutWithinTheYawRate) {
   EXPECT_FALSE(violation) << describe(violation);
 }
 
+TEST_F(DriveOptimizerTest, SaysWhyAndWhereWaypointsAreItsVariables) {
+  const auto fallen_back = [&](const DriveQuery& query, const Effort& effort = {}) {
+    const auto found = optimizer_.optimize_drive(query, open_, effort, kGoOn);
+    const bool waypoints = found.parameterisation == Parameterisation::kWaypoints;
+    EXPECT_EQ(waypoints, !found.fallbacks.empty());
+    EXPECT_LE(found.fallbacks.size(), 1u);
+    return found.fallbacks;
+  };
+  const DriveQuery straight = from_rest({{0.0, 0.0}, {6.0, 0.0}});
+  EXPECT_TRUE(fallen_back(straight).empty());
+  const auto expect = [&](const std::vector<double>& knots, FallbackKind kind, double place) {
+    DriveQuery query = straight;
+    const auto points = static_cast<Eigen::Index>(knots.size());
+    query.found_before.emplace();
+    query.found_before->path = Eigen::Matrix2Xd::Zero(2, points);
+    query.found_before->path.row(0) = Eigen::Map<const Eigen::RowVectorXd>(knots.data(), points);
+    query.found_before->durations_s = Eigen::VectorXd::Constant(points - 1, 3.0);
+    const auto fallbacks = fallen_back(query);
+    ASSERT_EQ(fallbacks.size(), 1u);
+    EXPECT_EQ(fallbacks[0].kind, kind);
+    EXPECT_EQ(fallbacks[0].place, Vector2(place, 0.0));
+  };
+  expect({0.0, 2.0, 2.0, 6.0}, FallbackKind::kCoincidentPoints, 2.0);
+  expect({0.0, 2.0, 4.0, 2.0, 6.0}, FallbackKind::kSharpBend, 4.0);
+  Effort effort;
+  effort.fallback = Fallback{FallbackKind::kCamouflageGivenUp, {1.0, 2.0}};
+  const auto given_up = fallen_back(straight, effort);
+  ASSERT_EQ(given_up.size(), 1u);
+  EXPECT_EQ(given_up[0].kind, FallbackKind::kCamouflageGivenUp);
+  EXPECT_EQ(given_up[0].place, Vector2(1.0, 2.0));
+}
+
 TEST(Effort, IsRaisedWhereItIsMissing) {
   Violation clearance;
   clearance.term = ViolatedTerm::kClearance;
@@ -226,8 +258,13 @@ TEST(Effort, IsRaisedWhereItIsMissing) {
   EXPECT_GT(raised(first, yaw_rate, 20.0).limit_weight, first.limit_weight);
   EXPECT_EQ(raised(first, yaw_rate, 20.0).obstacle_weight, first.obstacle_weight);
   Effort effort = first;
-  for (int i = 0; i < 4; ++i) effort = raised(effort, yaw_rate, 20.0);
-  EXPECT_FALSE(effort.camouflage);  // in the end the knots move freely
+  for (int i = 0; i < 4; ++i) {
+    yaw_rate.place.x() = i;
+    effort = raised(effort, yaw_rate, 20.0);
+    EXPECT_EQ(effort.fallback.has_value(), i > 0);
+  }
+  EXPECT_EQ(effort.fallback->kind, FallbackKind::kCamouflageGivenUp);  // the knots move freely
+  EXPECT_EQ(effort.fallback->place.x(), 1.0);
   EXPECT_LT(effort.speed, 1.0);
   EXPECT_GT(effort.spacing, 0.3);
 }

@@ -90,7 +90,8 @@ TEST(DriveRobustness, StrangeQueriesGetAReasonAndNothingThatIsNotANumber) {
     const DriveQuery query = queries.next();
     const PrimitiveField<2> field(queries.obstacles(), 1.0);
     Effort effort;
-    effort.camouflage = queries.camouflage();
+    if (!queries.camouflage())
+      effort.fallback = Fallback{FallbackKind::kCamouflageGivenUp, Vector2::Zero()};
     const auto result = optimizer.optimize_drive(query, field, effort, [] { return false; });
     EXPECT_LE(result.evaluations, options.max_evaluations);
     if (result.curve.pieces() == 0) {

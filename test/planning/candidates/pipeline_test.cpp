@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
 
 #include "planning/worlds.h"
@@ -124,6 +125,41 @@ TEST_F(PipelineTest, DrivesALittleSlowerInsteadOfOptimisingAgain) {
   for (const auto& [name, value] : candidate.terms) sum += value;
   EXPECT_NEAR(candidate.cost, sum, 1e-9) << "what it takes longer counts";
   EXPECT_GE(candidate.cost, candidate.motion.end_time());
+}
+
+TEST_F(PipelineTest, SaysWhatItFellBackOn) {
+  Violation unclear = violated(ViolatedTerm::kClearance, 0.1, 0.2);
+  unclear.place = {3.0, 4.0};
+  rules_.verdicts = {{Name::kNone, unclear}, {Name::kDetour, {}}};
+  EXPECT_TRUE(found().fallbacks.empty()) << "camouflage is tried twice";
+  rules_.verdicts = {{Name::kNone, unclear}, {Name::kNone, unclear}, {Name::kDetour, {}}};
+  Seed of_lattice = seed(0.0, false);
+  of_lattice.fallback = Fallback{FallbackKind::kLatticePath, {1.0, 2.0}};
+  const auto fallbacks = pipeline_.optimise_and_certify(of_lattice, kGoOn).fallbacks;
+  ASSERT_EQ(fallbacks.size(), 2u);
+  EXPECT_EQ(fallbacks[0].kind, FallbackKind::kCamouflageGivenUp);
+  EXPECT_EQ(fallbacks[0].place, Vector2(3.0, 4.0));
+  EXPECT_EQ(fallbacks[1].kind, FallbackKind::kLatticePath);
+  EXPECT_EQ(fallbacks[1].place, Vector2(1.0, 2.0));
+}
+
+TEST_F(PipelineTest, SaysThatItDrivesMuchSlowerThanOptimised) {
+  for (const double excess : {1.02, 1.5}) {
+    const Violation fast = violated(ViolatedTerm::kSpeed, excess, 1.0);
+    rules_.durations_s.clear();
+    rules_.verdicts = {{Name::kNone, fast},
+                       {Name::kNone, fast},
+                       {Name::kNone, fast},
+                       {Name::kNone, fast},
+                       {Name::kDetour, {}}};
+    if (excess < 1.1) rules_.verdicts = {{Name::kNone, fast}, {Name::kDetour, {}}};
+    const PlanCandidate candidate = found();
+    ASSERT_EQ(candidate.reason, PlanReason::kSolved);
+    const bool says =
+        std::any_of(candidate.fallbacks.begin(), candidate.fallbacks.end(),
+                    [](const Fallback& each) { return each.kind == FallbackKind::kSlowedDown; });
+    EXPECT_EQ(says, excess > 1.1) << "a little slower is nothing to speak of";
+  }
 }
 
 TEST_F(PipelineTest, WhatCannotWinIsStoppedUnlessItIsDriven) {

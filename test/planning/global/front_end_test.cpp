@@ -44,6 +44,21 @@ TEST_F(FrontEndTest, FindsASeedOnEitherSideWithWhatItCostsAtLeast) {
   }
 }
 
+TEST_F(FrontEndTest, SaysThatAPathIsOneOfTheLattice) {
+  fill_box(grid_, {-0.2, -4.0}, {0.2, 4.0});
+  fill_box(grid_, {-0.2, 1.5}, {0.2, 2.4}, OccupancyGrid::kFree);
+  ASSERT_FALSE(seeds().list.empty());
+  for (const Seed& seed : seeds().list) EXPECT_FALSE(seed.fallback);
+  PlannerOptions few = options_;
+  few.roadmap = RoadmapKind::kVisibilityPrm;
+  few.prm_samples = 1;
+  const GlobalSeeds found = FrontEnd(robot_, few).seeds(query_, {static_map_of(grid_), {}}, kGoal);
+  ASSERT_EQ(found.list.size(), 1u);
+  ASSERT_TRUE(found.list[0].fallback);
+  EXPECT_EQ(found.list[0].fallback->kind, FallbackKind::kLatticePath);
+  EXPECT_LT((found.list[0].fallback->place - Vector2(0.0, 1.95)).norm(), 0.4) << "in the gap";
+}
+
 TEST_F(FrontEndTest, GivesUpBeforeTheSearchOnlyWhereNothingCanLead) {
   const Vector2 start(-2.0, 0.0);
   const auto may_reach = [&] { return front_end_.may_reach(start, kGoal, *static_map_of(grid_)); };

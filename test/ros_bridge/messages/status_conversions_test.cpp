@@ -129,6 +129,47 @@ TEST(StatusConversions, EveryRowHasItsOwnNumberAndWords) {
   EXPECT_EQ(words.size(), static_cast<std::size_t>(Row::kLastResort) + 1);
 }
 
+TEST(StatusConversions, EveryFallbackHasItsOwnNumberAndWords) {
+  using Message = mocha_ugv::Fallback;
+  const std::pair<FallbackKind, int> numbers[] = {
+      {FallbackKind::kLatticePath, Message::LATTICE_PATH},
+      {FallbackKind::kCoincidentPoints, Message::COINCIDENT_POINTS},
+      {FallbackKind::kSharpBend, Message::SHARP_BEND},
+      {FallbackKind::kCamouflageGivenUp, Message::CAMOUFLAGE_GIVEN_UP},
+      {FallbackKind::kSlowedDown, Message::SLOWED_DOWN}};
+  ASSERT_EQ(std::size(numbers), kFallbackKinds.size());
+  for (const auto& [kind, number] : numbers) {
+    const Message message = to_message(kind, {3, {1.5, -2.0}, true});
+    EXPECT_EQ(message.kind, number);
+    EXPECT_EQ(message.message, describe(Fallback{kind, {1.5, -2.0}}));
+    EXPECT_EQ(message.place.x, 1.5);
+    EXPECT_EQ(message.place.y, -2.0);
+    EXPECT_EQ(message.plans, 3u);
+    EXPECT_TRUE(message.in_last_plan);
+  }
+}
+
+TEST(StatusConversions, TheEffortHasAllThatPlansFellBackOn) {
+  PlanningRecord record;
+  PlanningEffort effort;
+  effort.took_s = 0.5;
+  effort.parameterisation = Parameterisation::kWaypoints;
+  effort.fallbacks = {{FallbackKind::kCamouflageGivenUp, {1.0, 2.0}}};
+  record.add(effort);
+  effort.fallbacks = {{FallbackKind::kSharpBend, {3.0, 4.0}}};
+  record.add(effort);
+  const auto message = to_message(record);
+  EXPECT_EQ(message.time, 0.5);
+  EXPECT_EQ(message.plans, 2u);
+  EXPECT_EQ(message.parameterisation, mocha_ugv::PlanningEffort::WAYPOINTS);
+  ASSERT_EQ(message.fallbacks.size(), 2u);
+  EXPECT_EQ(message.fallbacks[0].kind, mocha_ugv::Fallback::SHARP_BEND);
+  EXPECT_TRUE(message.fallbacks[0].in_last_plan);
+  EXPECT_EQ(message.fallbacks[0].plans, 1u);
+  EXPECT_EQ(message.fallbacks[1].kind, mocha_ugv::Fallback::CAMOUFLAGE_GIVEN_UP);
+  EXPECT_FALSE(message.fallbacks[1].in_last_plan);
+}
+
 TEST(StatusConversions, AViolationAtNoTimeOfRosIsNoProblem) {
   Violation strange = violation();
   for (const double time_s : {-1.0, 1e300, std::numeric_limits<double>::infinity(),
@@ -146,6 +187,7 @@ TEST(StatusConversions, CandidatesCarryCostsAndPath) {
   candidate.terms = {{"duration", 10.0}, {"obstacle", 2.5}};
   candidate.motion = straight_drive(1.7e9, {0.0, 0.0}, 0.0, 8.0, 0.9, 0.5);
   candidate.selected = true;
+  candidate.fallbacks = {{FallbackKind::kLatticePath, {4.0, 0.0}}};
   const auto message = to_message(candidate, "map", kStamp);
   EXPECT_EQ(message.signature.size(), 2u);
   EXPECT_EQ(message.signature[1], -1);
@@ -159,6 +201,9 @@ TEST(StatusConversions, CandidatesCarryCostsAndPath) {
   EXPECT_GT(message.path.size(), 20u);
   EXPECT_NEAR(message.path.back().x, 8.0, 1e-6);
   EXPECT_EQ(message.status.message, "solved");
+  ASSERT_EQ(message.status.effort.fallbacks.size(), 1u);
+  EXPECT_EQ(message.status.effort.fallbacks[0].kind, mocha_ugv::Fallback::LATTICE_PATH);
+  EXPECT_EQ(message.status.effort.fallbacks[0].plans, 0u);
 }
 
 TEST(StatusConversions, ACandidateWithoutAMotionSaysWhy) {

@@ -244,6 +244,26 @@ TEST(HomotopyPaths, WithinALimitAreTheDrivenOneAndThoseThatMayBeMuchCheaper) {
   }
 }
 
+TEST(HomotopyPaths, SayWhetherTheyAreOfTheLattice) {
+  Hall hall;
+  fill_box(hall.grid, {4.0, 0.0}, {4.2, 4.6});
+  fill_box(hall.grid, {4.0, 5.4}, {4.2, 6.0});
+  for (const RoadmapKind kind : kinds()) {
+    for (const HomotopyPath& path : hall.paths(kind).paths) EXPECT_FALSE(path.narrowest_on_lattice);
+  }
+  hall.options.prm_samples = 1;
+  HomotopyPaths found = hall.paths(RoadmapKind::kVisibilityPrm);
+  expect_sound(found, hall.query, *static_map_of(hall.grid), hall.options);
+  ASSERT_EQ(found.paths.size(), 1u);
+  ASSERT_TRUE(found.paths[0].narrowest_on_lattice);
+  EXPECT_LT((*found.paths[0].narrowest_on_lattice - Vector2(4.1, 5.0)).norm(), 0.3);
+  hall.query.driven = {{1.0, 3.0}, {4.1, 5.0}, {7.0, 3.0}};
+  hall.query.below_driven = 1.0;
+  found = hall.paths(RoadmapKind::kVisibilityPrm);
+  ASSERT_EQ(found.paths.size(), 1u);
+  EXPECT_FALSE(found.paths[0].narrowest_on_lattice) << "it is the one that is driven";
+}
+
 TEST(HomotopyPaths, CountWhatIsDrivenBeforeThemForTheirClass) {
   Hall hall;
   fill_box(hall.grid, {3.9, 2.9}, {4.1, 3.1});
