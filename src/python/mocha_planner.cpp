@@ -107,6 +107,14 @@ void add_types(py::module_& module) {
       .def_property_readonly(
           "path", [](const PlanCandidate& c) { return to_array(c.path); },
           "The path (n x 2) that it was made of.")
+      .def_property_readonly(
+          "fallbacks",
+          [](const PlanCandidate& c) {
+            py::list sentences;
+            for (const Fallback& each : c.fallbacks) sentences.append(describe(each));
+            return sentences;
+          },
+          "What was done in place of what is done as a rule, why and where.")
       .def_property_readonly("motion", &motion_of<PlanCandidate>, "A Motion, or None.");
   py::class_<PlanResult>(module, "Plan", "The cheapest certified motion, or why there is none.")
       .def_property_readonly("solved", &is_certified<PlanResult>)

@@ -63,6 +63,11 @@ class Planning(unittest.TestCase):
         np.testing.assert_allclose(selected.path[-1], (9.0, 3.0), atol=1e-6)
         self.assertEqual(len(plan(parameters={"classes": 1}).candidates), 1)
 
+    def test_candidates_say_what_planning_fell_back_on(self):
+        self.assertEqual(plan().candidates[0].fallbacks, [])
+        only, = plan(parameters={"roadmap": "visibility_prm", "prm_samples": 1}).candidates
+        self.assertTrue(any(each.startswith("a path of the lattice: ") for each in only.fallbacks), only.fallbacks)
+
     def test_rows_lie_above_each_other_from_the_origin_on(self):
         moved = plan(start=(21.0, -7.0, 0.0), goal=(29.0, -7.0), origin=(20.0, -10.0))
         self.assertTrue(moved.solved, moved.message)
