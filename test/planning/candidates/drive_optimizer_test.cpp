@@ -238,7 +238,7 @@ TEST_F(DriveOptimizerTest, SaysWhyAndWhereWaypointsAreItsVariables) {
     EXPECT_EQ(fallbacks[0].place, Vector2(place, 0.0));
   };
   expect({0.0, 2.0, 2.0, 6.0}, FallbackKind::kCoincidentPoints, 2.0);
-  expect({0.0, 2.0, 4.0, 2.0, 6.0}, FallbackKind::kSharpBend, 4.0);
+  expect({0.0, 2.0, 4.0, 2.0, 0.0}, FallbackKind::kSharpBend, 4.0);
   Effort effort;
   effort.fallback = Fallback{FallbackKind::kCamouflageGivenUp, {1.0, 2.0}};
   const auto given_up = fallen_back(straight, effort);
