@@ -73,8 +73,6 @@ class CommitmentKeeping {
   std::optional<std::vector<CommittedTrajectory>> fleet_news(double now_s);
 
   double lease_end_s() const { return lease_.end_s(); }
-  /// The proposer's number of the motion in force.
-  std::uint32_t committed_sequence() const { return committed_sequence_; }
   const Counts& counts() const { return counts_; }
 
  private:
