@@ -257,7 +257,7 @@ TEST(HomotopyPaths, SayWhetherTheyAreOfTheLattice) {
   ASSERT_EQ(found.paths.size(), 1u);
   ASSERT_TRUE(found.paths[0].narrowest_on_lattice);
   EXPECT_LT((*found.paths[0].narrowest_on_lattice - Vector2(4.1, 5.0)).norm(), 0.3);
-  hall.query.driven = {{1.0, 3.0}, {4.1, 5.0}, {7.0, 3.0}};
+  hall.query.driven = {{1.0, 3.0}, {3.5, 5.0}, {4.7, 5.0}, {7.0, 3.0}};
   hall.query.below_driven = 1.0;
   found = hall.paths(RoadmapKind::kVisibilityPrm);
   ASSERT_EQ(found.paths.size(), 1u);
