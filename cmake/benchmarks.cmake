@@ -11,6 +11,12 @@ endforeach()
 
 mocha_benchmark(space)
 target_link_libraries(benchmark_space octomap octomath)
+find_package(dynamicEDT3D QUIET)
+if(dynamicEDT3D_FOUND)  # as a peer
+  target_compile_definitions(benchmark_space PRIVATE MOCHA_WITH_DYNAMIC_EDT)
+  target_include_directories(benchmark_space SYSTEM PRIVATE ${DYNAMICEDT3D_INCLUDE_DIRS})
+  target_link_libraries(benchmark_space ${DYNAMICEDT3D_LIBRARIES})
+endif()
 
 mocha_benchmark(classes)
 target_link_libraries(benchmark_classes mocha_perception)

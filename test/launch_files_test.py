@@ -15,7 +15,7 @@ import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FILES = sorted((ROOT / "launch").glob("*.launch"))
-NEEDED = {"robot": "ugv3", "bag": "/drive.bag"}  # arguments without default
+NEEDED = {"robot": "ugv3", "bag": "/drive.bag", "map_file": "/house.bt"}  # arguments without default
 
 
 def arguments(path):

@@ -7,6 +7,7 @@ from mocha_scripts.svg import BLUE, DARK, GREY, PALE, Drawing
 
 ORDER = list(meanings.NODES)  # the data's way
 SIMULATION = {"base_emulator", "fleet_simulator"}
+APART = SIMULATION | {"space_planner"}  # no part of a robot's own stack
 MAIN_WAY = ["scan", "map", "map_updates", "predicted_obstacles", "global_trajectory", "proposed_trajectory", "committed_trajectory", "cmd_vel"]
 OUTSIDE = "outside"
 
@@ -42,7 +43,7 @@ class Picture(Drawing):
     def box(self, name, y):
         x = self.columns[name]
         head, _, tail = name.rpartition("_")
-        dashed = ' stroke-dasharray="4 3"' if name in SIMULATION | {OUTSIDE} else ""
+        dashed = ' stroke-dasharray="4 3"' if name in APART | {OUTSIDE} else ""
         self.add(f'<rect x="{x - BOX_WIDTH // 2}" y="{y}" width="{BOX_WIDTH}" height="{BOX_HEIGHT}" rx="5" fill="#ffffff" stroke="{DARK}"{dashed}/>')
         words = [head + "_", tail] if head else [name]
         for i, word in enumerate(words):

@@ -2,6 +2,9 @@
 // a folder as argument, their maps are written there as OctoMap files, too. Prints JSON.
 
 #include <octomap/octomap.h>
+#ifdef MOCHA_WITH_DYNAMIC_EDT
+#include <dynamicEDT3D/dynamicEDT3D.h>
+#endif
 
 #include <algorithm>
 #include <chrono>
@@ -12,6 +15,7 @@
 
 #include "benchmarks/median.h"
 #include "planning/space/space_planner.h"
+#include "world/distances/distance_transform.h"
 #include "world/space_worlds.h"
 
 namespace mocha {
@@ -40,6 +44,60 @@ void write_map(const VoxelGrid& grid, const std::string& path) {
   if (!tree.writeBinary(path)) std::fprintf(stderr, "%s cannot be written\n", path.c_str());
 }
 
+#ifdef MOCHA_WITH_DYNAMIC_EDT
+/// The distances of dynamicEDT3D at the same corners of cells, from the same sites: those that
+/// belong to a solid cell or to the rim, where ours are
+/// not positive.
+void measure_peer(const VoxelDistanceField& field) {
+  const Eigen::Vector3i corners = field.size().array() + 1;
+  constexpr double kRounding_m = 1e-5;
+  const double cell_m = field.resolution_m();
+  const auto ours_m = [&](int x, int y, int z) {
+    return field.sample(field.bounds().min() + cell_m * Eigen::Vector3d(x, y, z)).distance_m;
+  };
+  std::vector<float> squared(static_cast<std::size_t>(corners.prod()), kNoSite);
+  DynamicEDT3D peer(1 << 30);
+  // It leaves the outermost cells out.
+  peer.initializeEmpty(corners.x() + 2, corners.y() + 2, corners.z() + 2, true);
+  std::size_t i = 0;
+  for (int z = 0; z < corners.z(); ++z) {
+    for (int y = 0; y < corners.y(); ++y) {
+      for (int x = 0; x < corners.x(); ++x, ++i) {
+        if (ours_m(x, y, z) > kRounding_m) continue;
+        peer.occupyCell(x + 1, y + 1, z + 1);
+        squared[i] = 0.0f;
+      }
+    }
+  }
+  double begin_s = now_s();
+  peer.update(true);
+  const double peer_s = now_s() - begin_s;
+  begin_s = now_s();
+  distance_transform_in_space(squared, corners.x(), corners.y(), corners.z());
+  const double own_s = now_s() - begin_s;
+  std::size_t overstated = 0;
+  double most_cells = 0.0;
+  for (int z = 0; z < corners.z(); ++z) {
+    for (int y = 0; y < corners.y(); ++y) {
+      for (int x = 0; x < corners.x(); ++x) {
+        const double ours = ours_m(x, y, z) / cell_m;
+        if (ours_m(x, y, z) <= kRounding_m) continue;
+        const double more_cells = peer.getDistance(x + 1, y + 1, z + 1) - ours;
+        overstated += more_cells > 1e-3;
+        most_cells = std::max(most_cells, more_cells);
+      }
+    }
+  }
+  constexpr int kPeerBytes = 4 + 3 * 4 + 4 + 4;  // of a cell, as dynamicEDT3D.h has it, about
+  std::printf(
+      "\"field_one_side_s\": %.4g, \"peer_s\": %.4g, \"field_bytes\": %zu, \"peer_bytes\": %zu, "
+      "\"peer_overstates\": %zu, \"peer_most_cells\": %.4g, ",
+      own_s, peer_s, 4 * squared.size(), kPeerBytes * squared.size(), overstated, most_cells);
+}
+#else
+void measure_peer(const VoxelDistanceField&) {}
+#endif
+
 void measure(const char* name, const SpaceWorld& world, bool is_first) {
   const double begin_s = now_s();
   const auto field = std::make_shared<VoxelDistanceField>(
@@ -57,12 +115,14 @@ void measure(const char* name, const SpaceWorld& world, bool is_first) {
     plan_s.push_back(now_s() - plan_begin_s);
   }
   const ObstacleCurves& found = region->curves();
+  std::printf("%s\n  {\"world\": \"%s\", ", is_first ? "" : ",", name);
+  measure_peer(*field);
   std::printf(
-      "%s\n  {\"world\": \"%s\", \"voxels\": %zu, \"field_s\": %.4g, \"map_s\": %.4g, "
+      "\"voxels\": %zu, \"field_s\": %.4g, \"map_s\": %.4g, "
       "\"curves\": %zu, \"bodies\": %d, \"surface_voxels\": %d, \"landmarks\": %zu, "
       "\"plan_s\": %.4g, \"candidates\": [",
-      is_first ? "" : ",", name, world.grid.cells.size(), field_s, map_s, found.curves.size(),
-      found.bodies, found.surface_voxels, region->landmarks().nodes.size(), median(plan_s));
+      world.grid.cells.size(), field_s, map_s, found.curves.size(), found.bodies,
+      found.surface_voxels, region->landmarks().nodes.size(), median(plan_s));
   for (const SpaceCandidate& candidate : plan.candidates) {
     std::printf("%s{\"certified\": %s, \"cost\": %.5g, \"duration_s\": %.5g, \"evaluations\": %d}",
                 &candidate == &plan.candidates.front() ? "" : ", ",

@@ -22,9 +22,16 @@ const char* to_text(FallbackKind kind) {
   return "unknown";
 }
 
-std::string describe(const Fallback& fallback) {
+std::string describe(const BasicFallback<2>& fallback) {
   char place[64];
   std::snprintf(place, sizeof(place), ", at (%.2f, %.2f)", fallback.place.x(), fallback.place.y());
+  return to_text(fallback.kind) + std::string(place);
+}
+
+std::string describe(const BasicFallback<3>& fallback) {
+  char place[80];
+  std::snprintf(place, sizeof(place), ", at (%.2f, %.2f, %.2f)", fallback.place.x(),
+                fallback.place.y(), fallback.place.z());
   return to_text(fallback.kind) + std::string(place);
 }
 

@@ -1,9 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <string>
-
-#include "world/obstacle.h"
 
 namespace mocha {
 
@@ -21,16 +20,20 @@ inline constexpr std::array kFallbackKinds = {
     FallbackKind::kLatticePath, FallbackKind::kCoincidentPoints, FallbackKind::kSharpBend,
     FallbackKind::kCamouflageGivenUp, FallbackKind::kSlowedDown};
 
-struct Fallback {
+template <int D>
+struct BasicFallback {
   FallbackKind kind;
-  Vector2 place;  ///< [m] map frame
+  Eigen::Matrix<double, D, 1> place;  ///< [m] map frame
 };
+
+using Fallback = BasicFallback<2>;
 
 /// What is done instead of what, and why, such as "plain waypoints instead of camouflage: the path
 /// bends too sharply for a reference point".
 const char* to_text(FallbackKind kind);
 
 /// The same, with the place.
-std::string describe(const Fallback& fallback);
+std::string describe(const BasicFallback<2>& fallback);
+std::string describe(const BasicFallback<3>& fallback);
 
 }  // namespace mocha

@@ -6,11 +6,10 @@
 #include <memory>
 #include <utility>
 
-#include "camouflage/camouflage_map.h"
-#include "camouflage/reference_point.h"
 #include "optimization/dynamics_penalty.h"
 #include "optimization/obstacle_penalty.h"
 #include "optimization/trajectory_optimizer.h"
+#include "planning/candidates/knot_map_choice.h"
 #include "planning/candidates/knot_spacing.h"
 #include "planning/candidates/speed_profile.h"
 #include "safety/curve_certificate.h"
@@ -42,20 +41,8 @@ Signature signature_along(const PiecewisePolynomial<3, 3>& curve, const Cuts<3>&
 
 }  // namespace
 
-std::shared_ptr<const KnotMap<3>> SpaceOptimizer::knot_map(const Eigen::Matrix3Xd& path,
-                                                           const ObstacleField<3>& field,
-                                                           bool camouflage) const {
-  const Eigen::Matrix3Xd prey = path.middleCols(1, path.cols() - 2);
-  if (camouflage) {
-    const auto references = choose_references<3>(path, field, options_.knot_travel_m);
-    if (references)
-      return std::make_shared<CamouflageMap<3>>(prey, *references, options_.knot_travel_m);
-  }
-  return std::make_shared<WaypointMap<3>>(prey);
-}
-
 OptimizedTrajectory<3, 3> SpaceOptimizer::optimized(
-    const std::vector<Eigen::Vector3d>& path, const ObstacleField<3>& field, const Push& push,
+    const std::vector<Eigen::Vector3d>& path, const ObstacleField<3>& field, Push& push,
     const std::function<bool()>& should_stop) const {
   MotionLimits limits;
   limits.max_speed = options_.max_speed;
@@ -69,7 +56,7 @@ OptimizedTrajectory<3, 3> SpaceOptimizer::optimized(
   options.end.setZero();
   options.start.col(0) = path.front();
   options.end.col(0) = path.back();
-  options.knot_map = knot_map(knots.path, field, push.camouflage);
+  options.knot_map = choose_knot_map<3>(knots.path, field, options_.knot_travel_m, push.fallback);
   options.effort_weight =
       options_.weight_effort / (options_.max_acceleration * options_.max_acceleration);
   options.duration_cost = DurationCost::total(options_.weight_duration);
@@ -116,6 +103,7 @@ SpaceCandidate SpaceOptimizer::optimize_path(const std::vector<Eigen::Vector3d>&
     candidate.cost = found.cost;
     candidate.terms = std::move(found.terms);
     candidate.parameterisation = found.parameterisation;
+    candidate.fallback = push.fallback;
     candidate.violation = first_violation(candidate.curve, field);
     if (!candidate.violation) {
       candidate.reason = PlanReason::kSolved;
@@ -123,7 +111,8 @@ SpaceCandidate SpaceOptimizer::optimize_path(const std::vector<Eigen::Vector3d>&
     }
     push.obstacle_weight *= kMoreWeight;
     push.spacing *= kFiner;
-    push.camouflage = attempt + 2 < kAttempts;
+    if (attempt + 2 == kAttempts && !push.fallback)
+      push.fallback = {FallbackKind::kCamouflageGivenUp, candidate.violation.place};
   }
   if (candidate.curve.pieces() > 0) candidate.signature = signature_along(candidate.curve, cuts);
   return candidate;

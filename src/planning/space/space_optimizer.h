@@ -1,7 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "optimization/trajectory_optimizer.h"
@@ -28,14 +28,12 @@ class SpaceOptimizer {
   struct Push {
     double obstacle_weight = 1.0;
     double spacing = 1.0;
-    bool camouflage = true;
+    std::optional<BasicFallback<3>> fallback;  ///< why waypoints are the variables
   };
 
   OptimizedTrajectory<3, 3> optimized(const std::vector<Eigen::Vector3d>& path,
-                                      const ObstacleField<3>& field, const Push& push,
+                                      const ObstacleField<3>& field, Push& push,
                                       const std::function<bool()>& should_stop) const;
-  std::shared_ptr<const KnotMap<3>> knot_map(const Eigen::Matrix3Xd& path,
-                                             const ObstacleField<3>& field, bool camouflage) const;
   BasicViolation<3> first_violation(const PiecewisePolynomial<3, 3>& curve,
                                     const ObstacleField<3>& field) const;
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "optimization/trajectory_objective.h"
+#include "planning/candidates/fallback.h"
 #include "planning/candidates/plan_result.h"
 #include "safety/violation.h"
 #include "topology/signatures/h_signature.h"
@@ -21,6 +23,7 @@ struct SpaceCandidate {
   double cost = 0.0;            ///< J, paper (14)
   CostTerms terms;              ///< sum up to the cost
   Parameterisation parameterisation = Parameterisation::kNone;
+  std::optional<BasicFallback<3>> fallback;  ///< why it is not camouflage
   int evaluations = 0;
   PiecewisePolynomial<3, 3> curve;  ///< from rest to rest; empty where there is none
 };
