@@ -68,6 +68,9 @@ INSTEAD = (
     (r"^roscore$", "roscore -p $PORT"),
     (r"^python3", "/usr/bin/python3"),
     (r"~/mocha_ugv/examples", f"{ROOT}/examples"),
+    (r"~/mocha_ugv/config", f"{ROOT}/config"),
+    (r"^scripts/plan3d config", f"/usr/bin/python3 -m mocha_scripts.plan3d {ROOT}/config"),  # without a build
+    (r"map_file:=config", f"rviz:=false map_file:={ROOT}/config"),
 )
 
 
@@ -362,9 +365,23 @@ def use_the_library(take):
         if [line for line in said.splitlines() if line[:3].strip()] != [line for line in shown.splitlines() if line[:3].strip()]:
             raise AssertionError(f"docs/library.md shows other words than these:\n{said}")
         desk.run(take("python3 ~/mocha_ugv/examples/python/plan.py plan.png"), "-> cost")
+        desk.run(take("python3 ~/mocha_ugv/examples/python/plan_in_space.py ~/mocha_ugv/config/maps/two_storeys.bt"), "places, the highest")
 
 
-SCENES = (walk_through, look_after_a_robot, start_nodes, drive_and_replay, install, use_the_library)
+def plan_in_space(take):
+    """docs/space.md."""
+    with Desk("space") as desk:
+        desk.run(take("scripts/plan3d config/maps/two_storeys.bt --start 2,2,1.2 --goal 10,8,4.4 --picture out/two_storeys.png --json out/two_storeys.json"),
+                 "solved")
+        if not all((desk.home / "out" / name).stat().st_size for name in ("two_storeys.png", "two_storeys.json")):
+            raise AssertionError("it draws or writes nothing")
+        desk.start_roscore()
+        desk.launch(take("roslaunch mocha_ugv space.launch map_file:=config/maps/two_storeys.bt"))
+        desk.run("rosservice call --wait" + take('rosservice call /plan_in_space "{start: {x: 2.0, y: 2.0, z: 1.2}, goal: {x: 10.0, y: 8.0, z: 4.4}, classes: 0}"')
+                 .removeprefix("rosservice call"), "success: True")
+
+
+SCENES = (walk_through, look_after_a_robot, start_nodes, drive_and_replay, install, use_the_library, plan_in_space)
 
 
 class Commands(unittest.TestCase):

@@ -116,12 +116,13 @@ def main(arguments):
     try:
         planner, curves, plan, times = run(options)
         say(planner, curves, plan, times)
+        for path in filter(None, (options.json, options.picture)):
+            os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
         if options.json:
             with open(options.json, "w") as file:
                 json.dump(as_dict(planner, curves, plan, times), file, indent=1)
         if options.picture:
             from mocha_scripts.space_plot import draw_plan
-            os.makedirs(os.path.dirname(os.path.abspath(options.picture)), exist_ok=True)
             draw_plan(planner, curves, plan, options)
             print(f"drawn: {options.picture}")
     except (Complaint, OSError) as complaint:
