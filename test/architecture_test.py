@@ -71,6 +71,7 @@ ROOMS = {
     "topology/static_map": "What stands, as searches for paths see it.",
     "trajectory": "What a motion is: polynomials, MINCO, timed phases, braking, separation.",
     "world": "Geometry: obstacles, grids, footprints, robot models, world files.",
+    "world/moving": "What moves, where it will be, and what it occupies in space and time.",
     "world/distances": "How far it is to what a grid holds: made, and repaired where it changes.",
 }
 MOST_FILES = 40  # in a room

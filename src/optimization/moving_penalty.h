@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "optimization/penalty.h"
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 
 namespace mocha {
 

@@ -5,7 +5,7 @@
 #include "safety/violation.h"
 #include "trajectory/motion.h"
 #include "world/footprint.h"
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 #include "world/obstacle_field.h"
 #include "world/robot_model.h"
 #include "world/speed_margin.h"

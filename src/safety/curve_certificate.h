@@ -4,6 +4,7 @@
 
 #include "safety/curve_piece.h"
 #include "safety/violation.h"
+#include "world/moving/tube.h"
 #include "world/obstacle_field.h"
 
 namespace mocha {
@@ -29,7 +30,13 @@ class CurveCertificate {
   /// A ball of `radius_m` >= 0 about the curve keeps `margin_m` >= 0 to all obstacles of the field.
   Violation check_clearance(double radius_m, const ObstacleField<D>& field, double margin_m) const;
 
+  /// A ball of `radius_m` >= 0 about the curve keeps `margin_m` >= 0 to what moves in the tube, at
+  /// all times of the curve. What grows counts as large as it gets within one of its pieces.
+  Violation check_separation(double radius_m, const Tube<D>& tube, double margin_m) const;
+
  private:
+  double gap_m(const TubePiece<D>& piece, double t) const;
+
   Curve curve_;
   std::vector<CurvePiece<D, 2 * S - 1>> pieces_;
 };

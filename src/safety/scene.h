@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 #include "world/obstacle_field.h"
 #include "world/speed_zones.h"
 

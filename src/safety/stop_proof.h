@@ -2,7 +2,7 @@
 
 #include "safety/violation.h"
 #include "trajectory/stop_separation.h"
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 
 namespace mocha {
 

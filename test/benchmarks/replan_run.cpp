@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "planning/closed_loop.h"
-#include "world/prediction.h"
+#include "world/moving/prediction.h"
 #include "world/primitive_field.h"
 
 namespace mocha {

@@ -14,7 +14,7 @@
 #include "perception/tracking/peer_tracks.h"
 #include "stack/goal_planning.h"
 #include "stack/local_replanning.h"
-#include "world/prediction.h"
+#include "world/moving/prediction.h"
 
 namespace mocha {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "planning/closed_loop.h"
-#include "world/prediction.h"
+#include "world/moving/prediction.h"
 
 namespace mocha {
 

@@ -12,7 +12,7 @@
 #include "planning/local/local_plan.h"
 #include "topology/grid_world.h"
 #include "trajectory/simple_motions.h"
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 #include "world/robot_model.h"
 
 namespace mocha {

@@ -244,6 +244,55 @@ TYPED_TEST(CurveCertificates, AgreeWithDenseSampling) {
   EXPECT_GT(refused, 60);
 }
 
+/// Something that moves through the curve's places, two pieces long.
+template <int D>
+Tube<D> crossing(const Curve<D>& curve, int seed) {
+  using Place = typename TubePiece<D>::Place;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const double middle_s = (0.3 + 0.2 * uniform(random)) * curve.duration();
+  Place aside, velocity, later;
+  for (int axis = 0; axis < D; ++axis) {
+    aside[axis] = uniform(random);
+    velocity[axis] = uniform(random);
+    later[axis] = uniform(random);
+  }
+  TubePiece<D> first{-1.0, middle_s, Place::Zero(), velocity, 0.2, 0.0};
+  first.centre = curve.position(middle_s) + aside - (middle_s + 1.0) * velocity;
+  const TubePiece<D> second{middle_s, 0.9 * curve.duration(), first.centre_at(middle_s), later, 0.2,
+                            0.0};
+  return {first, second};
+}
+
+TYPED_TEST(CurveCertificates, AgreeWithDenseSamplingOnWhatMoves) {
+  constexpr int D = TypeParam::value;
+  constexpr double kRadius_m = 0.1;
+  int accepted = 0;
+  int refused = 0;
+  for (int seed = 0; seed < 60; ++seed) {
+    const Curve<D> curve = winding<D>(seed, 2 + seed % 5);
+    const Tube<D> tube = crossing<D>(curve, seed);
+    double room = std::numeric_limits<double>::infinity();
+    for (const TubePiece<D>& piece : tube) {
+      for (double t = std::max(0.0, piece.start_s); t < piece.end_s; t += 2e-4)
+        room = std::min(room, (curve.position(t) - piece.centre_at(t)).norm() - piece.radius_at(t));
+    }
+    if (room < kRadius_m) continue;
+    const CurveCertificate<D, 3> certificate(curve);
+    for (const double gap : {-2e-3, 2e-3}) {
+      const auto violation =
+          certificate.check_separation(kRadius_m, tube, room - kRadius_m - gap);
+      EXPECT_EQ(static_cast<bool>(violation), gap < 0.0) << seed << " " << describe(violation);
+      ++(violation ? refused : accepted);
+      if (!violation) continue;
+      EXPECT_EQ(violation.term, ViolatedTerm::kSeparation);
+      EXPECT_LT(violation.value, violation.limit + 1.1e-3);
+    }
+  }
+  EXPECT_GT(accepted, 20);
+  EXPECT_GT(refused, 20);
+}
+
 TYPED_TEST(CurveCertificates, NotANumberIsNoProof) {
   constexpr int D = TypeParam::value;
   const double nan = std::nan("");
@@ -252,6 +301,9 @@ TYPED_TEST(CurveCertificates, NotANumberIsNoProof) {
   EXPECT_FALSE(certificate.check_clearance(0.3, open, 0.1));
   EXPECT_TRUE(certificate.check_clearance(nan, open, 0.1));
   EXPECT_TRUE(certificate.check_clearance(0.3, open, nan));
+  const Tube<D> lost_tube = {{0.0, 9.0, Curve<D>::Vector::Constant(nan), Curve<D>::Vector::Zero(),
+                              0.2, 0.0}};
+  EXPECT_TRUE(certificate.check_separation(0.3, lost_tube, 0.1));
   EXPECT_TRUE(certificate.check_limits(nan, 100.0));
   EXPECT_TRUE(certificate.check_limits(100.0, nan));
   typename Curve<D>::Piece lost = Curve<D>::Piece::Zero();

@@ -5,7 +5,7 @@
 
 #include "perception/tracking/fading_quantiles.h"
 #include "perception/tracking/obstacle_tracker.h"
-#include "world/prediction.h"
+#include "world/moving/prediction.h"
 
 namespace mocha {
 

@@ -205,8 +205,11 @@ InitialKnots<2> DriveOptimizer::initial_knots(const DriveQuery& query,
   const double pieces = std::ceil(query.times_s.back() / piece_s);
   const double window_s =
       std::min(limits.max_speed / limits.max_acceleration, 0.5 * query.times_s.back());
+  TimedGuide<2> guide{query.path, query.times_s};
+  guide.start_velocity = query.start.col(1);
+  if (query.rejoin) guide.end_velocity = query.rejoin->col(1);
   return even_knots(
-      query, static_cast<int>(std::clamp(pieces, kLeastTimedPieces, kMostTimedPieces)), window_s);
+      guide, static_cast<int>(std::clamp(pieces, kLeastTimedPieces, kMostTimedPieces)), window_s);
 }
 
 PlanarMinco::State DriveOptimizer::end_state(const DriveQuery& query) const {

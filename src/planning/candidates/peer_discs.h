@@ -1,7 +1,7 @@
 #pragma once
 
 #include "topology/static_map/travel_cost.h"
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 #include "world/robot_model.h"
 
 namespace mocha {

@@ -8,7 +8,7 @@
 
 #include "topology/static_map/static_map.h"
 #include "trajectory/motion.h"
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 #include "world/speed_zones.h"
 
 namespace mocha {

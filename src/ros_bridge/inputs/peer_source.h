@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 
 namespace mocha {
 

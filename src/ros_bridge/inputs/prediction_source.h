@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "world/prediction.h"
+#include "world/moving/prediction.h"
 
 namespace mocha {
 

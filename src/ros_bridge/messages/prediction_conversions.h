@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "perception/tracking/obstacle_tracker.h"
-#include "world/prediction.h"
+#include "world/moving/prediction.h"
 
 namespace mocha {
 

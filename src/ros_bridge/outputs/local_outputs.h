@@ -10,7 +10,7 @@
 #include "planning/replanner/local_replanner.h"
 #include "ros_bridge/runtime/robot_identity.h"
 #include "stack/planning_effort.h"
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 
 namespace mocha {
 

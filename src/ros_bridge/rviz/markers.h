@@ -11,7 +11,7 @@
 
 #include "trajectory/motion.h"
 #include "world/footprint.h"
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 
 namespace mocha {
 

@@ -40,9 +40,11 @@ class Sampler {
       : space_(space), options_(options), random_(options.seed), guards_(std::move(first_guards)) {}
 
   void draw() {
-    const std::optional<PointOf<D>> free = free_sample();
-    if (!free) return;
-    const PointOf<D>& sample = *free;
+    if (const std::optional<PointOf<D>> free = free_sample()) add(*free);
+  }
+
+  /// A place where one may be.
+  void add(const PointOf<D>& sample) {
     const std::vector<int> guards = guards_that_see(sample);
     if (!is_between(guards, sample)) return guards_.push_back(sample);
     for (int from : guards) {
@@ -158,7 +160,8 @@ void check(const VisibilityPrmOptions& options) {
 
 template <int D>
 Roadmap<D> visibility_prm(const SampledSpace<D>& space, const PointOf<D>& start,
-                          const PointOf<D>& goal, const VisibilityPrmOptions& options) {
+                          const PointOf<D>& goal, const VisibilityPrmOptions& options,
+                          const std::vector<PointOf<D>>& first) {
   check(options);
   Roadmap<D> roadmap;
   const auto add_node = [&](const PointOf<D>& p) {
@@ -170,6 +173,9 @@ Roadmap<D> visibility_prm(const SampledSpace<D>& space, const PointOf<D>& start,
   if (start == goal || !start.allFinite() || !goal.allFinite()) return roadmap;
 
   Sampler<D> sampler(space, {start, goal}, options);
+  for (const PointOf<D>& place : first) {
+    if (space.clearance_m(place)) sampler.add(place);
+  }
   for (int i = 0; i < options.samples; ++i) sampler.draw();
 
   const std::vector<PointOf<D>> nodes = sampler.nodes();
@@ -183,10 +189,13 @@ Roadmap<D> visibility_prm(const SampledSpace<D>& space, const PointOf<D>& start,
 }
 
 template Roadmap<2> visibility_prm(const SampledSpace<2>&, const Eigen::Vector2d&,
-                                   const Eigen::Vector2d&, const VisibilityPrmOptions&);
+                                   const Eigen::Vector2d&, const VisibilityPrmOptions&,
+                                   const std::vector<Eigen::Vector2d>&);
 template Roadmap<3> visibility_prm(const SampledSpace<3>&, const Eigen::Vector3d&,
-                                   const Eigen::Vector3d&, const VisibilityPrmOptions&);
+                                   const Eigen::Vector3d&, const VisibilityPrmOptions&,
+                                   const std::vector<Eigen::Vector3d>&);
 template Roadmap<4> visibility_prm(const SampledSpace<4>&, const Eigen::Vector4d&,
-                                   const Eigen::Vector4d&, const VisibilityPrmOptions&);
+                                   const Eigen::Vector4d&, const VisibilityPrmOptions&,
+                                   const std::vector<Eigen::Vector4d>&);
 
 }  // namespace mocha

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <vector>
 
 #include "topology/roadmaps/roadmap.h"
 #include "topology/roadmaps/sampled_space.h"
@@ -26,12 +27,15 @@ struct VisibilityPrmOptions {
 /// shorter than that connector's way. Guards and connectors are the nodes; those that see each
 /// other share an edge, straight and in order.
 ///
+/// `first` are tried before what is drawn, in that order: places that are known to matter.
+///
 /// Start and goal see each other however far apart. Where one must not be at the start or at the
 /// goal, that node has no edges. Throws std::invalid_argument for options out of range.
 template <int D>
 Roadmap<D> visibility_prm(const SampledSpace<D>& space, const Eigen::Matrix<double, D, 1>& start,
                           const Eigen::Matrix<double, D, 1>& goal,
-                          const VisibilityPrmOptions& options);
+                          const VisibilityPrmOptions& options,
+                          const std::vector<Eigen::Matrix<double, D, 1>>& first = {});
 
 /// Among obstacles that stand still.
 template <int D>
@@ -45,10 +49,13 @@ Roadmap<D> visibility_prm(const ObstacleField<D>& field, const Cuts<D>& cuts,
 }
 
 extern template Roadmap<2> visibility_prm(const SampledSpace<2>&, const Eigen::Vector2d&,
-                                          const Eigen::Vector2d&, const VisibilityPrmOptions&);
+                                          const Eigen::Vector2d&, const VisibilityPrmOptions&,
+                                          const std::vector<Eigen::Vector2d>&);
 extern template Roadmap<3> visibility_prm(const SampledSpace<3>&, const Eigen::Vector3d&,
-                                          const Eigen::Vector3d&, const VisibilityPrmOptions&);
+                                          const Eigen::Vector3d&, const VisibilityPrmOptions&,
+                                          const std::vector<Eigen::Vector3d>&);
 extern template Roadmap<4> visibility_prm(const SampledSpace<4>&, const Eigen::Vector4d&,
-                                          const Eigen::Vector4d&, const VisibilityPrmOptions&);
+                                          const Eigen::Vector4d&, const VisibilityPrmOptions&,
+                                          const std::vector<Eigen::Vector4d>&);
 
 }  // namespace mocha

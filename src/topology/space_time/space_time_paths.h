@@ -8,7 +8,7 @@
 #include "topology/signatures/h_signature.h"
 #include "topology/space_time/timed_path.h"
 #include "topology/static_map/static_map.h"
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 
 namespace mocha {
 

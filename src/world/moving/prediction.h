@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "config/parameter_table.h"
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 #include "world/robot_model.h"
 
 namespace mocha {

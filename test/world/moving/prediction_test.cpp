@@ -1,4 +1,4 @@
-#include "world/prediction.h"
+#include "world/moving/prediction.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 
 namespace mocha {
 namespace {

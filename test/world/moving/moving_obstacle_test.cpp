@@ -1,4 +1,4 @@
-#include "world/moving_obstacle.h"
+#include "world/moving/moving_obstacle.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "world/prediction.h"
+#include "world/moving/prediction.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
