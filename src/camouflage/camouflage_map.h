@@ -24,6 +24,7 @@ class CamouflageMap : public KnotMap<D> {
   Parameterisation parameterisation() const override { return Parameterisation::kCamouflage; }
   int knots() const override { return static_cast<int>(prey_.cols()); }
   int variables() const override { return knots(); }
+  int variables_of(int) const override { return 1; }
   Eigen::VectorXd initial() const override;
   void place(const double* xi, Knots& knots, Eigen::VectorXd& slopes) const override;
   void pull_back(const Eigen::VectorXd& slopes, const Knots& by_knot, double* by_xi) const override;

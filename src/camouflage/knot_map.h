@@ -17,11 +17,12 @@ class KnotMap {
 
   virtual Parameterisation parameterisation() const = 0;
 
-  /// Number of interior knots, and of variables.
+  /// Number of interior knots, and of variables; in all, and of one knot: at most D.
   virtual int knots() const = 0;
   virtual int variables() const = 0;
+  virtual int variables_of(int knot) const = 0;
 
-  /// The variables that put every knot on the prey path.
+  /// The variables from which an optimisation starts: for knots on the prey path.
   virtual Eigen::VectorXd initial() const = 0;
 
   /// Knots [m] of `variables()` values starting at `x`; in `slopes`, of that size, it leaves what
@@ -44,6 +45,7 @@ class WaypointMap : public KnotMap<D> {
   Parameterisation parameterisation() const override { return Parameterisation::kWaypoints; }
   int knots() const override { return static_cast<int>(prey_.cols()); }
   int variables() const override { return static_cast<int>(prey_.size()); }
+  int variables_of(int) const override { return D; }
   Eigen::VectorXd initial() const override {
     return Eigen::Map<const Eigen::VectorXd>(prey_.data(), prey_.size());
   }

@@ -1,5 +1,8 @@
 #include "optimization/curvature_model.h"
 
+#include <numeric>
+#include <utility>
+
 namespace mocha {
 namespace {
 
@@ -8,9 +11,11 @@ constexpr double kLeastCurvature = 1e-9;  // of the free derivatives, relative
 }  // namespace
 
 template <int D, int S>
-CurvatureModel<D, S>::CurvatureModel(int pieces, int per_knot)
-    : per_knot_(per_knot), columns_(kSize, pieces) {
-  matrix_.resize(pieces);
+CurvatureModel<D, S>::CurvatureModel(std::vector<int> per_knot)
+    : per_knot_(std::move(per_knot)), first_(per_knot_.size() + 1, 0) {
+  std::partial_sum(per_knot_.begin(), per_knot_.end(), first_.begin() + 1);
+  matrix_.resize(static_cast<int>(first_.size()));
+  columns_.resize(kSize, pieces());
 }
 
 template <int D, int S>
@@ -26,7 +31,7 @@ void CurvatureModel<D, S>::add(int i, const PieceCurvature& piece,
   PieceCurvature by_variables = piece;
   const auto pull_back = [&](int knot, int at) {
     Eigen::Matrix<double, D, D> tangent = Eigen::Matrix<double, D, D>::Zero();
-    tangent.leftCols(per_knot_) = tangents.middleCols(knot * per_knot_, per_knot_);
+    tangent.leftCols(per_knot_[knot]) = tangents.middleCols(first_[knot], per_knot_[knot]);
     by_variables.template middleRows<D>(at) =
         (tangent.transpose() * by_variables.template middleRows<D>(at)).eval();
     by_variables.template middleCols<D>(at) =
@@ -53,7 +58,7 @@ template <int D, int S>
 bool CurvatureModel<D, S>::factor(double damping) {
   for (int i = 0; i < pieces(); ++i) {
     auto& block = matrix_.diagonal(i);
-    const int placed = i + 1 < pieces() ? per_knot_ : 0;
+    const int placed = i + 1 < pieces() ? per_knot_[i] : 0;
     for (int k = 0; k < kEnd; ++k) {
       if (k < placed) {
         block(k, k) += damping;
@@ -70,17 +75,15 @@ bool CurvatureModel<D, S>::factor(double damping) {
 
 template <int D, int S>
 void CurvatureModel<D, S>::solve(Eigen::VectorXd& x) {
-  const int placed = per_knot_ * (pieces() - 1);
+  const int knots = pieces() - 1;
   columns_.setZero();
-  for (int i = 0; i < pieces(); ++i) {
-    if (i + 1 < pieces()) columns_.col(i).head(per_knot_) = x.segment(i * per_knot_, per_knot_);
-    columns_(kEnd, i) = x[placed + i];
-  }
+  for (int k = 0; k < knots; ++k)
+    columns_.col(k).head(per_knot_[k]) = x.segment(first_[k], per_knot_[k]);
+  columns_.row(kEnd) = x.tail(pieces()).transpose();
   matrix_.solve(columns_);
-  for (int i = 0; i < pieces(); ++i) {
-    if (i + 1 < pieces()) x.segment(i * per_knot_, per_knot_) = columns_.col(i).head(per_knot_);
-    x[placed + i] = columns_(kEnd, i);
-  }
+  for (int k = 0; k < knots; ++k)
+    x.segment(first_[k], per_knot_[k]) = columns_.col(k).head(per_knot_[k]);
+  x.tail(pieces()) = columns_.row(kEnd).transpose();
 }
 
 template class CurvatureModel<2, 3>;

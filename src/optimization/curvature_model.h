@@ -17,8 +17,8 @@ class CurvatureModel {
  public:
   using PieceCurvature = typename TimeQuadrature<D, S>::PieceCurvature;
 
-  /// `per_knot` variables place a knot, at most D.
-  CurvatureModel(int pieces, int per_knot);
+  /// Of one piece more than knots; `per_knot[k]` variables place knot k, at most D.
+  explicit CurvatureModel(std::vector<int> per_knot);
 
   void clear();
 
@@ -41,7 +41,8 @@ class CurvatureModel {
 
   int pieces() const { return matrix_.blocks(); }
 
-  int per_knot_;
+  std::vector<int> per_knot_;
+  std::vector<int> first_;          // variable of each knot, and of the durations
   BlockTridiagonal<kSize> matrix_;  // block i: the end of piece i, and its duration
   Eigen::Matrix<double, kSize, Eigen::Dynamic> columns_;
 };

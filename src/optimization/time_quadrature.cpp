@@ -22,8 +22,8 @@ TimeQuadrature<D, S>::TimeQuadrature(int kappa, int pieces, std::size_t penaltie
       alpha_(Eigen::VectorXd::LinSpaced(kappa + 1, 0.0, 1.0)),
       omega_(Eigen::VectorXd::Ones(kappa + 1)),
       samples_(kappa + 1),
-      rows_(kappa + 1),
-      by_time_(pieces) {
+      rows_(kappa + 1) {
+  resize(pieces);
   active_.reserve(penalties);
   omega_[0] = omega_[kappa] = 0.5;
   for (int order = 0; order < kOrders; ++order) {
@@ -36,6 +36,12 @@ TimeQuadrature<D, S>::TimeQuadrature(int kappa, int pieces, std::size_t penaltie
     weighted_basis_[order] = omega_.asDiagonal() * basis_[order];
   }
   set_end_tables();
+}
+
+template <int D, int S>
+void TimeQuadrature<D, S>::resize(int pieces) {
+  integrals_.assign(pieces, 0.0);
+  by_time_.assign(pieces, 0.0);
 }
 
 template <int D, int S>
@@ -129,16 +135,16 @@ double TimeQuadrature<D, S>::add(const Minco<D, S>& curve, const Penalties& pena
   double start_s = 0.0;
   for (int i = 0; i < curve.pieces(); ++i) {
     const double tau = curve.piece_duration(i);
-    by_time_[i] = 0.0;
+    integrals_[i] = by_time_[i] = 0.0;
     set_bounds(curve.piece(i), start_s, tau, samples_.bounds);
     start_s += tau;
     const Derivatives wanted = choose(penalties);
     if (wanted == kNone) continue;
     sample(curve.piece(i), wanted);
-    const double integral = penalise(penalties, shares);
-    if (integral == 0.0) continue;
-    total += integral;
-    by_duration[i] += integral / tau + propagate(wanted, by_piece[i]);
+    integrals_[i] = penalise(penalties, shares);
+    if (integrals_[i] == 0.0) continue;
+    total += integrals_[i];
+    by_duration[i] += integrals_[i] / tau + propagate(wanted, by_piece[i]);
     if (!(wanted & kTime)) continue;
     const auto by_time = rows_.by_time.cwiseProduct(omega_);
     by_time_[i] = tau / kappa_ * by_time.sum();

@@ -13,7 +13,7 @@ namespace mocha {
 /// (21), and their gradient by the pieces' normalised coefficients and durations, paper (23)-(26).
 ///
 /// Exact with respect to that rule, but pieces on which a penalty is certainly zero are skipped.
-/// After construction nothing is allocated.
+/// After construction and resize() nothing is allocated.
 template <int D, int S>
 class TimeQuadrature {
  public:
@@ -26,10 +26,16 @@ class TimeQuadrature {
   /// kappa >= 1, pieces >= 1, and the number of penalties of the calls to come.
   TimeQuadrature(int kappa, int pieces, std::size_t penalties);
 
+  /// For another number of pieces from now on.
+  void resize(int pieces);
+
   /// Returns the integral, adds the gradients, and adds each penalty's own share to `shares` (one
   /// entry a penalty).
   double add(const Minco<D, S>& curve, const Penalties& penalties, std::vector<Piece>& by_piece,
              Eigen::VectorXd& by_duration, std::vector<double>& shares);
+
+  /// Of all penalties over piece i, at the last add().
+  double integral(int i) const { return integrals_[i]; }
 
   /// The Gauss-Newton Hessian of the integral over piece i, which begins at `start_s`, plus that of
   /// `effort_weight` times the piece's effort. It is that of a sum of cubes, as most penalties are,
@@ -64,6 +70,7 @@ class TimeQuadrature {
   PenaltyRows<D> rows_;
   PieceCurvature curvature_;
   std::vector<std::size_t> active_;  // penalties on the piece at hand
+  std::vector<double> integrals_;    // over each piece
   std::vector<double> by_time_;      // of each piece as a whole
 };
 

@@ -20,18 +20,29 @@ template <int D, int S>
 TrajectoryObjective<D, S>::TrajectoryObjective(Options options)
     : options_(std::move(options)),
       quadrature_(options_.kappa, pieces(), options_.penalties.size()),
-      curvature_(pieces(), options_.knot_map->variables() / std::max(1, pieces() - 1)),
-      tangents_(D, options_.knot_map->variables()),
-      knots_(D, pieces() - 1),
-      by_knot_(D, pieces() - 1),
-      slopes_(options_.knot_map->variables()),
-      durations_(pieces()),
-      by_duration_(pieces()),
-      row_(options_.knot_map->variables()),
-      eta_(pieces()),
-      by_piece_(pieces()),
+      curvature_({}),
       shares_(options_.penalties.size()) {
+  set_knot_map(options_.knot_map);
+}
+
+template <int D, int S>
+void TrajectoryObjective<D, S>::set_knot_map(std::shared_ptr<const KnotMap<D>> knot_map) {
+  options_.knot_map = std::move(knot_map);
+  const KnotMap<D>& map = *options_.knot_map;
+  std::vector<int> per_knot;
+  for (int k = 0; k < map.knots(); ++k) per_knot.push_back(map.variables_of(k));
+  curvature_ = CurvatureModel<D, S>(std::move(per_knot));
   minco_.resize(pieces());
+  quadrature_.resize(pieces());
+  tangents_.resize(D, map.variables());
+  knots_.resize(D, map.knots());
+  by_knot_.resize(D, map.knots());
+  slopes_.resize(map.variables());
+  row_.resize(map.variables());
+  durations_.resize(pieces());
+  by_duration_.resize(pieces());
+  eta_.resize(pieces());
+  by_piece_.resize(pieces());
 }
 
 template <int D, int S>

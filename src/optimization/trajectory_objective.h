@@ -17,7 +17,7 @@ namespace mocha {
 using CostTerms = std::vector<std::pair<std::string, double>>;
 
 /// J_total, paper (14), over unconstrained variables: those of the knot map first, then one scaled
-/// eta a piece, paper (12). After construction evaluating it allocates nothing.
+/// eta a piece, paper (12). After construction and set_knot_map() evaluating it allocates nothing.
 template <int D, int S>
 class TrajectoryObjective {
  public:
@@ -40,6 +40,9 @@ class TrajectoryObjective {
 
   explicit TrajectoryObjective(Options options);
 
+  /// Places other knots, as many as there are, from now on.
+  void set_knot_map(std::shared_ptr<const KnotMap<D>> knot_map);
+
   int variables() const { return options_.knot_map->variables() + pieces(); }
   Parameterisation parameterisation() const { return options_.knot_map->parameterisation(); }
   int pieces() const { return options_.knot_map->knots() + 1; }
@@ -59,7 +62,14 @@ class TrajectoryObjective {
 
   /// The trajectory and the cost's parts of the last evaluation.
   typename Minco<D, S>::Curve curve() const { return minco_.curve(); }
+  double effort() const { return effort_; }
+  double effort_weight() const { return options_.effort_weight; }
+  double duration_cost() const { return duration_; }
+  /// The cost's derivative by the logarithm of a factor on all durations.
+  double by_pace() const { return by_duration_.dot(durations_); }
   CostTerms terms() const;
+  /// Of all penalties over one piece.
+  double penalty(int piece) const { return quadrature_.integral(piece); }
 
  private:
   using Piece = typename Minco<D, S>::Piece;

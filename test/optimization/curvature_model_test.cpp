@@ -55,7 +55,7 @@ TEST(CurvatureModel, EliminatesTheFreeDerivatives) {
   for (const int per_knot : {1, 2}) {
     std::srand(3);
     const Eigen::Matrix2Xd tangents = Eigen::Matrix2Xd::Random(2, per_knot * (kPieces - 1));
-    Model model(kPieces, per_knot);
+    Model model(std::vector<int>(kPieces - 1, per_knot));
     DenseModel dense(tangents);
     model.clear();
     for (int i = 0; i < kPieces; ++i) {
