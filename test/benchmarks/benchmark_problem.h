@@ -37,16 +37,23 @@ double length_m(const std::vector<Eigen::Matrix<double, D, 1>>& path) {
   return length;
 }
 
-/// Knots at uniform time, `spacing_m` apart on average.
+/// How a front-end path would be driven; corners are rounded over `window_m`.
 template <int D>
-InitialKnots<D> knots_on(const std::vector<Eigen::Matrix<double, D, 1>>& path, double spacing_m,
-                         const TableOptions& options) {
+SpeedProfile<D> table_profile(const std::vector<Eigen::Matrix<double, D, 1>>& path, double window_m,
+                              const TableOptions& options) {
   MotionLimits limits;
   limits.max_speed = options.max_speed;
   limits.max_acceleration = options.max_acceleration;
   limits.max_yaw_rate = std::numeric_limits<double>::infinity();
-  const SpeedProfile<D> profile(path, 0.0, limits, spacing_m, {});
-  return profile.knots(static_cast<int>(std::round(length_m<D>(path) / spacing_m)));
+  return SpeedProfile<D>(path, 0.0, limits, window_m, {});
+}
+
+/// Knots at uniform time, `spacing_m` apart on average.
+template <int D>
+InitialKnots<D> knots_on(const std::vector<Eigen::Matrix<double, D, 1>>& path, double spacing_m,
+                         const TableOptions& options) {
+  return table_profile<D>(path, spacing_m, options)
+      .knots(static_cast<int>(std::round(length_m<D>(path) / spacing_m)));
 }
 
 /// Where the rays of camouflage start, one reference point a knot.

@@ -68,7 +68,7 @@ std::vector<Circle> scatter(const Ground& ground, double gap_m, const std::vecto
 
 BenchmarkWorld<2> circle_world(int seed, const BenchmarkOptions& options) {
   std::mt19937 random(seed);
-  const Ground ground{100.0, 65, 1.0, 4.0};
+  const Ground& ground = options.ground;
   const std::vector<Circle> circles = scatter(ground, options.gap_m, corners(ground), random);
   return {PrimitiveField<2>({circles.begin(), circles.end()}, 2.0),
           front_end(circles, ground.side_m, options.front_end_clearance_m)};
@@ -78,7 +78,7 @@ BenchmarkWorld<3> forest_world(int seed, const BenchmarkOptions& options) {
   constexpr double kStartHeight_m = 2.0;
   constexpr double kClimb_m = 8.0;
   std::mt19937 random(1000 + seed);
-  const Ground ground{122.0, 150, 0.4, 1.2};
+  const Ground& ground = options.ground;
   const std::vector<Circle> trunks = scatter(ground, options.gap_m, corners(ground), random);
   std::vector<Cylinder> cylinders;
   for (const Circle& trunk : trunks) cylinders.push_back({trunk.centre, trunk.radius_m});

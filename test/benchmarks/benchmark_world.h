@@ -30,16 +30,23 @@ struct BenchmarkWorld {
 
 /// What the worlds are made with.
 struct BenchmarkOptions {
-  double front_end_clearance_m = 1.5;  ///< of the path
-  double gap_m = 3.2;                  ///< between two obstacles at least
+  Ground ground;
+  double gap_m;                  ///< between two obstacles at least
+  double front_end_clearance_m;  ///< of the path
 };
 
-/// 65 circles of 1 to 4 m radius in 100 m x 100 m, crossed from corner to corner: a path of about
-/// 146 m.
+/// Paths of about 146 m in the plane and 178 m in space that keep clear of everything, ...
+inline constexpr BenchmarkOptions kCircles{{100.0, 65, 1.0, 4.0}, 3.2, 1.5};
+inline constexpr BenchmarkOptions kForest{{122.0, 150, 0.4, 1.2}, 3.2, 1.5};
+/// ... and others as long with four times as many obstacles, and gaps that no path passes with
+/// more than 1 m to both sides.
+inline constexpr BenchmarkOptions kDenseCircles{{100.0, 250, 0.5, 2.0}, 2.0, 0.8};
+inline constexpr BenchmarkOptions kDenseForest{{122.0, 600, 0.3, 1.0}, 2.0, 0.8};
+
+/// Circles, crossed from corner to corner.
 BenchmarkWorld<2> circle_world(int seed, const BenchmarkOptions& options);
 
-/// A forest of upright trunks of 0.4 to 1.2 m radius in 122 m x 122 m, crossed from corner to
-/// corner while climbing: a path of about 178 m.
+/// A forest of upright trunks, crossed from corner to corner while climbing.
 BenchmarkWorld<3> forest_world(int seed, const BenchmarkOptions& options);
 
 }  // namespace mocha

@@ -73,7 +73,7 @@ void run() {
   std::printf("{\"rows\": [");
   for (const bool camouflage : {true, false}) {
     for (int seed = 1; seed <= 3; ++seed) {
-      const BenchmarkWorld<2> world = circle_world(seed, {});
+      const BenchmarkWorld<2> world = circle_world(seed, kCircles);
       const InitialKnots<2> knots = knots_on<2>(world.path, kSpacing_m, options);
       auto objective_options = table_objective_options<2>(world, knots, camouflage, options);
       SplineAlone spline(objective_options, knots);

@@ -77,8 +77,8 @@ void run(int seed) {
   const TableOptions options;
   std::printf("{\"max_speed\": %g, \"max_acceleration\": %g", options.max_speed,
               options.max_acceleration);
-  print_scene<2>("plane", seed, circle_world(seed, {}));
-  print_scene<3>("space", seed, forest_world(seed, {}));
+  print_scene<2>("plane", seed, circle_world(seed, kCircles));
+  print_scene<3>("space", seed, forest_world(seed, kForest));
   std::printf("}\n");
 }
 
