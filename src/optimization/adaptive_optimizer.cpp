@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "optimization/knot_refinement.h"
 #include "optimization/pace.h"
@@ -9,9 +10,9 @@
 namespace mocha {
 namespace {
 
-constexpr double kRough = 1e-3;        // fall of the cost at which the first round stops
+constexpr double kRough = 1e-3;        // fall of the cost at which the first search stops
 constexpr double kNegligible = 2e-3;   // of the cost: estimated gains that are left out in all
-constexpr int kRounds = 4;             // at most
+constexpr int kFineSearches = 3;       // at most
 constexpr double kMostScaling = 10.0;  // between the variables of knots near and far apart
 
 /// The closer knots are, the more a metre of one costs: variables are scaled so that they are alike
@@ -25,44 +26,73 @@ void scale_variables(KnotChain<D>& chain) {
   }
 }
 
+/// One search after another, each from the curve of the one before.
+template <int D>
+class AdaptiveSearch {
+ public:
+  AdaptiveSearch(TrajectoryObjective<D, 3>& objective, double travel_m,
+                 const OptimizerOptions& options)
+      : objective_(objective), travel_m_(travel_m), options_(options) {}
+
+  AdaptiveTrajectory<D> run(KnotChain<D> chain) {
+    objective_.set_knot_map(std::make_shared<AdaptiveMap<D>>(chain.knots, travel_m_));
+    chain.durations_s = paced(objective_, chain.durations_s);
+    search(std::move(chain), std::max(kRough, options_.relative_cost));
+    for (int fine = 0; fine < kFineSearches && !has_ended(); ++fine) {
+      KnotChain<D> refined = result_.chain;
+      const bool has_more = refine(refined, trial(), kNegligible);
+      // What is left idle costs little; that alone is no reason to search again.
+      if (fine > 0 && !has_more) break;
+      search(std::move(refined), options_.relative_cost);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  bool has_ended() const {
+    return result_.found.variables.size() == 0 ||
+           result_.found.evaluations >= options_.max_evaluations || options_.should_stop();
+  }
+
+  void search(KnotChain<D> chain, double relative_cost) {
+    const int before = result_.found.evaluations;
+    OptimizerOptions options = options_;
+    options.relative_cost = relative_cost;
+    options.max_evaluations -= before;
+    scale_variables(chain);
+    const auto map = std::make_shared<AdaptiveMap<D>>(chain.knots, travel_m_);
+    objective_.set_knot_map(map);
+    result_.found = optimize<D, 3>(objective_, objective_.initial(chain.durations_s), options);
+    result_.piece_evaluations += static_cast<long>(result_.found.evaluations) * chain.pieces();
+    result_.found.evaluations += before;
+    if (result_.found.variables.size() > 0) {
+      chain.knots = map->moved(result_.found.variables.data());
+      for (int i = 0; i < chain.pieces(); ++i)
+        chain.durations_s[i] = result_.found.curve.piece_duration(i);
+    }
+    result_.chain = std::move(chain);
+  }
+
+  TrialKnots<D> trial() {
+    std::vector<double> penalties;
+    for (int i = 0; i < result_.chain.pieces(); ++i) penalties.push_back(objective_.penalty(i));
+    return try_knots(objective_, result_.chain, result_.found.curve, penalties);
+  }
+
+  TrajectoryObjective<D, 3>& objective_;
+  const double travel_m_;
+  const OptimizerOptions& options_;
+  AdaptiveTrajectory<D> result_;
+};
+
 }  // namespace
 
 template <int D>
 AdaptiveTrajectory<D> optimize_adaptively(TrajectoryObjective<D, 3>& objective,
                                           const KnotCandidates<D>& candidates, double travel_m,
                                           const OptimizerOptions& options) {
-  AdaptiveTrajectory<D> result;
-  KnotChain<D>& chain = result.chain;
-  chain = choose_knots(objective, candidates);
-  OptimizerOptions round_options = options;
-  round_options.relative_cost = std::max(kRough, options.relative_cost);
-  int evaluations = 0;
-  for (int round = 0; round < kRounds; ++round) {
-    scale_variables(chain);
-    const auto map = std::make_shared<AdaptiveMap<D>>(chain.knots, travel_m);
-    objective.set_knot_map(map);
-    if (round == 0) chain.durations_s = paced(objective, chain.durations_s);
-    result.found = optimize<D, 3>(objective, objective.initial(chain.durations_s), round_options);
-    evaluations += result.found.evaluations;
-    result.piece_evaluations += static_cast<long>(result.found.evaluations) * chain.pieces();
-    if (result.found.variables.size() == 0) break;
-    chain.knots = map->moved(result.found.variables.data());
-    std::vector<double> penalties;
-    for (int i = 0; i < chain.pieces(); ++i) {
-      chain.durations_s[i] = result.found.curve.piece_duration(i);
-      penalties.push_back(objective.penalty(i));
-    }
-    round_options.max_evaluations = options.max_evaluations - evaluations;
-    if (round_options.max_evaluations <= 0 || options.should_stop()) break;
-    KnotChain<D> refined = chain;
-    const bool is_final = round > 0;
-    const auto trial = try_knots(objective, chain, result.found.curve, penalties);
-    if (!refine(refined, trial, kNegligible) && is_final) break;
-    if (round + 1 < kRounds) chain = refined;
-    round_options.relative_cost = options.relative_cost;
-  }
-  result.found.evaluations = evaluations;
-  return result;
+  AdaptiveSearch<D> search(objective, travel_m, options);
+  return search.run(choose_knots(objective, candidates));
 }
 
 template AdaptiveTrajectory<2> optimize_adaptively(TrajectoryObjective<2, 3>&,

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace mocha {
 namespace {
@@ -17,14 +20,14 @@ using Model = CurvatureModel<2, 3>;
 /// variables.
 class DenseModel {
  public:
-  explicit DenseModel(const Eigen::Matrix2Xd& tangents)
-      : tangents_(tangents), per_knot_(static_cast<int>(tangents.cols()) / (kPieces - 1)) {}
+  DenseModel(const Eigen::Matrix2Xd& tangents, std::vector<int> per_knot)
+      : tangents_(tangents), per_knot_(std::move(per_knot)) {}
 
   void add(int i, const Model::PieceCurvature& piece) {
     Eigen::MatrixXd by_all = Eigen::MatrixXd::Zero(2 * kState + 1, size());
     if (i > 0) place_state(i - 1, 0, by_all);
     if (i + 1 < kPieces) place_state(i, kState, by_all);
-    by_all(2 * kState, per_knot_ * (kPieces - 1) + i) = kSlope;
+    by_all(2 * kState, tangents_.cols() + i) = kSlope;
     matrix_ += by_all.transpose() * piece * by_all;
   }
 
@@ -38,25 +41,26 @@ class DenseModel {
   }
 
  private:
-  int variables() const { return per_knot_ * (kPieces - 1) + kPieces; }
+  int variables() const { return static_cast<int>(tangents_.cols()) + kPieces; }
   int size() const { return variables() + 4 * (kPieces - 1); }
   void place_state(int knot, int row, Eigen::MatrixXd& by_all) const {
-    by_all.block(row, knot * per_knot_, 2, per_knot_) =
-        tangents_.middleCols(knot * per_knot_, per_knot_);
+    const int first = std::accumulate(per_knot_.begin(), per_knot_.begin() + knot, 0);
+    by_all.block(row, first, 2, per_knot_[knot]) = tangents_.middleCols(first, per_knot_[knot]);
     by_all.block<4, 4>(row + 2, variables() + 4 * knot).setIdentity();
   }
 
   Eigen::Matrix2Xd tangents_;
-  int per_knot_;
+  std::vector<int> per_knot_;
   Eigen::MatrixXd matrix_ = Eigen::MatrixXd::Zero(size(), size());
 };
 
 TEST(CurvatureModel, EliminatesTheFreeDerivatives) {
-  for (const int per_knot : {1, 2}) {
+  for (const std::vector<int>& per_knot : {std::vector<int>{1, 1, 1}, {2, 2, 2}, {2, 1, 2}}) {
     std::srand(3);
-    const Eigen::Matrix2Xd tangents = Eigen::Matrix2Xd::Random(2, per_knot * (kPieces - 1));
-    Model model(std::vector<int>(kPieces - 1, per_knot));
-    DenseModel dense(tangents);
+    const int of_knots = std::accumulate(per_knot.begin(), per_knot.end(), 0);
+    const Eigen::Matrix2Xd tangents = Eigen::Matrix2Xd::Random(2, of_knots);
+    Model model(per_knot);
+    DenseModel dense(tangents, per_knot);
     model.clear();
     for (int i = 0; i < kPieces; ++i) {
       const Model::PieceCurvature random = Model::PieceCurvature::Random();
@@ -65,15 +69,15 @@ TEST(CurvatureModel, EliminatesTheFreeDerivatives) {
       dense.add(i, piece);
     }
     ASSERT_TRUE(model.factor(kDamping));
-    Eigen::VectorXd x = Eigen::VectorXd::Random(per_knot * (kPieces - 1) + kPieces);
+    Eigen::VectorXd x = Eigen::VectorXd::Random(of_knots + kPieces);
     const Eigen::VectorXd expected = dense.solve(x);
     model.solve(x);
-    EXPECT_LT((x - expected).norm(), 1e-5 * expected.norm()) << per_knot << " variables a knot";
+    EXPECT_LT((x - expected).norm(), 1e-5 * expected.norm()) << of_knots << " variables of knots";
   }
 }
 
 TEST(CurvatureModel, OfOnePieceIsThatOfItsDuration) {
-  Model model(1, 0);
+  Model model(std::vector<int>{});
   model.clear();
   Model::PieceCurvature piece = Model::PieceCurvature::Identity();
   piece(2 * kState, 2 * kState) = 4.0;
@@ -85,7 +89,7 @@ TEST(CurvatureModel, OfOnePieceIsThatOfItsDuration) {
 }
 
 TEST(CurvatureModel, RefusesWhatIsNotPositiveDefinite) {
-  Model model(1, 0);
+  Model model(std::vector<int>{});
   model.clear();
   model.add(0, -Model::PieceCurvature::Identity(), Eigen::Matrix2Xd(2, 0), 1.0);
   EXPECT_FALSE(model.factor(0.5));

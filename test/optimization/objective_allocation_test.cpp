@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 
+#include "camouflage/adaptive_map.h"
 #include "camouflage/camouflage_map.h"
 #include "optimization/dynamics_penalty.h"
 #include "optimization/moving_penalty.h"
@@ -29,8 +30,20 @@ extern "C" void* malloc(std::size_t size) noexcept {
 namespace mocha {
 namespace {
 
+enum class Knots { kWaypoints, kCamouflage, kAdaptive };
+
+/// On rays from below; every other knot moves freely.
+std::vector<RayKnot<2>> mixed_knots(const Eigen::Matrix2Xd& prey) {
+  std::vector<RayKnot<2>> knots;
+  for (int k = 0; k < prey.cols(); ++k) {
+    knots.push_back(RayKnot<2>::on_ray(prey.col(k), {0.0, 3.0}));
+    knots.back().freedom = 1 + k % 2;
+  }
+  return knots;
+}
+
 /// Everything that planning puts into an objective.
-TrajectoryObjective<2, 3> full_objective(const DistanceField& field, bool camouflage) {
+TrajectoryObjective<2, 3> full_objective(const DistanceField& field, Knots knots) {
   constexpr int kKnots = 12;
   Eigen::Matrix2Xd prey = Eigen::Matrix2Xd::Zero(2, kKnots);
   for (int k = 0; k < kKnots; ++k) prey(0, k) = 0.5 * (k + 1);
@@ -41,7 +54,9 @@ TrajectoryObjective<2, 3> full_objective(const DistanceField& field, bool camouf
   options.end.setZero();
   options.start(1, 1) = 0.3;
   options.end(0, 0) = 0.5 * (kKnots + 1);
-  if (camouflage) {
+  if (knots == Knots::kAdaptive) {
+    options.knot_map = std::make_shared<AdaptiveMap<2>>(mixed_knots(prey), 1.0);
+  } else if (knots == Knots::kCamouflage) {
     options.knot_map = std::make_shared<CamouflageMap<2>>(prey, references, 1.0);
   } else {
     options.knot_map = std::make_shared<WaypointMap<2>>(prey);
@@ -69,8 +84,9 @@ TEST(TrajectoryObjective, EvaluationsAndStepsAllocateNothing) {
   grid.cells.assign(20000, OccupancyGrid::kFree);
   fill_disc(grid, {3.0, 0.2}, 0.3, OccupancyGrid::kOccupied);
   const DistanceField field(grid, DistanceField::Solid::kOccupied);
-  for (const bool camouflage : {true, false}) {
-    auto objective = full_objective(field, camouflage);
+  for (const Knots knots : {Knots::kWaypoints, Knots::kCamouflage, Knots::kAdaptive}) {
+    auto objective = full_objective(field, knots);
+
     const Eigen::VectorXd x = objective.initial(Eigen::VectorXd::Constant(objective.pieces(), 0.7));
     Eigen::VectorXd gradient(objective.variables());
     const long before = allocations;
@@ -80,7 +96,7 @@ TEST(TrajectoryObjective, EvaluationsAndStepsAllocateNothing) {
       EXPECT_TRUE(objective.prepare_steps(1.0));
       objective.to_step(gradient);
     }
-    EXPECT_EQ(allocations - before, 0) << (camouflage ? "with" : "without") << " camouflage";
+    EXPECT_EQ(allocations - before, 0) << "knots " << static_cast<int>(knots);
     for (const auto& term : objective.terms()) {
       EXPECT_GT(term.second, 0.0) << term.first << " took no part";
     }

@@ -153,6 +153,24 @@ TEST(TimeQuadrature, SkipsPiecesOnWhichAPenaltyIsZero) {
   EXPECT_EQ(result.by_duration[3], 0.0);
 }
 
+TEST(TimeQuadrature, TellsTheIntegralOfEachPieceAtTheLastCall) {
+  const PlanarMinco minco = curve();
+  Penalties all;
+  all.push_back(std::make_unique<One>());
+  Penalties until;
+  until.push_back(std::make_unique<OneUntil>(1.5));
+  Integral result = integrate(minco, all, 12);
+  TimeQuadrature<2, 3> quadrature(12, 1, 1);
+  quadrature.resize(minco.pieces());
+  for (const Penalties* penalties : {&all, &until}) {
+    quadrature.add(minco, *penalties, result.by_piece, result.by_duration, result.shares);
+    for (int i = 0; i < minco.pieces(); ++i) {
+      const double expected_s = penalties == &all || i < 2 ? minco.piece_duration(i) : 0.0;
+      EXPECT_NEAR(quadrature.integral(i), expected_s, 1e-12);
+    }
+  }
+}
+
 TEST(TimeQuadrature, AddsToWhatIsThere) {
   const PlanarMinco minco = curve();
   Penalties penalties;

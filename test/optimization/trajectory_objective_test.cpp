@@ -6,6 +6,7 @@
 #include <memory>
 #include <random>
 
+#include "camouflage/adaptive_map.h"
 #include "camouflage/camouflage_map.h"
 #include "optimization/dynamics_penalty.h"
 #include "optimization/moving_penalty.h"
@@ -154,6 +155,59 @@ TYPED_TEST(Objectives, GradientMatchesDifferences) {
   }
 }
 
+/// Other knots, other numbers of variables: the same as an objective made for them.
+TYPED_TEST(Objectives, WithOtherKnotsItIsAsIfMadeForThem) {
+  constexpr int D = TypeParam::D;
+  constexpr int S = TypeParam::S;
+  std::mt19937 random(4);
+  const auto prey = prey_knots<D>(5, random);
+  const Balls<D> balls = random_balls<D>(random);
+  std::vector<RayKnot<D>> knots;
+  for (int k = 0; k < 5; ++k) {
+    knots.push_back(RayKnot<D>::on_ray(prey.col(k), RayKnot<D>::Vector::Ones()));
+    knots.back().freedom = 1 + k % D;
+    knots.back().units_per_m = 1.0 + 0.5 * k;
+  }
+  const auto map = std::make_shared<AdaptiveMap<D>>(knots, 1.5);
+  TrajectoryObjective<D, S> changed(
+      basic_options<D, S>(std::make_shared<WaypointMap<D>>(prey_knots<D>(9, random)), balls));
+  auto options = basic_options<D, S>(map, balls);
+  options.end(0, 0) = 10.0;  // where the other one's nine knots lead
+  TrajectoryObjective<D, S> made(std::move(options));
+  changed.set_knot_map(map);
+  ASSERT_EQ(changed.variables(), made.variables());
+  ASSERT_EQ(changed.pieces(), 6);
+  const Eigen::VectorXd x = random_start(made.variables(), 0.4, random);
+  Eigen::VectorXd by_changed(x.size());
+  Eigen::VectorXd by_made(x.size());
+  EXPECT_EQ(changed.evaluate(x, by_changed), made.evaluate(x, by_made));
+  EXPECT_EQ(by_changed, by_made);
+  expect_gradient(changed, x);
+  changed.evaluate(x, by_changed);
+  ASSERT_TRUE(changed.prepare_steps(1.0) && made.prepare_steps(1.0));
+  made.evaluate(x, by_made);
+  changed.to_step(by_changed);
+  made.to_step(by_made);
+  EXPECT_LT((by_changed - by_made).norm(), 1e-9 * by_made.norm());
+}
+
+TYPED_TEST(Objectives, ByPaceIsTheSlopeByTheLogarithmOfAllDurations) {
+  constexpr int D = TypeParam::D;
+  constexpr int S = TypeParam::S;
+  std::mt19937 random(6);
+  const Balls<D> balls = random_balls<D>(random);
+  TrajectoryObjective<D, S> objective(
+      basic_options<D, S>(std::make_shared<WaypointMap<D>>(prey_knots<D>(5, random)), balls));
+  Eigen::VectorXd ignored(objective.variables());
+  const auto cost = [&](double log_factor) {
+    const Eigen::VectorXd durations_s = Eigen::VectorXd::Constant(6, 1.2 * std::exp(log_factor));
+    return objective.evaluate(objective.initial(durations_s), ignored);
+  };
+  const double slope = (cost(1e-5) - cost(-1e-5)) / 2e-5;
+  cost(0.0);
+  EXPECT_NEAR(objective.by_pace(), slope, 1e-5 * std::abs(slope));
+}
+
 /// Penalties may only be skipped where they are zero: the same cost as with every sample looked at.
 template <int D>
 class Unskipped : public Penalty<D> {
@@ -250,6 +304,9 @@ TEST(TrajectoryObjective, TermsAddUpToTheCost) {
   double sum = 0.0;
   for (const auto& term : objective.terms()) sum += term.second;
   EXPECT_NEAR(sum, cost, 1e-9 * cost);
+  double of_pieces = objective.effort() + objective.duration_cost();
+  for (int i = 0; i < objective.pieces(); ++i) of_pieces += objective.penalty(i);
+  EXPECT_NEAR(of_pieces, cost, 1e-9 * cost);
 }
 
 TEST(TrajectoryOptimizer, AvoidsAnObstacleOnThePreyPath) {
