@@ -11,7 +11,7 @@ namespace mocha {
 namespace {
 
 constexpr double kRough = 1e-3;        // fall of the cost at which the first search stops
-constexpr double kNegligible = 2e-3;   // of the cost: estimated gains that are left out in all
+constexpr double kNegligible = 1e-3;   // of the cost: estimated gains that are left out in all
 constexpr int kFineSearches = 3;       // at most
 constexpr double kMostScaling = 10.0;  // between the variables of knots near and far apart
 
