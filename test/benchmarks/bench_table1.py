@@ -1,10 +1,10 @@
-"""The paper's Table I: motion camouflage against plain MINCO at 1, 3, 5 and 8 m between knots, and both against adaptive knots, which move
-along their rays until more is worth it, and stand where they are worth it.
+"""The paper's Table I: motion camouflage against plain MINCO at fixed spacing, and both against adaptive knots.
 
-All methods have the same evaluator, solver, front-end path, pace at the start and stopping rule. 20 worlds of 65 circles and 20 forests, whose
-paths keep clear of all penalties, and as many dense ones, whose paths do not; v_max 12 m/s, a_max 5 m/s2, 20 samples a piece, w_e = w_t = 1,
-w_o = w_d = 100. t_plan is from the front-end path to the certified trajectory, the least of 7 turns of all methods. J is that of the curve
-with samples 2 cm apart.
+Knots are 1, 3, 5 and 8 m apart; or they move along their rays until more is worth it, and stand where they are worth it. All methods have the
+same evaluator, solver, front-end path, pace at the start and stopping rule. 20 worlds of 65 circles and 20 forests, whose paths keep clear of
+all penalties, and as many dense ones, whose paths do not; v_max 12 m/s, a_max 5 m/s2, 20 samples a piece, w_e = w_t = 1, w_o = w_d = 100.
+t_plan is from the front-end path to the certified trajectory, the least of 7 turns of all methods. J is that of the curve with samples 2 cm
+apart.
 """
 import statistics
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "optimization/slalom.h"
+#include "world/primitive_field.h"
 
 namespace mocha {
 namespace {
@@ -76,14 +77,50 @@ TEST(AdaptiveOptimizer, KnotsOnBadRaysArePromoted) {
   EXPECT_LT(result.found.cost, 0.5 * on_rays.cost);
 }
 
+TEST(AdaptiveOptimizer, InSpaceItReachesTheCostOfWaypointsToo) {
+  constexpr int kSteps = 16;
+  const PrimitiveField<3> trunks({{{7.0, 0.1}, 0.5}, {{14.0, -0.2}, 0.5}}, 2.0);
+  Eigen::Matrix3Xd path = Eigen::Matrix3Xd::Zero(3, kSteps + 1);
+  for (int i = 0; i <= kSteps; ++i) {
+    const double share = static_cast<double>(i) / kSteps;
+    path(0, i) = 20.0 * share * share * (3.0 - 2.0 * share);
+  }
+  TrajectoryObjective<3, 3>::Options options;
+  options.start.setZero();
+  options.end.setZero();
+  options.end(0, 0) = 20.0;
+  options.knot_map = std::make_shared<WaypointMap<3>>(path.middleCols(1, kSteps - 1));
+  options.effort_weight = 1.0;
+  options.duration_cost = DurationCost::total(1.0);
+  options.kappa = 16;
+  options.metres_per_eta = 1.0;
+  options.penalties.push_back(std::make_unique<ObstaclePenalty<3>>(
+      200.0, trunks, std::vector<ObstaclePenalty<3>::Cover>{{0.0, 0.8}}, 0.05));
+  TrajectoryObjective<3, 3> objective(std::move(options));
+  const auto many = optimize<3, 3>(
+      objective, objective.initial(Eigen::VectorXd::Constant(kSteps, 1.0)), kThorough);
+  const auto beside = [](const Eigen::Matrix3Xd& points) {
+    Eigen::Matrix3Xd references = points.middleCols(1, points.cols() - 2);
+    references.row(1).array() += 10.0;
+    return std::optional<Eigen::Matrix3Xd>(references);
+  };
+  const auto few =
+      optimize_adaptively<3>(objective, {path, 16.0, 4, 0.5, beside}, kTravelled, kThorough);
+  EXPECT_LT(few.found.cost, 1.002 * many.cost);
+  EXPECT_LT(few.found.curve.pieces(), kSteps);
+}
+
 TEST(AdaptiveOptimizer, KeepsToTheBudgetAndStopsWhenAsked) {
   const Slalom slalom;
   auto objective = slalom.objective();
-  const auto some = optimize_adaptively<2>(objective, Slalom::candidates(), kTravelled,
-                                           {30, 1e-6, [] { return false; }});
-  EXPECT_LE(some.found.evaluations, 30);
-  EXPECT_EQ(some.found.stop, StopReason::kBudget);
-  EXPECT_GT(some.found.curve.pieces(), 0);
+  const auto whole = optimize_adaptively<2>(objective, Slalom::candidates(), kTravelled, kThorough);
+  for (const int budget : {30, whole.found.evaluations / 2, whole.found.evaluations - 5}) {
+    const auto some = optimize_adaptively<2>(objective, Slalom::candidates(), kTravelled,
+                                             {budget, 1e-6, [] { return false; }});
+    EXPECT_EQ(some.found.evaluations, budget);
+    EXPECT_EQ(some.found.stop, StopReason::kBudget);
+    EXPECT_GT(some.found.curve.pieces(), 0);
+  }
   int asked = 0;
   const auto stopped = optimize_adaptively<2>(objective, Slalom::candidates(), kTravelled,
                                               {20000, 1e-6, [&] { return ++asked > 20; }});
