@@ -25,9 +25,7 @@ class ChainBuilder {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
 
-  ChainBuilder(const KnotChain<D>& chain, const TrialKnots<D>& trial) : trial_(trial) {
-    chain_.knots.reserve(2 * chain.pieces());
-  }
+  explicit ChainBuilder(const TrialKnots<D>& trial) : trial_(trial) {}
 
   void add_piece(double duration_s, bool halved, int i) {
     if (halved) {
@@ -92,15 +90,16 @@ std::vector<Addition> choose_additions(const KnotChain<D>& chain, const TrialKno
   return additions;
 }
 
-/// How far the curve would move where a knot is taken away, by the jump of its last derivative: the
-/// force with which the knot holds it.
+/// Is knot k away from penalties, and would the curve hardly move without it? By the jump of its
+/// last derivative: the force with which the knot holds it.
 template <int D>
-double release_m(const KnotChain<D>& chain, const TrialKnots<D>& trial, int k) {
+bool is_idle(const KnotChain<D>& chain, const TrialKnots<D>& trial, int k) {
   constexpr int kLast = 5;
+  if (!trial.is_free[k] || !trial.is_free[k + 1]) return false;
   const Eigen::Matrix<double, D, 1> jump =
       trial.curve.derivative({k + 1, 0.0}, kLast) - trial.curve.derivative({k, 1.0}, kLast);
   const double spacing_s = 0.5 * (chain.durations_s[k] + chain.durations_s[k + 1]);
-  return 2.0 * jump.norm() / stiffness(1.0, spacing_s);
+  return 2.0 * jump.norm() / stiffness(1.0, spacing_s) < kStill_m;
 }
 
 }  // namespace
@@ -145,33 +144,31 @@ template <int D>
 bool refine(KnotChain<D>& chain, const TrialKnots<D>& trial, double share) {
   const int pieces = chain.pieces();
   std::vector<bool> halved(pieces, false);
-  std::vector<bool> kept(pieces - 1, false);
+  std::vector<bool> promoted(pieces, false);
   const auto additions = choose_additions(chain, trial, share * trial.cost);
   for (const Addition& addition : additions) {
     if (addition.is_knot) {
       halved[addition.index] = true;
     } else {
       chain.knots[addition.index].promote(trial.by_knot.col(addition.index));
-      kept[addition.index] = true;
+      promoted[addition.index] = true;
     }
   }
   const double longest_s = kLongest * chain.durations_s.mean();
-  ChainBuilder<D> refined(chain, trial);
   double last_s = chain.durations_s[0];
+  ChainBuilder<D> refined(trial);
   refined.add_piece(last_s, halved[0], 0);
   for (int k = 0; k + 1 < pieces; ++k) {
     const double next_s = chain.durations_s[k + 1];
-    const bool is_idle = trial.is_free[k] && trial.is_free[k + 1] && !kept[k] && !halved[k] &&
-                         !halved[k + 1] && last_s + next_s < longest_s &&
-                         release_m(chain, trial, k) < kStill_m;
-    if (is_idle) {
+    const bool is_wanted = promoted[k] || halved[k] || halved[k + 1];
+    if (!is_wanted && last_s + next_s < longest_s && is_idle(chain, trial, k)) {
       refined.prolong(next_s);
       last_s += next_s;
-      continue;
+    } else {
+      refined.add_knot(chain.knots[k]);
+      refined.add_piece(next_s, halved[k + 1], k + 1);
+      last_s = next_s;
     }
-    refined.add_knot(chain.knots[k]);
-    refined.add_piece(next_s, halved[k + 1], k + 1);
-    last_s = next_s;
   }
   chain = refined.take();
   return !additions.empty();
