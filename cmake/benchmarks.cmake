@@ -5,9 +5,10 @@ function(mocha_benchmark name)
   target_link_libraries(benchmark_${name} mocha_stack)
 endfunction()
 
-foreach(name evaluation table1 table1_curves)
+foreach(name evaluation table1_curves)
   mocha_benchmark(${name})
 endforeach()
+mocha_benchmark(table1 test/benchmarks/built_worlds.cpp)
 
 mocha_benchmark(space)
 target_link_libraries(benchmark_space octomap octomath)

@@ -14,14 +14,20 @@ from mocha_scripts.complaint import Complaint, in_a_line
 SAMPLE_S = 0.05
 
 
-def place(text):
-    try:
-        numbers = [float(number) for number in text.split(",")]
-    except ValueError:
-        numbers = []
-    if len(numbers) != 3 or not all(map(math.isfinite, numbers)):
-        raise argparse.ArgumentTypeError(f"{text}: expected X,Y,Z in metres")
-    return tuple(numbers)
+def numbers_of(count, expected):
+    def read(text):
+        try:
+            numbers = [float(number) for number in text.split(",")]
+        except ValueError:
+            numbers = []
+        if len(numbers) != count or not all(map(math.isfinite, numbers)):
+            raise argparse.ArgumentTypeError(f"{text}: expected {expected}")
+        return tuple(numbers)
+    return read
+
+
+place = numbers_of(3, "X,Y,Z in metres")
+ball = numbers_of(7, "X,Y,Z,VX,VY,VZ,RADIUS in metres and metres per second")
 
 
 def parameter(text):
@@ -42,6 +48,8 @@ def parse(arguments):
     parser.add_argument("--start", type=place, required=True, metavar="X,Y,Z", help="where the robot rests [m]")
     parser.add_argument("--goal", type=place, required=True, metavar="X,Y,Z", help="where it is to rest [m]")
     parser.add_argument("--classes", type=int, metavar="K", help="paths of different topology at most (as config/space_planner.yaml has it: 6)")
+    parser.add_argument("--moving", type=ball, action="append", default=[], metavar="X,Y,Z,VX,VY,VZ,R",
+                        help="a ball that moves: where it is when the plan begins [m], its velocity [m/s], its radius [m]; may be given several times")
     parser.add_argument("--parameter", type=parameter, action="append", default=[], metavar="NAME=VALUE",
                         help="one of config/space_planner.yaml; may be given several times")
     parser.add_argument("--json", metavar="FILE", help="write the plan there")
@@ -49,7 +57,7 @@ def parse(arguments):
     # A place may begin with a minus sign, which argparse takes for an option.
     joined = []
     for word in arguments:
-        if joined and joined[-1] in ("--start", "--goal"):
+        if joined and joined[-1] in ("--start", "--goal", "--moving"):
             joined[-1] += "=" + word
         else:
             joined.append(word)
@@ -67,7 +75,7 @@ def run(options):
         curves = planner.curves(options.start)
         map_s = time.monotonic() - begin_s
         begin_s = time.monotonic()
-        plan = planner.plan(options.start, options.goal)
+        plan = planner.plan(options.start, options.goal, options.moving)
     except (ValueError, RuntimeError) as error:
         raise Complaint(in_a_line(error)) from error
     return planner, curves, plan, {"map_s": map_s, "plan_s": time.monotonic() - begin_s}

@@ -3,9 +3,12 @@
 #include <ros/ros.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "ros_bridge/inputs/refusals.h"
 #include "ros_bridge/messages/space_conversions.h"
@@ -19,6 +22,7 @@ namespace mocha {
 namespace {
 
 constexpr double kDiagnosticsPeriod_s = 1.0;
+constexpr std::uint32_t kMostClasses = 50;
 
 /// Plans in an OctoMap in three dimensions, when it is asked to: by its service, or by points
 /// clicked in rviz, each the goal from the one before.
@@ -26,7 +30,7 @@ class SpacePlannerNode {
  public:
   SpacePlannerNode(ros::NodeHandle& node, const ParameterTable& values)
       : identity_(robot_identity()),
-        values_(values),
+        radius_m_(values.number("radius")),
         planning_time_s_(values.number("planning_time")),
         paths_(node.advertise<nav_msgs::Path>("space_path", 1, true)),
         trajectories_(node.advertise<mocha_ugv::SpaceTrajectory>("space_trajectory", 1, true)),
@@ -34,7 +38,7 @@ class SpacePlannerNode {
         cells_(node.advertise<sensor_msgs::PointCloud2>("space_cells", 1, true)) {
     if (values.text("map_file").empty())
       throw ParameterError("parameter `map_file` is not set: no map to plan in");
-    planner_ = make_space_planner(values_, {});
+    planner_ = make_space_planner(values, {});
     cells_.publish(solid_cells_message(planner_->field(), identity_.map_frame, ros::Time::now()));
     diagnostics_.setHardwareID(identity_.name);
     diagnostics_.add("planning in space", this, &SpacePlannerNode::diagnose);
@@ -47,7 +51,20 @@ class SpacePlannerNode {
  private:
   bool on_request(mocha_ugv::PlanInSpace::Request& request,
                   mocha_ugv::PlanInSpace::Response& response) {
-    response = plan(from_message(request.start), from_message(request.goal), request.classes);
+    SpaceQuery query{from_message(request.start), from_message(request.goal)};
+    query.classes = static_cast<int>(std::min(request.classes, kMostClasses));
+    try {
+      for (const mocha_ugv::MovingBall& ball : request.moving)
+        query.moving.push_back(from_message(ball));
+    } catch (const std::invalid_argument& error) {
+      refusals_.add(error.what());
+      SpacePlan refused;
+      refused.reason = PlanReason::kInvalidInput;
+      refused.message = error.what();
+      response = to_message(refused, radius_m_, identity_.map_frame, ros::Time::now());
+      return true;
+    }
+    response = plan(std::move(query));
     return true;
   }
 
@@ -58,27 +75,25 @@ class SpacePlannerNode {
                     ", or not finite");
       return;
     }
-    if (clicked_) plan(*clicked_, place, 0);
+    if (clicked_) plan({*clicked_, place});
     clicked_ = place;
   }
 
-  mocha_ugv::PlanInSpace::Response plan(const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
-                                        std::uint32_t classes) {
+  mocha_ugv::PlanInSpace::Response plan(SpaceQuery query) {
     const ros::SteadyTime begin = ros::SteadyTime::now();
-    const auto should_stop = [&] {
+    query.should_stop = [&] {
       return !ros::ok() || (ros::SteadyTime::now() - begin).toSec() > planning_time_s_;
     };
-    const SpacePlan plan =
-        planner_->plan({start, goal, static_cast<int>(std::min(classes, 50u)), should_stop});
+    const SpacePlan plan = planner_->plan(query);
     took_s_ = (ros::SteadyTime::now() - begin).toSec();
     ++plans_;
     solved_ += plan.reason == PlanReason::kSolved;
     last_ = to_text(plan.reason) + (": " + plan.message);
     const ros::Time now = ros::Time::now();
-    const auto response = to_message(plan, values_.number("radius"), identity_.map_frame, now);
+    const auto response = to_message(plan, radius_m_, identity_.map_frame, now);
     paths_.publish(response.path);
     trajectories_.publish(response.trajectory);
-    if (const auto region = planner_->region_of(start)) {
+    if (const auto region = planner_->region_of(query.start)) {
       markers_.publish(
           space_markers(plan, region->curves(), planner_->field(), identity_.map_frame, now));
     }
@@ -102,7 +117,7 @@ class SpacePlannerNode {
   }
 
   const RobotIdentity identity_;
-  const ParameterTable values_;
+  const double radius_m_;
   const double planning_time_s_;
   std::unique_ptr<SpacePlanner> planner_;
   std::optional<Eigen::Vector3d> clicked_;

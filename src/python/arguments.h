@@ -6,6 +6,7 @@
 
 #include "config/parameter_table.h"
 #include "world/goal.h"
+#include "world/moving/tube.h"
 #include "world/occupancy_grid.h"
 
 namespace mocha {
@@ -23,6 +24,8 @@ Pose to_start(const pybind11::object& start);
 Goal to_goal(const pybind11::object& goal);
 /// Of (x, y, z), the argument `name`.
 Eigen::Vector3d to_place(const char* name, const pybind11::object& place);
+/// Of (x, y, z, vx, vy, vz, radius), in the argument `name`.
+Tube<3> to_ball(const char* name, const pybind11::object& ball);
 /// Sets the values of a dictionary by name. What the table refuses, it throws as ParameterError.
 void assign(const pybind11::dict& parameters, ParameterTable& values);
 

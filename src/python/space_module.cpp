@@ -138,12 +138,16 @@ Bad arguments raise ValueError; a map that cannot be used, RuntimeError.)")
            py::arg("held") = std::vector<py::object>())
       .def(
           "plan",
-          [](SpacePlanner& planner, const py::object& start, const py::object& goal) {
-            const SpaceQuery query{to_place("start", start), to_place("goal", goal)};
+          [](SpacePlanner& planner, const py::object& start, const py::object& goal,
+             const std::vector<py::object>& moving) {
+            SpaceQuery query{to_place("start", start), to_place("goal", goal)};
+            for (const py::object& ball : moving) query.moving.push_back(to_ball("moving", ball));
             const py::gil_scoped_release others_may_run;
             return planner.plan(query);
           },
-          py::arg("start"), py::arg("goal"), "From rest at start to rest at goal, (x, y, z) [m].")
+          py::arg("start"), py::arg("goal"), py::arg("moving") = std::vector<py::object>(),
+          "From rest at start to rest at goal, (x, y, z) [m], past balls that move: each (x, y, z, "
+          "vx, vy, vz, radius) [m, m/s], when the motion begins.")
       .def(
           "curves",
           [](SpacePlanner& planner, const py::object& start) -> py::object {

@@ -2,7 +2,7 @@
 
 Knots are 1, 3, 5 and 8 m apart; or they move along their rays until more is worth it, and stand where they are worth it. All methods have the
 same evaluator, solver, front-end path, pace at the start and stopping rule. 20 worlds of 65 circles and 20 forests, whose paths keep clear of
-all penalties, and as many dense ones, whose paths do not; v_max 12 m/s, a_max 5 m/s2, 20 samples a piece, w_e = w_t = 1, w_o = w_d = 100.
+all penalties, as many dense ones, whose paths do not, and three that are built; paths in space are those of a roadmap in space. v_max 12 m/s, a_max 5 m/s2, 20 samples a piece, w_e = w_t = 1, w_o = w_d = 100.
 t_plan is from the front-end path to the certified trajectory, the least of 7 turns of all methods. J is that of the curve with samples 2 cm
 apart.
 """
@@ -12,9 +12,10 @@ from benchmarks import benchmark
 
 SPACINGS_M = (1, 3, 5, 8)
 METHODS = ("minco", "camouflage")
-KINDS = (("open", 2), ("open", 3), ("dense", 2), ("dense", 3))
+KINDS = (("open", 2), ("open", 3), ("dense", 2), ("dense", 3), ("built", 3))
 TITLES = {("open", 2): "circles in the plane", ("open", 3): "trunks in space",
-          ("dense", 2): "dense circles in the plane", ("dense", 3): "dense trunks in space"}
+          ("dense", 2): "dense circles in the plane", ("dense", 3): "dense trunks in space",
+          ("built", 3): "a wall with two windows, a ring and two storeys, ten times as large"}
 NEAR_BEST = 1.001  # times the least cost of the fixed choices
 # t_plan [s], T [s], L [m], J
 PAPER = {(2, "camouflage"): (1.86, 17.51, 146.24, 409.57), (2, "minco"): (2.51, 17.15, 146.89, 400.12),

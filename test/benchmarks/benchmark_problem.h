@@ -61,7 +61,7 @@ template <int D>
 Eigen::Matrix<double, D, Eigen::Dynamic> table_references(const BenchmarkWorld<D>& world,
                                                           const InitialKnots<D>& knots,
                                                           const TableOptions& options) {
-  const auto references = choose_references<D>(knots.path, world.field, options.travel_m);
+  const auto references = choose_references<D>(knots.path, *world.field, options.travel_m);
   if (!references) throw std::runtime_error("table1: no reference points");
   return references.references;
 }
@@ -90,7 +90,7 @@ typename TrajectoryObjective<D, 3>::Options table_objective_options(const Benchm
   objective_options.kappa = options.kappa;
   objective_options.metres_per_eta = knots.metres_per_eta();
   objective_options.penalties.push_back(std::make_unique<ObstaclePenalty<D>>(
-      options.w_o * to_sixth(options.d_s_m), world.field,
+      options.w_o * to_sixth(options.d_s_m), *world.field,
       std::vector<typename ObstaclePenalty<D>::Cover>{{0.0, options.d_s_m}}, 1.0));
   objective_options.penalties.push_back(std::make_unique<DynamicsPenalty<D>>(
       options.w_d * to_sixth(options.max_speed), options.max_speed,

@@ -3,8 +3,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "topology/paths/class_search.h"
+#include "topology/paths/euclidean_shortcutting.h"
 #include "topology/paths/grid_path.h"
 #include "topology/paths/path_shortcutting.h"
+#include "topology/roadmaps/visibility_prm.h"
 #include "topology/shipped_options.h"
 #include "topology/static_map/grid_static_map.h"
 
@@ -70,30 +73,38 @@ BenchmarkWorld<2> circle_world(int seed, const BenchmarkOptions& options) {
   std::mt19937 random(seed);
   const Ground& ground = options.ground;
   const std::vector<Circle> circles = scatter(ground, options.gap_m, corners(ground), random);
-  return {PrimitiveField<2>({circles.begin(), circles.end()}, 2.0),
+  return {std::make_shared<PrimitiveField<2>>(std::vector<Obstacle>(circles.begin(), circles.end()),
+                                              2.0),
           front_end(circles, ground.side_m, options.front_end_clearance_m)};
 }
 
 BenchmarkWorld<3> forest_world(int seed, const BenchmarkOptions& options) {
   constexpr double kStartHeight_m = 2.0;
   constexpr double kClimb_m = 8.0;
+  constexpr double kCanopy_m = 12.0;
+  constexpr VisibilityPrmOptions kRoadmap{6000, 1, 25.0};
   std::mt19937 random(1000 + seed);
   const Ground& ground = options.ground;
-  const std::vector<Circle> trunks = scatter(ground, options.gap_m, corners(ground), random);
-  std::vector<Cylinder> cylinders;
-  for (const Circle& trunk : trunks) cylinders.push_back({trunk.centre, trunk.radius_m});
-  // Trunks have no end, so the way round them is that of the plane, climbing evenly.
-  const std::vector<Vector2> level =
-      front_end(trunks, ground.side_m, options.front_end_clearance_m);
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < level.size(); ++i) length_m += (level[i] - level[i - 1]).norm();
-  std::vector<Eigen::Vector3d> path;
-  double along_m = 0.0;
-  for (std::size_t i = 0; i < level.size(); ++i) {
-    if (i > 0) along_m += (level[i] - level[i - 1]).norm();
-    path.emplace_back(level[i].x(), level[i].y(), kStartHeight_m + kClimb_m * along_m / length_m);
+  std::vector<Cylinder> trunks;
+  std::vector<Cuts<3>::Curve> columns;
+  for (const Circle& trunk : scatter(ground, options.gap_m, corners(ground), random)) {
+    trunks.push_back({trunk.centre, trunk.radius_m});
+    columns.push_back(Column{trunk.centre});
   }
-  return {PrimitiveField<3>(std::move(cylinders), 2.0), std::move(path)};
+  BenchmarkWorld<3> world{std::make_shared<PrimitiveField<3>>(std::move(trunks), 2.0), {}};
+  const Eigen::Vector3d start(0.0, 0.0, kStartHeight_m);
+  const Eigen::Vector3d goal(ground.side_m, ground.side_m, kStartHeight_m + kClimb_m);
+  const Cuts<3> cuts(columns);
+  const StaticSpace<3> space(
+      *world.field, cuts,
+      {Eigen::Vector3d(-kBorder_m, -kBorder_m, 0.0),
+       Eigen::Vector3d(ground.side_m + kBorder_m, ground.side_m + kBorder_m, kCanopy_m)},
+      start, {options.front_end_clearance_m, 0.0});
+  const auto paths =
+      shortest_classes<3>(visibility_prm<3>(space, start, goal, kRoadmap), space, {1, 1.0});
+  if (paths.empty()) throw std::runtime_error("benchmark world: there is no path through");
+  world.path = with_shortcuts<3>(paths.front().points, space);
+  return world;
 }
 
 }  // namespace mocha

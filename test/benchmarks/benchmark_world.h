@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -24,7 +25,7 @@ std::vector<Circle> scatter(const Ground& ground, double gap_m, const std::vecto
 template <int D>
 struct BenchmarkWorld {
   using Point = Eigen::Matrix<double, D, 1>;
-  PrimitiveField<D> field;
+  std::shared_ptr<const ObstacleField<D>> field;
   std::vector<Point> path;  ///< from start to goal, straight between [m]
 };
 
@@ -46,7 +47,8 @@ inline constexpr BenchmarkOptions kDenseForest{{122.0, 600, 0.3, 1.0}, 2.0, 0.8}
 /// Circles, crossed from corner to corner.
 BenchmarkWorld<2> circle_world(int seed, const BenchmarkOptions& options);
 
-/// A forest of upright trunks, crossed from corner to corner while climbing.
+/// A forest of upright trunks, crossed from corner to corner while climbing, by the shortest path
+/// of a roadmap in space.
 BenchmarkWorld<3> forest_world(int seed, const BenchmarkOptions& options);
 
 }  // namespace mocha

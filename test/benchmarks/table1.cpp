@@ -1,7 +1,7 @@
 // The paper's Table I: camouflage against waypoints, at 1 to 8 m between knots, and against knots
-// whose number and freedom are found as well; in the plane and in space, open and dense; same
-// evaluator, solver, start and stopping rule. Then weights that ask for speed. Prints JSON; the
-// arguments are the number of worlds of each kind and the first seed.
+// whose number and freedom are found as well; in the plane and in space, open, dense and built;
+// same evaluator, solver, start and stopping rule. Then weights that ask for speed. Prints JSON;
+// the arguments are the number of worlds of each kind and the first seed.
 
 #include <algorithm>
 #include <cstdio>
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/built_worlds.h"
 #include "benchmarks/table_plan.h"
 #include "benchmarks/time_optimal.h"
 #include "trajectory/arc_length.h"
@@ -110,7 +111,7 @@ class Rows {
         run.piece_evaluations, run.found.curve.pieces(),
         static_cast<int>(run.found.variables.size()),
         exact_cost<D>(where, run.found.curve, options), run.found.cost, total_s, length_m,
-        clearance_m<D>(run.curve, where.field, options.radius_m), run.feasible ? "true" : "false",
+        clearance_m<D>(run.curve, *where.field, options.radius_m), run.feasible ? "true" : "false",
         max_speed(run.found.curve).value / options.max_speed - 1.0,
         max_acceleration(run.found.curve).value / options.max_acceleration - 1.0,
         total_s / kinematic_s, total_s / own_s);
@@ -138,6 +139,9 @@ void run(int first, int last) {
     table.add<2>("dense", seed, methods, circle_world(seed, kDenseCircles), TableOptions());
     table.add<3>("dense", seed, methods, forest_world(seed, kDenseForest), TableOptions());
   }
+  int number = 0;
+  for (const BenchmarkWorld<3>& world : built_worlds())
+    table.add<3>("built", ++number, methods, world, TableOptions());
   std::printf("],\n\"fast\": [");
   Rows fast;
   for (int seed = first; seed <= last; ++seed) {

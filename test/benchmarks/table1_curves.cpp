@@ -18,7 +18,8 @@ constexpr Choice kChoices[] = {{false, 1.0}, {true, 1.0}, {false, 8.0}, {true, 8
 
 /// Centre and radius of each, over the ground.
 template <int D>
-Eigen::MatrixXd obstacle_columns(const PrimitiveField<D>& field) {
+Eigen::MatrixXd obstacle_columns(const BenchmarkWorld<D>& world) {
+  const auto& field = dynamic_cast<const PrimitiveField<D>&>(*world.field);
   Eigen::MatrixXd columns(3, field.primitives().size());
   for (int i = 0; i < columns.cols(); ++i) {
     const auto& primitive = field.primitives()[i];
@@ -63,7 +64,7 @@ void print_scene(const char* key, int seed, const BenchmarkWorld<D>& world) {
   Eigen::MatrixXd front_end(D, world.path.size());
   for (int i = 0; i < front_end.cols(); ++i) front_end.col(i) = world.path[i];
   std::printf(",\n\"%s\": {\"world\": %d, \"dim\": %d", key, seed, D);
-  print_columns("obstacles", obstacle_columns<D>(world.field));
+  print_columns("obstacles", obstacle_columns<D>(world));
   print_columns("front_end", front_end);
   std::printf(",\n\"trajectories\": [");
   for (const Choice& choice : kChoices) {

@@ -39,7 +39,7 @@ TablePlan<D> timed_plan(const BenchmarkWorld<D>& world, const TableOptions& opti
   plan.curve = plan.found.curve.stretched(stretch.value_or(1.0));
   const CurveCertificate<D, 3> certificate(plan.curve);
   plan.feasible = !certificate.check_limits(options.max_speed, options.max_acceleration) &&
-                  !certificate.check_clearance(options.radius_m, world.field, 0.0);
+                  !certificate.check_clearance(options.radius_m, *world.field, 0.0);
   plan.t_plan_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return plan;
 }
@@ -72,7 +72,8 @@ TablePlan<D> plan_adaptively(const BenchmarkWorld<D>& world, const TableOptions&
     const InitialKnots<D> knots = profile.knots(pieces);
     TrajectoryObjective<D, 3> objective(table_objective_options<D>(world, knots, false, options));
     const auto references = [&](const auto& path) {
-      return choose_references<D>(path, world.field, options.travel_m);
+      const auto chosen = choose_references<D>(path, *world.field, options.travel_m);
+      return chosen ? std::optional(chosen.references) : std::nullopt;
     };
     const auto adaptive = optimize_adaptively<D>(
         objective, {knots.path, profile.duration_s(), kCoarsest, kTolerance_m, references},

@@ -7,8 +7,8 @@ import unittest
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import Point, PointStamped
-from mocha_ugv.msg import PlannerStatus, SpaceTrajectory
+from geometry_msgs.msg import Point, PointStamped, Vector3
+from mocha_ugv.msg import MovingBall, PlannerStatus, SpaceTrajectory
 from mocha_ugv.srv import PlanInSpace
 from nav_msgs.msg import Path
 from sensor_msgs.msg import PointCloud2
@@ -36,7 +36,7 @@ class SpacePlanner(unittest.TestCase):
             cls.words[status.name] = status
 
     def test_plans_all_classes_and_publishes_the_cheapest(self):
-        found = self.plan(START, GOAL, 0)
+        found = self.plan(START, GOAL, 0, [])
         self.assertTrue(found.success, found.message)
         self.assertEqual(found.status.reason, PlannerStatus.SOLVED)
         self.assertEqual(len(found.candidates), 4)
@@ -55,8 +55,8 @@ class SpacePlanner(unittest.TestCase):
         self.assertGreater(self.latest["space_cells"].width, 1000)
 
     def test_as_many_classes_as_are_asked_for(self):
-        self.assertEqual(len(self.plan(START, GOAL, 2).candidates), 2)
-        self.assertTrue(self.plan(START, GOAL, 4000000000).success)
+        self.assertEqual(len(self.plan(START, GOAL, 2, []).candidates), 2)
+        self.assertTrue(self.plan(START, GOAL, 4000000000, []).success)
 
     def test_bad_input_is_refused_with_the_reason(self):
         for start, goal, reason in ((Point(math.nan, 1.0, 1.0), GOAL, PlannerStatus.INVALID_INPUT),
@@ -64,12 +64,20 @@ class SpacePlanner(unittest.TestCase):
                                     (Point(1e300, 1.0, 1.0), GOAL, PlannerStatus.START_OCCUPIED),
                                     (START, Point(6.0, 5.0, 1.0), PlannerStatus.GOAL_OCCUPIED),
                                     (START, Point(10.0, 8.0, 60.0), PlannerStatus.GOAL_OCCUPIED)):
-            found = self.plan(start, goal, 0)
+            found = self.plan(start, goal, 0, [])
             self.assertFalse(found.success)
             self.assertEqual(found.status.reason, reason, found.message)
             self.assertTrue(found.message)
             self.assertFalse(found.trajectory.points or found.candidates)
-        self.assertTrue(self.plan(START, GOAL, 0).success)
+        self.assertTrue(self.plan(START, GOAL, 0, []).success)
+
+    def test_plans_past_what_moves_and_refuses_what_is_no_ball(self):
+        ball = MovingBall(position=Point(2.0, 6.0, 1.8), velocity=Vector3(0.0, -0.3, 0.0), radius=0.4)
+        self.assertTrue(self.plan(START, GOAL, 0, [ball]).success)
+        for spoilt in (MovingBall(radius=-1.0), MovingBall(velocity=Vector3(math.nan, 0.0, 0.0))):
+            found = self.plan(START, GOAL, 0, [ball, spoilt])
+            self.assertFalse(found.success)
+            self.assertEqual(found.status.reason, PlannerStatus.INVALID_INPUT, found.message)
 
     def test_two_clicks_are_a_plan_and_others_are_refused(self):
         clicks = rospy.Publisher("/clicked_point", PointStamped, queue_size=5)
@@ -85,7 +93,7 @@ class SpacePlanner(unittest.TestCase):
         click(3.0, 6.0, 1.5)
         wait_until(lambda: self.latest.get("space_path") is not None and self.latest["space_path"].poses
                    and math.dist(self.end_of_path(), (3.0, 6.0, 1.5)) < 1e-6, "the plan between the clicks")
-        wait_until(lambda: self.counted("/space_planner: planning in space", "refused") == "2", "two refusals in diagnostics")
+        wait_until(lambda: self.counted("/space_planner: planning in space", "refused: clicked_point") == "2", "two refusals in diagnostics")
 
     def end_of_path(self):
         end = self.latest["space_path"].poses[-1].pose.position

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "camouflage/camouflage_map.h"
+#include "camouflage/reference_point.h"
 #include "optimization/clearance_penalty.h"
 #include "optimization/dynamics_penalty.h"
 #include "optimization/obstacle_penalty.h"
 #include "optimization/turning_penalty.h"
 #include "optimization/wheel_penalty.h"
 #include "optimization/zone_speed_penalty.h"
-#include "planning/candidates/knot_map_choice.h"
 #include "planning/candidates/knot_spacing.h"
 #include "planning/candidates/path_clearance.h"
 #include "planning/candidates/start_maneuver.h"
@@ -101,6 +102,19 @@ Effort raised(const Effort& effort, const Violation& violation, double factor) {
 
 const MotionLimits& DriveOptimizer::limits_of(const DriveQuery& query) const {
   return query.limits ? *query.limits : robot_.limits;
+}
+
+std::shared_ptr<const KnotMap<2>> DriveOptimizer::knot_map(
+    const Eigen::Matrix2Xd& path, const ObstacleField<2>& field,
+    std::optional<Fallback>& fallback) const {
+  const Eigen::Matrix2Xd prey = path.middleCols(1, path.cols() - 2);
+  if (!fallback) {
+    const auto chosen = choose_references(path, field, options_.knot_travel_m);
+    if (chosen)
+      return std::make_shared<CamouflageMap<2>>(prey, chosen.references, options_.knot_travel_m);
+    fallback = fallback_of(chosen);
+  }
+  return std::make_shared<WaypointMap<2>>(prey);
 }
 
 std::vector<std::unique_ptr<Penalty<2>>> DriveOptimizer::penalties(const DriveQuery& query,
@@ -232,7 +246,7 @@ OptimizedDrive DriveOptimizer::optimize_drive(const DriveQuery& query,
   options.start = query.start;
   options.end = end_state(query);
   std::optional<Fallback> fallback = effort.fallback;
-  options.knot_map = choose_knot_map<2>(knots.path, field, options_.knot_travel_m, fallback);
+  options.knot_map = knot_map(knots.path, field, fallback);
   options.effort_weight = options_.weight_effort / (a_max * a_max);
   options.duration_cost = query.duration_cost;
   options.penalties = penalties(query, field, effort);

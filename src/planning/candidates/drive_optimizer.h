@@ -89,6 +89,10 @@ class DriveOptimizer {
   InitialKnots<2> initial_knots(const DriveQuery& query, const ObstacleField<2>& field,
                                 const Effort& effort) const;
   PlanarMinco::State end_state(const DriveQuery& query) const;
+  /// Sets the fallback where there is none yet, and camouflage is not possible.
+  std::shared_ptr<const KnotMap<2>> knot_map(const Eigen::Matrix2Xd& path,
+                                             const ObstacleField<2>& field,
+                                             std::optional<Fallback>& fallback) const;
   std::vector<std::unique_ptr<Penalty<2>>> penalties(const DriveQuery& query,
                                                      const ObstacleField<2>& field,
                                                      const Effort& effort) const;

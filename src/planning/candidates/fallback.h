@@ -4,6 +4,8 @@
 #include <array>
 #include <string>
 
+#include "camouflage/reference_point.h"
+
 namespace mocha {
 
 /// What planning does in place of what it does as a rule, as that failed; the same list as in
@@ -27,6 +29,13 @@ struct BasicFallback {
 };
 
 using Fallback = BasicFallback<2>;
+
+/// Why a path without reference points has waypoints as variables.
+template <int D>
+BasicFallback<D> fallback_of(const ReferencesOrFault<D>& chosen) {
+  const bool bends = chosen.fault == ReferenceFault::kSharpBend;
+  return {bends ? FallbackKind::kSharpBend : FallbackKind::kCoincidentPoints, chosen.place};
+}
 
 /// What is done instead of what, and why, such as "plain waypoints instead of camouflage: the path
 /// bends too sharply for a reference point".

@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "planning/candidates/parallel.h"
-#include "topology/space/space_paths.h"
 
 namespace mocha {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;  // of the roadmap
+constexpr std::uint64_t kSeed = 1;  // of the roadmaps
+constexpr double kMoreTime = 1.25;  // for paths past what moves
 
 bool is_certified(const SpaceCandidate& candidate) {
   return candidate.reason == PlanReason::kSolved;
@@ -81,13 +81,37 @@ bool SpacePlanner::is_refused(const SpaceQuery& query, SpacePlan& plan) const {
   return is_occupied("goal", query.goal, options_.required_clearance_m());
 }
 
-std::vector<SpacePath> SpacePlanner::paths_for(const SpaceQuery& query,
-                                               const SpaceRegion& region) const {
-  const SpacePathOptions options{{options_.required_clearance_m(), 0.0},
-                                 query.classes > 0 ? query.classes : options_.classes,
-                                 options_.longest_ratio,
-                                 {options_.prm_samples, kSeed, options_.prm_reach_m}};
-  return find_space_paths(*field_, region, query.start, query.goal, options, query.should_stop);
+SpacePathOptions SpacePlanner::path_options(const SpaceQuery& query) const {
+  return {{options_.required_clearance_m(), 0.0},
+          query.classes > 0 ? query.classes : options_.classes,
+          options_.longest_ratio,
+          {options_.prm_samples, kSeed, options_.prm_reach_m}};
+}
+
+/// Paths past what moves, that take as long as the static plan, and a little longer.
+std::vector<TimedSpacePath> SpacePlanner::paths_among_moving(const SpaceQuery& query,
+                                                             const SpaceRegion& region,
+                                                             const std::vector<SpacePath>& paths,
+                                                             const SpacePlan& without) const {
+  double duration_s = 0.0;
+  for (const SpaceCandidate& candidate : without.candidates) {
+    if (candidate.curve.pieces() > 0) duration_s = std::max(duration_s, candidate.curve.duration());
+  }
+  if (duration_s == 0.0) return {};
+  MovingQuery moving{
+      {query.start, query.goal, 0.0, kMoreTime * duration_s}, options_.max_speed, {}};
+  for (const Tube<3>& tube : query.moving)
+    moving.tubes.push_back(enlarged<3>(tube, options_.required_clearance_m()));
+  return find_moving_paths(*field_, region, moving, paths, path_options(query), query.should_stop);
+}
+
+void SpacePlanner::optimize_all(const std::vector<TimedSpacePath>& paths, const SpaceScene& scene,
+                                const std::function<bool()>& should_stop, SpacePlan& plan) const {
+  const std::size_t before = plan.candidates.size();
+  plan.candidates.resize(before + paths.size());
+  in_parallel(paths.size(), options_.threads, [&](std::size_t i) {
+    plan.candidates[before + i] = optimizer_.optimize_path(paths[i], scene, should_stop);
+  });
 }
 
 SpacePlan SpacePlanner::plan(const SpaceQuery& query) {
@@ -95,17 +119,21 @@ SpacePlan SpacePlanner::plan(const SpaceQuery& query) {
   if (is_refused(query, plan)) return plan;
   const auto region = region_of(query.start);
   const std::vector<SpacePath> paths =
-      region ? paths_for(query, *region) : std::vector<SpacePath>();
+      region ? find_space_paths(*field_, *region, query.start, query.goal, path_options(query),
+                                query.should_stop)
+             : std::vector<SpacePath>();
   if (paths.empty()) {
     plan.reason = query.should_stop() ? PlanReason::kBudgetExhausted : PlanReason::kNoPath;
     plan.message = "no path from " + coordinates(query.start) + " to " + coordinates(query.goal);
     return plan;
   }
-  plan.candidates.resize(paths.size());
-  in_parallel(paths.size(), options_.threads, [&](std::size_t i) {
-    plan.candidates[i] =
-        optimizer_.optimize_path(paths[i].points, *field_, region->cuts(), query.should_stop);
-  });
+  const SpaceScene scene{*field_, region->cuts(), query.moving};
+  std::vector<TimedSpacePath> untimed;
+  for (const SpacePath& path : paths) untimed.push_back({path.points, {}});
+  optimize_all(untimed, scene, query.should_stop, plan);
+  if (!query.moving.empty()) {
+    optimize_all(paths_among_moving(query, *region, paths, plan), scene, query.should_stop, plan);
+  }
   keep_best_of_each_class(plan.candidates);
   const SpaceCandidate& best = plan.candidates.front();
   plan.reason = best.reason;

@@ -7,7 +7,7 @@
 #include "planning/space/space_optimizer.h"
 #include "planning/space/space_plan.h"
 #include "planning/space/space_planner_options.h"
-#include "topology/space/space_paths.h"
+#include "topology/space/moving_paths.h"
 #include "topology/space/space_region.h"
 #include "world/distances/voxel_distance_field.h"
 
@@ -18,12 +18,16 @@ struct SpaceQuery {
   Eigen::Vector3d start;
   Eigen::Vector3d goal;
   int classes = 0;  ///< paths of different topology at most; 0: as the options say
+  /// Balls that move, in time since the motion begins: as large as they are. What they do after the
+  /// robot has arrived is not looked at.
+  std::vector<Tube<3>> moving = {};
   /// Ends the planning early; several threads may call it at once.
   std::function<bool()> should_stop = [] { return false; };
 };
 
 /// Plans in space, paper III to V with d = 3: several paths of different classes, each optimised
-/// with camouflage and certified; the cheapest is selected.
+/// with camouflage and certified; the cheapest is selected. Among what moves there are paths in
+/// space-time besides.
 class SpacePlanner {
  public:
   SpacePlanner(std::shared_ptr<const VoxelDistanceField> field, const SpacePlannerOptions& options);
@@ -38,7 +42,12 @@ class SpacePlanner {
 
  private:
   bool is_refused(const SpaceQuery& query, SpacePlan& plan) const;
-  std::vector<SpacePath> paths_for(const SpaceQuery& query, const SpaceRegion& region) const;
+  SpacePathOptions path_options(const SpaceQuery& query) const;
+  std::vector<TimedSpacePath> paths_among_moving(const SpaceQuery& query, const SpaceRegion& region,
+                                                 const std::vector<SpacePath>& paths,
+                                                 const SpacePlan& without) const;
+  void optimize_all(const std::vector<TimedSpacePath>& paths, const SpaceScene& scene,
+                    const std::function<bool()>& should_stop, SpacePlan& plan) const;
 
   const std::shared_ptr<const VoxelDistanceField> field_;
   const SpacePlannerOptions options_;

@@ -11,6 +11,7 @@ SpacePlannerOptions SpacePlannerOptions::from(const ParameterTable& values) {
   options.weight_effort = values.number("weight_effort");
   options.weight_duration = values.number("weight_duration");
   options.weight_obstacle = values.number("weight_obstacle");
+  options.weight_moving = values.number("weight_moving");
   options.weight_dynamics = values.number("weight_dynamics");
   options.samples_per_piece = values.integer("samples_per_piece");
   options.knot_spacing_m = values.number("knot_spacing");

@@ -14,6 +14,7 @@ struct SpacePlannerOptions {
   double weight_effort;
   double weight_duration;
   double weight_obstacle;
+  double weight_moving;
   double weight_dynamics;
   int samples_per_piece;
   double knot_spacing_m;

@@ -65,6 +65,15 @@ geometry_msgs::Point point_message(const Eigen::Vector3d& point) {
   return message;
 }
 
+Tube<3> from_message(const mocha_ugv::MovingBall& ball) {
+  const Eigen::Vector3d place = from_message(ball.position);
+  const Eigen::Vector3d velocity(ball.velocity.x, ball.velocity.y, ball.velocity.z);
+  if (!place.allFinite() || !velocity.allFinite() || !std::isfinite(ball.radius) ||
+      ball.radius < 0.0)
+    throw std::invalid_argument("moving: a ball has a place, a velocity or a radius that is none");
+  return steady_tube<3>(place, velocity, ball.radius);
+}
+
 mocha_ugv::SpaceTrajectory curve_message(const PiecewisePolynomial<3, 3>& curve, double radius_m,
                                          const std::string& frame, ros::Time stamp) {
   mocha_ugv::SpaceTrajectory message;

@@ -4,15 +4,13 @@
 #include <utility>
 
 #include "topology/paths/euclidean_shortcutting.h"
-#include "trajectory/polyline.h"
 
 namespace mocha {
 namespace {
 
-constexpr int kSpareTimed = 2;  // paths that are shortened, for each one that is kept
-constexpr int kPlaces = 12;     // along a static path, and as many times, from which it is sampled
+constexpr int kPlaces = 12;  // along a static path, and as many times, from which it is sampled
 
-using TimedPoint4 = Eigen::Vector4d;
+using SpaceTimePoint = Eigen::Vector4d;
 
 Eigen::Vector3d place_along(const SpacePath& path, double along_m) {
   for (std::size_t i = 1; i < path.points.size(); ++i) {
@@ -25,15 +23,15 @@ Eigen::Vector3d place_along(const SpacePath& path, double along_m) {
 }
 
 /// Places of the static paths, each at several times at which one can be there.
-std::vector<TimedPoint4> along_static(const std::vector<SpacePath>& paths,
-                                      const SpaceTime<3>& space, const MovingQuery& query) {
+std::vector<SpaceTimePoint> along_static(const std::vector<SpacePath>& paths,
+                                         const SpaceTime<3>& space, const MovingQuery& query) {
   const double span_s = query.ends.goal_s - query.ends.start_s;
-  std::vector<TimedPoint4> places;
+  std::vector<SpaceTimePoint> places;
   for (const SpacePath& path : paths) {
     for (int i = 1; i < kPlaces; ++i) {
       for (int k = 1; k < kPlaces; ++k) {
-        const TimedPoint4 place = space.point(place_along(path, path.length_m * i / kPlaces),
-                                              query.ends.start_s + span_s * k / kPlaces);
+        const SpaceTimePoint place = space.point(place_along(path, path.length_m * i / kPlaces),
+                                                 query.ends.start_s + span_s * k / kPlaces);
         if (space.in_order(space.start(), place) && space.in_order(place, space.goal()))
           places.push_back(place);
       }
@@ -44,41 +42,31 @@ std::vector<TimedPoint4> along_static(const std::vector<SpacePath>& paths,
 
 }  // namespace
 
-TimedSpacePaths find_moving_paths(const VoxelDistanceField& field, const SpaceRegion& region,
-                                  const MovingQuery& query,
-                                  const std::vector<SpacePath>& static_paths,
-                                  const SpacePathOptions& options,
-                                  const std::function<bool()>& should_stop) {
-  TimedSpacePaths result;
+std::vector<TimedSpacePath> find_moving_paths(const VoxelDistanceField& field,
+                                              const SpaceRegion& region, const MovingQuery& query,
+                                              const std::vector<SpacePath>& static_paths,
+                                              const SpacePathOptions& options,
+                                              const std::function<bool()>& should_stop) {
   const SpaceTime<3> space(field, region.cuts(), field.bounds(), query.ends, query.max_speed,
                            query.tubes, options.clearance);
   if (!space.in_order(space.start(), space.goal()) || !space.clearance_m(space.start()) ||
       !space.clearance_m(space.goal()))
-    return result;
+    return {};
   VisibilityPrmOptions sampling = options.roadmap;
   sampling.reach_m *= M_SQRT2;  // time is an axis as well
   const Roadmap<4> roadmap = visibility_prm<4>(space, space.start(), space.goal(), sampling,
                                                along_static(static_paths, space, query));
-  if (should_stop()) return result;
-  std::vector<ClassPath<4>> paths = shortest_classes<4>(
-      roadmap, space, {kSpareTimed * options.classes, M_SQRT2 * options.longest_ratio});
-  for (ClassPath<4>& path : paths) {
-    if (should_stop()) return result;
-    path.points = with_shortcuts<4>(std::move(path.points), space);
-    path.length_m = length_of<4>(path.points);
-  }
-  std::stable_sort(paths.begin(), paths.end(),
-                   [](const auto& a, const auto& b) { return a.length_m < b.length_m; });
-  result.found = static_cast<int>(paths.size());
-  for (const ClassPath<4>& path : pairwise_different(std::move(paths), space, 0.0)) {
-    if (static_cast<int>(result.paths.size()) == options.classes) break;
-    TimedSpacePath& timed = result.paths.emplace_back();
-    for (const TimedPoint4& point : path.points) {
-      timed.points.push_back(point.head<3>());
-      timed.times_s.push_back(space.since_start_s(point));
+  std::vector<TimedSpacePath> paths;
+  for (ClassPath<4>& found :
+       shortest_classes<4>(roadmap, space, {options.classes, M_SQRT2 * options.longest_ratio})) {
+    if (should_stop()) return {};
+    TimedSpacePath& path = paths.emplace_back();
+    for (const SpaceTimePoint& point : with_shortcuts<4>(std::move(found.points), space)) {
+      path.points.push_back(point.head<3>());
+      path.times_s.push_back(space.since_start_s(point));
     }
   }
-  return result;
+  return paths;
 }
 
 }  // namespace mocha

@@ -5,7 +5,7 @@
 
 #include "topology/roadmaps/visibility_prm.h"
 #include "topology/space/space_paths.h"
-#include "topology/space_time/projected_signature.h"
+#include "topology/space_time/space_time.h"
 
 namespace mocha {
 
@@ -22,18 +22,15 @@ struct TimedSpacePath {
   std::vector<double> times_s;          ///< of the points, from 0 at the start
 };
 
-struct TimedSpacePaths {
-  std::vector<TimedSpacePath> paths;  ///< that pairwise differ, shortest in space-time first
-  int found = 0;                      ///< before those were left out that do not (paper, Prop. 1)
-};
-
-/// Paths past what moves (paper V-C): a roadmap is sampled in space-time, beside motions along the
-/// static paths at several speeds; of the shortest paths through it those are kept that differ in
-/// some projection.
-TimedSpacePaths find_moving_paths(const VoxelDistanceField& field, const SpaceRegion& region,
-                                  const MovingQuery& query,
-                                  const std::vector<SpacePath>& static_paths,
-                                  const SpacePathOptions& options,
-                                  const std::function<bool()>& should_stop);
+/// Paths past what moves (paper V-C), shortest in space-time first: a roadmap is sampled there,
+/// beside motions along the static paths at several speeds, and searched for the shortest paths
+/// that differ in some projection onto (x, y, t), (x, z, t) or (y, z, t). In space and time the
+/// free space around balls has but one class, so what differs are not classes but beginnings of an
+/// optimisation that ends in other local optima.
+std::vector<TimedSpacePath> find_moving_paths(const VoxelDistanceField& field,
+                                              const SpaceRegion& region, const MovingQuery& query,
+                                              const std::vector<SpacePath>& static_paths,
+                                              const SpacePathOptions& options,
+                                              const std::function<bool()>& should_stop);
 
 }  // namespace mocha

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kOutside = 0;  // the node that stands for all that is outside of the map
 constexpr int kNoNode = -1;
+constexpr int kLeastShell = 6;  // voxels about one that is hollow
 
 /// Solid voxels as nodes; neighbours are linked.
 struct VoxelGraph {
@@ -176,6 +177,8 @@ VoxelCycles voxel_cycles(const SolidVoxels& thinned) {
     if (kind.solid_parts == 0) ++cycles.bodies;
     if (kind.solid_parts > 0 && kind.open_parts > 1) ++cycles.surface_voxels;
   }
+  // Fewer enclose nothing: they are where curves meet.
+  if (cycles.surface_voxels < kLeastShell) cycles.surface_voxels = 0;
   return cycles;
 }
 

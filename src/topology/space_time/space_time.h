@@ -45,8 +45,9 @@ struct SpaceTimeEnds {
 /// no more, and could be passed by either side at will; what counts is the path until then,
 /// continued straight to the goal. D = 3: each moving one has three entries, one for each
 /// projection (x, y), (x, z), (y, z). They tell paths apart that may well be deformed into each
-/// other: ProjectedSignature says which differences count. A tube that cannot be met on any path to
-/// the goal in time has entries 0.
+/// other, led around the ball along the axis that is projected out: in space and time the free
+/// space around balls has but one class, and Prop. 1 of the paper proves nothing of them. A tube
+/// that cannot be met on any path to the goal in time has entries 0.
 template <int D>
 class SpaceTime : public SampledSpace<D + 1> {
  public:
@@ -83,15 +84,13 @@ class SpaceTime : public SampledSpace<D + 1> {
   /// Of a path in order, with straight lines between its points.
   Signature signature_of(const std::vector<Point>& path) const;
 
+  double since_start_s(const Point& p) const { return p[D] / max_speed_; }
+
+ private:
   struct Moving {
     int entry;     ///< in signatures, its first one
     Tube<D> tube;  ///< in time since the start, as one has to keep away from it
   };
-  /// What can be met.
-  const std::vector<Moving>& moving() const { return moving_; }
-  double since_start_s(const Point& p) const { return p[D] / max_speed_; }
-
- private:
   double duration_s() const { return ends_.goal_s - ends_.start_s; }
   Tube<D> forgiven(const Tube<D>& tube) const;
   bool reachable(const TubePiece<D>& piece) const;
@@ -106,7 +105,7 @@ class SpaceTime : public SampledSpace<D + 1> {
   const StaticSpace<D> still_;
   const Cuts<D>& cuts_;
   int entries_;
-  std::vector<Moving> moving_;
+  std::vector<Moving> moving_;         // what can be met
   std::vector<TubePiece<D>> threats_;  // their pieces that can be met, in time since the start
 };
 

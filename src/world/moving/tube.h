@@ -26,6 +26,14 @@ struct TubePiece {
 template <int D>
 using Tube = std::vector<TubePiece<D>>;
 
+/// Of what moves at a steady velocity, from 0 on for as long as anyone looks.
+template <int D>
+Tube<D> steady_tube(const typename TubePiece<D>::Place& place,
+                    const typename TubePiece<D>::Place& velocity, double radius_m) {
+  constexpr double kLong_s = 1e5;
+  return {{0.0, kLong_s, place, velocity, radius_m, 0.0}};
+}
+
 /// The same, its radius enlarged by `keep_m`.
 template <int D>
 Tube<D> enlarged(Tube<D> tube, double keep_m) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 #include <set>
 
 #include "safety/curve_certificate.h"
@@ -125,6 +126,80 @@ TEST(SpacePlanner, TellsRoomsApartThatAreNotJoined) {
   EXPECT_NE(planner.region_of(world.start), planner.region_of(world.goal));
   EXPECT_EQ(planner.region_of(world.start), planner.region_of({2.0, 2.0, 2.0}));
   EXPECT_EQ(planner.region_of({5.0, 4.0, 1.5}), nullptr);
+}
+
+class AmongMoving : public testing::Test {
+ protected:
+  SpacePlan plan(const std::vector<Tube<3>>& moving) {
+    SpaceQuery query{world_.start, world_.goal};
+    query.moving = moving;
+    return planner_.plan(query);
+  }
+
+  /// What is certified keeps away from all that moves, by looking at many moments.
+  void expect_apart(const SpacePlan& plan, const std::vector<Tube<3>>& moving) {
+    const SpacePlannerOptions options = shipped_space_options();
+    for (const SpaceCandidate& candidate : plan.candidates) {
+      if (candidate.reason != PlanReason::kSolved) continue;
+      for (double t = 0.0; t < candidate.curve.duration(); t += 0.01) {
+        for (const Tube<3>& tube : moving) {
+          EXPECT_GE((candidate.curve.position(t) - tube.front().centre_at(t)).norm(),
+                    tube.front().radius_m + options.required_clearance_m() - 1e-3);
+        }
+      }
+    }
+  }
+
+  const SpaceWorld world_ = two_windows(0.1);
+  SpacePlanner planner_ = planner_in(world_.grid);
+};
+
+TEST_F(AmongMoving, LetsABallPassAndTakesNoDetourForOneFarAway) {
+  const double free_s = plan({}).selected()->curve.duration();
+  const std::vector<Tube<3>> far = {steady_tube<3>({9.0, 7.0, 4.0}, {0.0, 0.0, 0.0}, 0.3)};
+  EXPECT_NEAR(plan(far).selected()->curve.duration(), free_s, 0.02 * free_s);
+  // It crosses in front of the window while the robot would be there.
+  const std::vector<Tube<3>> crossing = {steady_tube<3>({4.2, 0.6, 1.8}, {0.0, 0.6, 0.0}, 0.5)};
+  const SpacePlan found = plan(crossing);
+  ASSERT_EQ(found.reason, PlanReason::kSolved) << found.message;
+  expect_apart(found, crossing);
+}
+
+TEST_F(AmongMoving, GoesByTheOtherWindowWhereOneIsBlocked) {
+  const Signature near = plan({}).selected()->signature;
+  const std::vector<Tube<3>> plug = {steady_tube<3>({5.0, 2.0, 1.8}, {0.0, 0.0, 0.0}, 0.6)};
+  const SpacePlan found = plan(plug);
+  ASSERT_EQ(found.reason, PlanReason::kSolved) << found.message;
+  EXPECT_NE(found.selected()->signature, near);
+  expect_apart(found, plug);
+}
+
+TEST_F(AmongMoving, SaysWhatIsInTheWayWhereBothAreBlocked) {
+  const SpacePlan found = plan({steady_tube<3>({5.0, 2.0, 1.8}, {0.0, 0.0, 0.0}, 0.8),
+                                steady_tube<3>({5.0, 6.2, 3.0}, {0.0, 0.0, 0.0}, 0.8)});
+  EXPECT_EQ(found.reason, PlanReason::kNotCertified);
+  EXPECT_EQ(found.selected(), nullptr);
+  EXPECT_FALSE(found.message.empty());
+}
+
+TEST_F(AmongMoving, IsSoundAmongMany) {
+  std::mt19937 random(1);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int solved = 0;
+  for (int run = 0; run < 12; ++run) {
+    std::vector<Tube<3>> moving;
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d velocity(uniform(-0.8, 0.8), uniform(-0.8, 0.8), uniform(-0.3, 0.3));
+      const Vector3d met(uniform(3.0, 7.0), uniform(1.0, 7.0), uniform(1.0, 4.0));
+      moving.push_back(steady_tube<3>(met - uniform(1.5, 4.0) * velocity, velocity, 0.4));
+    }
+    const SpacePlan found = plan(moving);
+    solved += found.reason == PlanReason::kSolved;
+    expect_apart(found, moving);
+  }
+  EXPECT_GE(solved, 10);
 }
 
 }  // namespace

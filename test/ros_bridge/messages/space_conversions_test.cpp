@@ -61,6 +61,22 @@ TEST_F(SpaceConversionsTest, WhatIsNoCurveIsRefused) {
   refused([](auto& message) { message.s = 4; });
 }
 
+TEST_F(SpaceConversionsTest, ABallIsATubeOrRefused) {
+  mocha_ugv::MovingBall ball;
+  ball.position.x = 1.0;
+  ball.velocity.z = -0.5;
+  ball.radius = 0.3;
+  const Tube<3> tube = from_message(ball);
+  ASSERT_EQ(tube.size(), 1u);
+  EXPECT_EQ(tube.front().centre_at(2.0), Eigen::Vector3d(1.0, 0.0, -1.0));
+  EXPECT_EQ(tube.front().radius_at(2.0), 0.3);
+  ball.radius = -0.1;
+  EXPECT_THROW(from_message(ball), std::invalid_argument);
+  ball.radius = 0.3;
+  ball.velocity.y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(from_message(ball), std::invalid_argument);
+}
+
 TEST_F(SpaceConversionsTest, APathHasTimesAndHeadings) {
   const nav_msgs::Path path = to_path(curve_, "map", stamp_, 0.1);
   ASSERT_EQ(path.poses.size(), 32u);
