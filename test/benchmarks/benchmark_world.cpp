@@ -7,6 +7,7 @@
 #include "topology/paths/euclidean_shortcutting.h"
 #include "topology/paths/grid_path.h"
 #include "topology/paths/path_shortcutting.h"
+#include "topology/paths/taut_path.h"
 #include "topology/roadmaps/visibility_prm.h"
 #include "topology/shipped_options.h"
 #include "topology/static_map/grid_static_map.h"
@@ -85,11 +86,12 @@ BenchmarkWorld<3> forest_world(int seed, const BenchmarkOptions& options) {
   constexpr VisibilityPrmOptions kRoadmap{6000, 1, 25.0};
   std::mt19937 random(1000 + seed);
   const Ground& ground = options.ground;
+  const std::vector<Circle> circles = scatter(ground, options.gap_m, corners(ground), random);
   std::vector<Cylinder> trunks;
-  std::vector<Cuts<3>::Curve> columns;
-  for (const Circle& trunk : scatter(ground, options.gap_m, corners(ground), random)) {
-    trunks.push_back({trunk.centre, trunk.radius_m});
-    columns.push_back(Column{trunk.centre});
+  std::vector<Cuts<3>::Curve> columns(circles.size());
+  for (std::size_t i = 0; i < circles.size(); ++i) {
+    trunks.push_back({circles[i].centre, circles[i].radius_m});
+    columns[i] = Column{circles[i].centre};
   }
   BenchmarkWorld<3> world{std::make_shared<PrimitiveField<3>>(std::move(trunks), 2.0), {}};
   const Eigen::Vector3d start(0.0, 0.0, kStartHeight_m);
@@ -103,7 +105,7 @@ BenchmarkWorld<3> forest_world(int seed, const BenchmarkOptions& options) {
   const auto paths =
       shortest_classes<3>(visibility_prm<3>(space, start, goal, kRoadmap), space, {1, 1.0});
   if (paths.empty()) throw std::runtime_error("benchmark world: there is no path through");
-  world.path = with_shortcuts<3>(paths.front().points, space);
+  world.path = pulled_taut(with_shortcuts<3>(paths.front().points, space), space);
   return world;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "topology/paths/euclidean_shortcutting.h"
+#include "topology/paths/taut_path.h"
 #include "trajectory/polyline.h"
 
 namespace mocha {
@@ -68,7 +69,7 @@ std::vector<SpacePath> find_space_paths(const VoxelDistanceField& field, const S
       roadmap, space, {kSpare * options.classes, options.longest_ratio / kShortened});
   std::vector<SpacePath> paths(found.size());
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
-    paths[i].points = with_shortcuts<3>(found[i].points, space);
+    paths[i].points = pulled_taut(with_shortcuts<3>(found[i].points, space), space);
     paths[i].length_m = length_of<3>(paths[i].points);
     paths[i].signature = signature_of<3>(region.cuts(), paths[i].points);
   });
