@@ -90,7 +90,7 @@ def count_text(counts):
     if counts["bodies"]:
         text += f"; {number(counts['bodies'], 'body hangs', 'bodies hang')} free and can be passed on any side alike"
     if counts["surface_voxels"]:
-        text += f"; {number(counts['surface_voxels'], 'voxel is', 'voxels are')} neither (hollow matter)"
+        text += f"; {number(counts['surface_voxels'], 'voxel is', 'voxels are')} neither"
     return text
 
 

@@ -23,6 +23,7 @@ namespace {
 
 constexpr double kDiagnosticsPeriod_s = 1.0;
 constexpr std::uint32_t kMostClasses = 50;
+constexpr std::size_t kMostBalls = 100;
 
 /// Plans in an OctoMap in three dimensions, when it is asked to: by its service, or by points
 /// clicked in rviz, each the goal from the one before.
@@ -54,6 +55,8 @@ class SpacePlannerNode {
     SpaceQuery query{from_message(request.start), from_message(request.goal)};
     query.classes = static_cast<int>(std::min(request.classes, kMostClasses));
     try {
+      if (request.moving.size() > kMostBalls)
+        throw std::invalid_argument("moving: more than " + std::to_string(kMostBalls) + " balls");
       for (const mocha_ugv::MovingBall& ball : request.moving)
         query.moving.push_back(from_message(ball));
     } catch (const std::invalid_argument& error) {
@@ -75,11 +78,16 @@ class SpacePlannerNode {
                     ", or not finite");
       return;
     }
-    if (clicked_) plan({*clicked_, place});
+    try {
+      if (clicked_) plan({*clicked_, place});
+    } catch (const std::exception& error) {  // such as no memory: it must not end the node
+      refusals_.add(std::string("clicked_point: ") + error.what());
+    }
     clicked_ = place;
   }
 
   mocha_ugv::PlanInSpace::Response plan(SpaceQuery query) {
+    planner_->region_of(query.start);  // takes its time once, and is not counted
     const ros::SteadyTime begin = ros::SteadyTime::now();
     query.should_stop = [&] {
       return !ros::ok() || (ros::SteadyTime::now() - begin).toSec() > planning_time_s_;
@@ -93,10 +101,10 @@ class SpacePlannerNode {
     const auto response = to_message(plan, radius_m_, identity_.map_frame, now);
     paths_.publish(response.path);
     trajectories_.publish(response.trajectory);
-    if (const auto region = planner_->region_of(query.start)) {
-      markers_.publish(
-          space_markers(plan, region->curves(), planner_->field(), identity_.map_frame, now));
-    }
+    const auto region = plan.candidates.empty() ? nullptr : planner_->region_of(query.start);
+    markers_.publish(space_markers(plan, region ? region->curves() : ObstacleCurves(),
+                                   planner_->field(), identity_.map_frame, now));
+    if (plan.reason == PlanReason::kInvalidInput) refusals_.add("plan: " + plan.message);
     if (response.success) {
       ROS_INFO("%zu classes in %.0f ms, the cheapest of %.2f m in %.2f s",
                response.candidates.size(), 1e3 * took_s_, response.candidates.front().length,

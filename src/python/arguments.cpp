@@ -92,9 +92,10 @@ Eigen::Vector3d to_place(const char* name, const py::object& place) {
 }
 
 Tube<3> to_ball(const char* name, const py::object& ball) {
-  const char* const wanted = "(x, y, z, vx, vy, vz, radius), finite numbers, radius at least 0";
+  const char* const wanted = "(x, y, z, vx, vy, vz, radius), numbers within 1e6, radius at least 0";
   const std::vector<double> at = to_numbers(name, wanted, ball, 7, 7);
-  if (at[6] < 0.0) throw fault(name, wanted, ball);
+  const auto is_large = [](double number) { return std::abs(number) >= 1e6; };
+  if (at[6] < 0.0 || std::any_of(at.begin(), at.end(), is_large)) throw fault(name, wanted, ball);
   return steady_tube<3>({at[0], at[1], at[2]}, {at[3], at[4], at[5]}, at[6]);
 }
 

@@ -73,7 +73,10 @@ py::list corners_of(const ObstacleCurves& found) {
 
 /// Every `step_s` from begin to end, both of them included: times, places and speeds.
 py::dict sample_curve(const SpaceCandidate& candidate, double step_s) {
-  if (!(step_s > 0.0)) throw std::invalid_argument("step_s: has to be above 0 s");
+  constexpr double kLeastStep_s = 1e-4;
+  if (!(step_s >= kLeastStep_s))
+    throw std::invalid_argument("step_s: has to be at least 0.0001 s, and is " +
+                                std::to_string(step_s));
   const double duration_s = candidate.curve.pieces() > 0 ? candidate.curve.duration() : 0.0;
   std::vector<double> time_s, speed_mps;
   std::vector<Eigen::Vector3d> place;
@@ -103,6 +106,10 @@ void add_candidate(py::module_& module) {
             return terms;
           },
           "The cost by its parts.")
+      .def_property_readonly(
+          "fallback",
+          [](const SpaceCandidate& c) { return c.fallback ? describe(*c.fallback) : ""; },
+          "Why plain waypoints were optimised instead of camouflage; \"\" where they were not.")
       .def_readonly("evaluations", &SpaceCandidate::evaluations)
       .def_readonly("signature", &SpaceCandidate::signature,
                     "Its class: the linking number with each curve of the map.")
@@ -151,7 +158,12 @@ Bad arguments raise ValueError; a map that cannot be used, RuntimeError.)")
       .def(
           "curves",
           [](SpacePlanner& planner, const py::object& start) -> py::object {
-            const auto region = planner.region_of(to_place("start", start));
+            const Eigen::Vector3d from = to_place("start", start);
+            std::shared_ptr<const SpaceRegion> region;
+            {
+              const py::gil_scoped_release others_may_run;
+              region = planner.region_of(from);
+            }
             if (!region) return py::none();
             using py::literals::operator""_a;
             return py::dict("counts"_a = count_curves(region->curves()),

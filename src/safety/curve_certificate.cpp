@@ -30,7 +30,8 @@ struct OriginKeepout {
   double radius_m;
 
   bool clear(const CurveSweep<D>& sweep) const {
-    return sweep.place.norm() >= radius_m + sweep.travel_m;
+    // What overflows is no proof.
+    return sweep.place.norm() - sweep.travel_m >= radius_m;
   }
   double sweep_m(const CurveSweep<D>& sweep) const { return sweep.travel_m; }
 };

@@ -22,7 +22,8 @@ std::vector<Tube<3>> bird() {
 }
 
 double by_hand(const Vector3d& place, double t) {
-  for (const TubePiece<3>& piece : bird().front()) {
+  const Tube<3> tube = bird().front();
+  for (const TubePiece<3>& piece : tube) {
     if (t < piece.start_s || t >= piece.end_s) continue;
     const double ratio =
         (place - piece.centre_at(t)).squaredNorm() / (piece.radius_at(t) * piece.radius_at(t));

@@ -28,17 +28,12 @@ constexpr double kConvergedCost = 1e-4;
 constexpr double kLongestStretch = 1.5;
 constexpr int kCoarsestPieces = 4;        // knots to choose from, in the longest pieces
 constexpr double kToleranceOfRoom = 0.5;  // of the soft margin, by which curves may leave the path
-constexpr int kChordsOfPiece = 32;
-
-/// The class of a curve, by chords that are short beside what it keeps from obstacles.
-Signature signature_along(const PiecewisePolynomial<3, 3>& curve, const Cuts<3>& cuts) {
+/// The class of a curve, by chords of about `step_s`.
+Signature signature_along(const PiecewisePolynomial<3, 3>& curve, const Cuts<3>& cuts,
+                          double step_s) {
+  const int steps = static_cast<int>(std::ceil(curve.duration() / step_s));
   std::vector<Eigen::Vector3d> points;
-  for (int i = 0; i < curve.pieces(); ++i) {
-    for (int k = 0; k < kChordsOfPiece; ++k)
-      points.push_back(
-          curve.position(curve.piece_start(i) + curve.piece_duration(i) * k / kChordsOfPiece));
-  }
-  points.push_back(curve.position(curve.duration()));
+  for (int i = 0; i <= steps; ++i) points.push_back(curve.position(curve.duration() * i / steps));
   return signature_of<3>(cuts, points);
 }
 
@@ -114,11 +109,11 @@ void SpaceOptimizer::optimize_once(const TimedSpacePath& path, const SpaceScene&
                                    const Push& push, const std::function<bool()>& should_stop,
                                    SpaceCandidate& candidate) const {
   KnotCandidates<3> candidates = candidates_on(path, scene, push.spacing);
-  candidate.fallback.reset();
+  std::optional<BasicFallback<3>> fallback;
   candidates.references = [&](const Eigen::Matrix3Xd& knots) -> std::optional<Eigen::Matrix3Xd> {
     const auto chosen = choose_references<3>(knots, scene.field, options_.knot_travel_m);
     if (chosen) return chosen.references;
-    candidate.fallback = fallback_of(chosen);
+    fallback = fallback_of(chosen);
     return std::nullopt;
   };
   TrajectoryObjective<3, 3> objective(objective_options(candidates, scene, push.weight));
@@ -131,8 +126,11 @@ void SpaceOptimizer::optimize_once(const TimedSpacePath& path, const SpaceScene&
       found.curve, {options_.max_speed, options_.max_acceleration, kLongestStretch});
   candidate.curve = found.curve.stretched(stretch.value_or(1.0));
   candidate.parameterisation = found.parameterisation;
-  candidate.cost = 0.0;  // at the weights of the options, so that candidates compare
+  candidate.fallback = fallback;
+  const double factor = stretch.value_or(1.0);
+  candidate.cost = 0.0;  // of the stretched curve, at the weights of the options
   for (auto& [name, value] : found.terms) {
+    value *= name == "control_effort" ? std::pow(factor, -5) : factor;
     if (name == "obstacle" || name == "moving") value /= push.weight;
     candidate.cost += value;
   }
@@ -164,7 +162,8 @@ SpaceCandidate SpaceOptimizer::optimize_path(const TimedSpacePath& path, const S
     push.spacing *= kFiner;
   }
   if (candidate.curve.pieces() > 0)
-    candidate.signature = signature_along(candidate.curve, scene.cuts);
+    candidate.signature = signature_along(
+        candidate.curve, scene.cuts, 0.5 * options_.required_clearance_m() / options_.max_speed);
   return candidate;
 }
 

@@ -1,6 +1,7 @@
 #include "planning/space/space_planner.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <utility>
 
@@ -9,18 +10,23 @@
 namespace mocha {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;  // of the roadmaps
-constexpr double kMoreTime = 1.25;  // for paths past what moves
+constexpr std::uint64_t kSeed = 1;       // of the roadmaps
+constexpr std::size_t kMostRegions = 4;  // that are kept, of a map in pieces
+constexpr double kMoreTime = 1.25;       // for paths past what moves
 
 bool is_certified(const SpaceCandidate& candidate) {
   return candidate.reason == PlanReason::kSolved;
 }
 
-/// Certified ones first, then by cost; of each class the first.
+bool has_curve(const SpaceCandidate& candidate) { return candidate.curve.pieces() > 0; }
+
+/// Certified ones first, then those with a curve, then by cost; of each class the first. What has
+/// no curve stays only where nothing has one.
 void keep_best_of_each_class(std::vector<SpaceCandidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const SpaceCandidate& a, const SpaceCandidate& b) {
                      if (is_certified(a) != is_certified(b)) return is_certified(a);
+                     if (has_curve(a) != has_curve(b)) return has_curve(a);
                      return a.cost < b.cost;
                    });
   std::vector<SpaceCandidate> kept;
@@ -28,7 +34,7 @@ void keep_best_of_each_class(std::vector<SpaceCandidate>& candidates) {
     const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const SpaceCandidate& other) {
       return other.signature == candidate.signature;
     });
-    if (is_new) kept.push_back(std::move(candidate));
+    if (kept.empty() || (is_new && has_curve(candidate))) kept.push_back(std::move(candidate));
   }
   candidates = std::move(kept);
 }
@@ -47,11 +53,13 @@ SpacePlanner::SpacePlanner(std::shared_ptr<const VoxelDistanceField> field,
 
 std::shared_ptr<const SpaceRegion> SpacePlanner::region_of(const Eigen::Vector3d& start) {
   if (!field_->bounds().contains(start)) return nullptr;
+  const std::lock_guard<std::mutex> lock(regions_mutex_);
   for (const auto& region : regions_) {
     if (region->contains(start)) return region;
   }
   auto voxels = solid_voxels(*field_, options_.required_clearance_m(), start);
   if (!voxels) return nullptr;
+  if (regions_.size() >= kMostRegions) regions_.erase(regions_.begin());
   regions_.push_back(
       std::make_shared<SpaceRegion>(*field_, options_.required_clearance_m(), std::move(*voxels)));
   return regions_.back();
@@ -66,7 +74,7 @@ bool SpacePlanner::is_refused(const SpaceQuery& query, SpacePlan& plan) const {
   }
   const auto is_occupied = [&](const char* name, const Eigen::Vector3d& place, double required_m) {
     const double distance_m = field_->distance_bound(place);
-    if (distance_m >= required_m) return false;
+    if (distance_m >= required_m && distance_m > 0.0) return false;
     char text[160];
     std::snprintf(
         text, sizeof text,
@@ -123,8 +131,10 @@ SpacePlan SpacePlanner::plan(const SpaceQuery& query) {
                                 query.should_stop)
              : std::vector<SpacePath>();
   if (paths.empty()) {
-    plan.reason = query.should_stop() ? PlanReason::kBudgetExhausted : PlanReason::kNoPath;
-    plan.message = "no path from " + coordinates(query.start) + " to " + coordinates(query.goal);
+    const bool is_late = query.should_stop();
+    plan.reason = is_late ? PlanReason::kBudgetExhausted : PlanReason::kNoPath;
+    plan.message = (is_late ? "out of time before there was a path from " : "no path from ") +
+                   coordinates(query.start) + " to " + coordinates(query.goal);
     return plan;
   }
   const SpaceScene scene{*field_, region->cuts(), query.moving};
@@ -136,8 +146,9 @@ SpacePlan SpacePlanner::plan(const SpaceQuery& query) {
   }
   keep_best_of_each_class(plan.candidates);
   const SpaceCandidate& best = plan.candidates.front();
-  plan.reason = best.reason;
-  plan.message = outcome(best);
+  const bool is_late = !is_certified(best) && query.should_stop();
+  plan.reason = is_late ? PlanReason::kBudgetExhausted : best.reason;
+  plan.message = (is_late ? "out of time: " : "") + outcome(best);
   return plan;
 }
 

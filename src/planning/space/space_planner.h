@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "planning/space/space_optimizer.h"
@@ -36,6 +37,7 @@ class SpacePlanner {
   /// it is first asked for, which takes about as long as the field did.
   std::shared_ptr<const SpaceRegion> region_of(const Eigen::Vector3d& start);
 
+  /// Several threads may plan at once.
   SpacePlan plan(const SpaceQuery& query);
 
   const VoxelDistanceField& field() const { return *field_; }
@@ -52,6 +54,7 @@ class SpacePlanner {
   const std::shared_ptr<const VoxelDistanceField> field_;
   const SpacePlannerOptions options_;
   const SpaceOptimizer optimizer_;
+  std::mutex regions_mutex_;
   std::vector<std::shared_ptr<const SpaceRegion>> regions_;
 };
 

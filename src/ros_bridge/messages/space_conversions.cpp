@@ -43,6 +43,14 @@ mocha_ugv::SpaceCandidate candidate_message(const SpaceCandidate& candidate, dou
   }
   message.status =
       status_of(candidate.reason, candidate.violation, outcome(candidate), frame, stamp);
+  if (candidate.fallback) {
+    mocha_ugv::Fallback fallback;
+    fallback.kind = static_cast<uint8_t>(candidate.fallback->kind);
+    fallback.message = describe(*candidate.fallback);
+    fallback.place = point_message(candidate.fallback->place);
+    fallback.in_last_plan = true;
+    message.fallbacks.push_back(fallback);
+  }
   for (const Eigen::Vector3d& point : candidate.path) message.path.push_back(point_message(point));
   message.trajectory = curve_message(candidate.curve, radius_m, frame, stamp);
   if (candidate.curve.pieces() == 0) return message;
@@ -68,9 +76,14 @@ geometry_msgs::Point point_message(const Eigen::Vector3d& point) {
 Tube<3> from_message(const mocha_ugv::MovingBall& ball) {
   const Eigen::Vector3d place = from_message(ball.position);
   const Eigen::Vector3d velocity(ball.velocity.x, ball.velocity.y, ball.velocity.z);
-  if (!place.allFinite() || !velocity.allFinite() || !std::isfinite(ball.radius) ||
-      ball.radius < 0.0)
-    throw std::invalid_argument("moving: a ball has a place, a velocity or a radius that is none");
+  constexpr double kMost = 1e6;  // [m], [m/s]
+  const bool is_sound = place.cwiseAbs().maxCoeff() < kMost &&
+                        velocity.cwiseAbs().maxCoeff() < kMost && ball.radius >= 0.0 &&
+                        ball.radius < kMost;
+  if (!place.allFinite() || !velocity.allFinite() || !is_sound)
+    throw std::invalid_argument(
+        "moving: position and velocity of a ball have to be finite and within 1e6 m and m/s, its "
+        "radius from 0 to 1e6 m");
   return steady_tube<3>(place, velocity, ball.radius);
 }
 
@@ -108,6 +121,10 @@ PiecewisePolynomial<3, 3> from_message(const mocha_ugv::SpaceTrajectory& message
   Minco<3, 3> minco;
   minco.resize(pieces);
   minco.solve(start, end, points.middleCols(1, pieces - 1), durations_s);
+  for (int i = 0; i < pieces; ++i) {
+    if (!minco.piece(i).allFinite())
+      throw std::invalid_argument("has durations that no curve can keep to");
+  }
   return minco.curve();
 }
 

@@ -1,6 +1,7 @@
 #include "topology/space/moving_paths.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "topology/paths/euclidean_shortcutting.h"

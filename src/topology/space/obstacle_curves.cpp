@@ -38,8 +38,8 @@ class CurveMaker {
   }
 
  private:
-  /// An upright line through the chain that is solid from bottom to top, if it leads from one to
-  /// the other.
+  /// An upright line that is solid from bottom to top, and into which the chain can be moved
+  /// sideways through solid matter, if it leads from one to the other.
   std::optional<Column> column_of(const VoxelChain& chain) const {
     Eigen::Vector3i low = voxels_.voxel(chain.voxels.front());
     Eigen::Vector3i high = voxels_.voxel(chain.voxels.back());
@@ -51,9 +51,16 @@ class CurveMaker {
       bool is_solid = true;
       for (at.z() = 0; is_solid && at.z() < voxels_.size.z(); ++at.z())
         is_solid = voxels_.solid[voxels_.number(at)] == 1;
-      if (is_solid) return Column{foot.head<2>()};
+      if (is_solid && is_beside(chain, foot.head<2>())) return Column{foot.head<2>()};
     }
     return std::nullopt;
+  }
+
+  bool is_beside(const VoxelChain& chain, const Eigen::Vector2d& foot) const {
+    return std::all_of(chain.voxels.begin(), chain.voxels.end(), [&](int number) {
+      const Eigen::Vector3d from = voxels_.centre(voxels_.voxel(number));
+      return is_solid_between(from, {foot.x(), foot.y(), from.z()});
+    });
   }
 
   /// From a voxel at the rim of the map to where no path is above or below: straight out where that
@@ -88,17 +95,13 @@ class CurveMaker {
     return true;
   }
 
-  /// With fewer corners, from the first to the last of them.
+  /// With fewer corners, from the first to the last of them. A corner sees all that is left out up
+  /// to the next one through solid matter, so the curve can be moved there.
   Points straightened(const Points& points) const {
     Points corners = {points.front()};
     for (std::size_t at = 0; at + 1 < points.size();) {
       std::size_t next = at + 1;
-      for (std::size_t stride = 1; stride > 0;) {
-        const bool is_on =
-            next + stride < points.size() && is_solid_between(points[at], points[next + stride]);
-        if (is_on) next += stride;
-        stride = is_on ? 2 * stride : stride / 2;
-      }
+      while (next + 1 < points.size() && is_solid_between(points[at], points[next + 1])) ++next;
       corners.push_back(points[next]);
       at = next;
     }

@@ -1,5 +1,6 @@
 #include "topology/space/solid_voxels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>

@@ -43,9 +43,10 @@ struct SolidVoxels {
 /// What can be reached from `seed` by whoever keeps `clearance_m` >= 0 to all obstacles; nothing
 /// where that is not allowed at the seed, which is to be in the field's bounds.
 ///
-/// A voxel is solid if no place in it keeps the clearance, or if it cannot be reached: so no
-/// allowed path meets a solid voxel, and allowed paths do not tell whether what can be reached is a
-/// little larger than that. Throws std::length_error for maps of more than 2^31 voxels.
+/// A voxel is solid if no place in it is proved to keep the clearance, or if it cannot be reached:
+/// so no allowed path meets a solid voxel, and allowed paths do not tell whether what can be
+/// reached is a little larger than that. Throws std::length_error for maps of more than 2^31
+/// voxels.
 std::optional<SolidVoxels> solid_voxels(const VoxelDistanceField& field, double clearance_m,
                                         const Eigen::Vector3d& seed);
 

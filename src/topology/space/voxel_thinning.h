@@ -27,7 +27,7 @@ VoxelKind kind_of(const SolidVoxels& voxels, int number);
 void thin_solid(SolidVoxels& voxels);
 
 /// The same with solid and open exchanged: the open voxels that are left are the ways through the
-/// map, in the middle between all obstacles. Voxels with more room than any neighbour remain, so
+/// map, in the middle between all obstacles. Voxels with no less room than any neighbour remain, so
 /// that the ways lead to the middle of each hall.
 void thin_open(SolidVoxels& voxels);
 

@@ -2,11 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <limits>
 #include <random>
 #include <set>
 
-#include "safety/curve_certificate.h"
 #include "world/space_worlds.h"
 
 namespace mocha {
@@ -25,7 +26,7 @@ SpacePlanner planner_in(const VoxelGrid& grid,
       options);
 }
 
-/// What is said of each candidate holds: by another proof, and by looking at many places.
+/// What is said of each candidate holds, by looking at many places.
 void expect_sound(const SpacePlan& plan, const SpaceWorld& world, const SpacePlanner& planner) {
   const SpacePlannerOptions options = shipped_space_options();
   std::set<Signature> signatures;
@@ -105,6 +106,26 @@ TEST(SpacePlanner, SaysWhyThereIsNoPlan) {
   SpaceQuery stopped{world.start, world.goal};
   stopped.should_stop = [] { return true; };
   EXPECT_EQ(planner.plan(stopped).reason, PlanReason::kBudgetExhausted);
+}
+
+TEST(SpacePlanner, SaysThatTimeRanOutHoweverFarItCame) {
+  const SpaceWorld world = two_windows(0.1);
+  SpacePlanner planner = planner_in(world.grid);
+  int looks = 0;
+  SpaceQuery query{world.start, world.goal};
+  query.should_stop = [&] {
+    ++looks;
+    return false;
+  };
+  planner.plan(query);
+  for (int most = 0; most < std::min(looks, 12); ++most) {
+    std::atomic<int> left = most;
+    query.should_stop = [&] { return left-- <= 0; };
+    const SpacePlan found = planner.plan(query);
+    if (found.reason == PlanReason::kSolved) continue;
+    EXPECT_EQ(found.reason, PlanReason::kBudgetExhausted) << most;
+    EXPECT_EQ(found.message.rfind("out of time", 0), 0u) << found.message;
+  }
 }
 
 TEST(SpacePlanner, FindsNoWayToWhereThereIsNone) {

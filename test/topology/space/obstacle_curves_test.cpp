@@ -102,6 +102,24 @@ TEST(ObstacleCurves, OfAFrameWithTwoWindowsThatHangsFreeThereAreTwoCurves) {
   EXPECT_EQ(around, Signature(2, 0));
 }
 
+TEST(ObstacleCurves, APostAndALegThatABeamJoinsAreTwo) {
+  const auto found = curves_of([](const Vector3i& voxel) {
+    const bool is_post = voxel.x() == 10 && voxel.y() == 10;
+    const bool is_beam = voxel.x() >= 10 && voxel.x() <= 15 && voxel.y() == 10 && voxel.z() == 15;
+    const bool is_leg = voxel.x() == 15 && voxel.y() == 10 && voxel.z() <= 15;
+    return is_post || is_beam || is_leg;
+  });
+  ASSERT_EQ(found.curves.size(), 2u);
+  const Signature post = links(found, {{7, 7, 18}, {13, 7, 18}, {13, 14, 18}, {7, 14, 18}});
+  const Signature leg = links(found, {{13, 7, 5}, {18, 7, 5}, {18, 14, 5}, {13, 14, 5}});
+  const Signature both = links(found, {{7, 7, 5}, {18, 7, 5}, {18, 14, 5}, {7, 14, 5}});
+  const Signature none(2, 0);
+  EXPECT_NE(post, none);
+  EXPECT_NE(leg, none);
+  EXPECT_NE(both, leg);
+  EXPECT_EQ(both, post);  // above the beam one goes around the post as below it around both
+}
+
 TEST(ObstacleCurves, WhatIsNoCurveIsCounted) {
   const auto found = curves_of([](const Vector3i& voxel) {
     return (voxel - Vector3i(6, 6, 6)).norm() < 3.0 || (voxel - Vector3i(15, 15, 12)).norm() < 4.0;
