@@ -7,9 +7,11 @@ namespace mocha {
 
 template <int D>
 struct AdaptiveTrajectory {
-  OptimizedTrajectory<D, 3> found;  ///< its evaluations are those of all rounds
-  KnotChain<D> chain;               ///< of the curve that was found
-  long piece_evaluations = 0;       ///< evaluations times pieces, of all rounds
+  /// Its evaluations are those of all searches; those by which knots are chosen, paced and tried,
+  /// about ten, come on top.
+  OptimizedTrajectory<D, 3> found;
+  KnotChain<D> chain;          ///< of the curve that was found
+  long piece_evaluations = 0;  ///< evaluations times pieces, of all rounds
 };
 
 /// Minimises the objective over knots whose number and freedom it finds as well: few, each on its
