@@ -280,8 +280,7 @@ TYPED_TEST(CurveCertificates, AgreeWithDenseSamplingOnWhatMoves) {
     if (room < kRadius_m) continue;
     const CurveCertificate<D, 3> certificate(curve);
     for (const double gap : {-2e-3, 2e-3}) {
-      const auto violation =
-          certificate.check_separation(kRadius_m, tube, room - kRadius_m - gap);
+      const auto violation = certificate.check_separation(kRadius_m, tube, room - kRadius_m - gap);
       EXPECT_EQ(static_cast<bool>(violation), gap < 0.0) << seed << " " << describe(violation);
       ++(violation ? refused : accepted);
       if (!violation) continue;
@@ -301,8 +300,8 @@ TYPED_TEST(CurveCertificates, NotANumberIsNoProof) {
   EXPECT_FALSE(certificate.check_clearance(0.3, open, 0.1));
   EXPECT_TRUE(certificate.check_clearance(nan, open, 0.1));
   EXPECT_TRUE(certificate.check_clearance(0.3, open, nan));
-  const Tube<D> lost_tube = {{0.0, 9.0, Curve<D>::Vector::Constant(nan), Curve<D>::Vector::Zero(),
-                              0.2, 0.0}};
+  const Tube<D> lost_tube = {
+      {0.0, 9.0, Curve<D>::Vector::Constant(nan), Curve<D>::Vector::Zero(), 0.2, 0.0}};
   EXPECT_TRUE(certificate.check_separation(0.3, lost_tube, 0.1));
   EXPECT_TRUE(certificate.check_limits(nan, 100.0));
   EXPECT_TRUE(certificate.check_limits(100.0, nan));

@@ -12,8 +12,8 @@ namespace mocha {
 ///
 /// As DistanceField has it in the plane, distances are kept at the corners of the cells, where they
 /// are exact, and distance_bound() uses that d(p)^2 - |p|^2 is concave in between. At a distance of
-/// d from one wall it falls short by up to h^2 / (4 d), where h is the edge of a cell; midway between
-/// several by up to about a cell.
+/// d from one wall it falls short by up to h^2 / (4 d), where h is the edge of a cell; midway
+/// between several by up to about a cell.
 class VoxelDistanceField : public ObstacleField<3> {
  public:
   enum class Solid { kOccupied, kOccupiedOrUnknown };
