@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "optimization/penalty.h"
+#include "optimization/ball_cost.h"
 #include "world/moving/moving_obstacle.h"
 
 namespace mocha {
@@ -53,17 +53,9 @@ class MovingPenalty : public Penalty<2> {
     const double now = start_time_s_ + samples.time_s[j];
     if (now > other.until_s) return;
     const MovingObstacle::Disc disc = other.obstacle->at(now);
-    const double safety = other.keep_m + disc.radius_m;
-    const double inverse_ds2 = 1.0 / (safety * safety);
-    const Eigen::Vector2d apart = samples.position().row(j).transpose() - disc.centre;
-    const double ratio = apart.squaredNorm() * inverse_ds2;
-    const Cubic penalty = cubic(1.0 - ratio);
-    if (penalty.value == 0.0) return;
-    const double scale = weight_ * penalty.slope;
-    rows.value[j] += weight_ * penalty.value;
-    rows.by_position().row(j) -= (2.0 * scale * inverse_ds2) * apart;
-    rows.by_time[j] +=
-        2.0 * scale * (apart.dot(disc.velocity) * inverse_ds2 + ratio * disc.radius_rate / safety);
+    add_ball_cost<2>(weight_,
+                     {disc.centre, disc.velocity, other.keep_m + disc.radius_m, disc.radius_rate},
+                     samples, j, rows);
   }
 
   double weight_;

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "optimization/penalty.h"
+#include "optimization/ball_cost.h"
 #include "world/moving/tube.h"
 
 namespace mocha {
@@ -36,8 +36,6 @@ class TubePenalty : public Penalty<D> {
   }
 
  private:
-  using Vector = Eigen::Matrix<double, D, 1>;
-
   static bool may_matter(const TubePiece<D>& piece, const PieceBounds<D>& bounds) {
     const double from_s = std::max(bounds.start_s, piece.start_s);
     const double until_s = std::min(bounds.start_s + bounds.duration_s, piece.end_s);
@@ -53,18 +51,9 @@ class TubePenalty : public Penalty<D> {
     const double now = samples.time_s[j];
     // Half open, so that what is where two pieces meet counts once.
     if (now < piece.start_s || now >= piece.end_s) return;
-    const double radius_m = piece.radius_at(now);
-    const double inverse_ds2 = 1.0 / (radius_m * radius_m);
-    const Vector apart = samples.position().row(j).transpose() - piece.centre_at(now);
-    const double ratio = apart.squaredNorm() * inverse_ds2;
-    const Cubic penalty = cubic(1.0 - ratio);
-    if (penalty.value == 0.0) return;
-    const double scale = weight_ * penalty.slope;
-    rows.value[j] += weight_ * penalty.value;
-    rows.by_position().row(j) -= (2.0 * scale * inverse_ds2) * apart;
-    rows.by_time[j] +=
-        2.0 * scale *
-        (apart.dot(piece.velocity) * inverse_ds2 + ratio * piece.radius_rate / radius_m);
+    add_ball_cost<D>(
+        weight_, {piece.centre_at(now), piece.velocity, piece.radius_at(now), piece.radius_rate},
+        samples, j, rows);
   }
 
   double weight_;

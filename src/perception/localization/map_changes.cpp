@@ -81,8 +81,8 @@ void MapChanges::doubt(std::size_t cell, int8_t value, double time_s) {
   doubt.newest_s = time_s;
 }
 
-/// Changes all cells that are due at once, a few times in lasting_s_: whoever uses the map has to
-/// prepare it anew.
+/// Changes all cells that are due at once, and only a few times in lasting_s_, because each change
+/// makes the users of the map prepare it anew.
 bool MapChanges::change(double time_s) {
   if (time_s < changed_s_ + lasting_s_ / kTimes) return false;
   bool has_changed = false;

@@ -12,8 +12,8 @@ namespace mocha {
 OccupancyGrid grid_of(const std::vector<PlacedKeyframe>& keyframes, const Vector2& centre,
                       double reach_m, double cell_m);
 
-/// The beams of a keyframe. Those that end where the grid of all keyframes is free say nothing of
-/// their ends: they have met somebody who went on.
+/// Returns the beams of a keyframe. Beams that end where the grid of all keyframes is free have met
+/// something that moved; their ends are left out.
 std::vector<Beam> lasting_beams(const PlacedKeyframe& keyframe, const OccupancyGrid& all);
 
 }  // namespace mocha

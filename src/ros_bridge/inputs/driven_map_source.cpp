@@ -25,7 +25,7 @@ bool has_moved(const Pose& from, const Pose& to) {
          std::abs(wrap_angle(to.yaw_rad - from.yaw_rad)) > kMoved_rad;
 }
 
-/// Inserts all keyframes, without people who only went by.
+/// Inserts all keyframes, without the hits of things that moved.
 void insert(const std::vector<ScanHits>& scans, const std::vector<Pose>& poses, OccupancyMap& map) {
   std::vector<ScanKeyframe> keyframes(poses.size());
   std::vector<PlacedKeyframe> placed;

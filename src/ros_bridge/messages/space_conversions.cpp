@@ -29,28 +29,28 @@ mocha_ugv::PlannerStatus status_of(PlanReason reason, const BasicViolation<3>& v
   return status;
 }
 
+mocha_ugv::Fallback fallback_message(const BasicFallback<3>& fallback) {
+  mocha_ugv::Fallback message;
+  message.kind = static_cast<uint8_t>(fallback.kind);
+  message.message = describe(fallback);
+  message.place = point_message(fallback.place);
+  message.in_last_plan = true;
+  return message;
+}
+
 mocha_ugv::SpaceCandidate candidate_message(const SpaceCandidate& candidate, double radius_m,
                                             const std::string& frame, ros::Time stamp) {
   mocha_ugv::SpaceCandidate message;
   message.signature.assign(candidate.signature.begin(), candidate.signature.end());
   message.certified = candidate.reason == PlanReason::kSolved;
   message.cost = candidate.cost;
-  for (const auto& [name, value] : candidate.terms) {
-    mocha_ugv::CostTerm term;
-    term.name = name;
-    term.value = value;
-    message.terms.push_back(term);
-  }
+  message.terms = cost_terms_message(candidate.terms);
   message.status =
       status_of(candidate.reason, candidate.violation, outcome(candidate), frame, stamp);
-  if (candidate.fallback) {
-    mocha_ugv::Fallback fallback;
-    fallback.kind = static_cast<uint8_t>(candidate.fallback->kind);
-    fallback.message = describe(*candidate.fallback);
-    fallback.place = point_message(candidate.fallback->place);
-    fallback.in_last_plan = true;
-    message.fallbacks.push_back(fallback);
-  }
+  mocha_ugv::PlanningEffort& effort = message.status.effort;
+  effort.evaluations = candidate.evaluations;
+  effort.parameterisation = static_cast<uint8_t>(candidate.parameterisation);
+  if (candidate.fallback) effort.fallbacks.push_back(fallback_message(*candidate.fallback));
   for (const Eigen::Vector3d& point : candidate.path) message.path.push_back(point_message(point));
   message.trajectory = curve_message(candidate.curve, radius_m, frame, stamp);
   if (candidate.curve.pieces() == 0) return message;

@@ -110,18 +110,23 @@ mocha_ugv::ReplannerStatus to_message(Row row, const Status& status) {
   return message;
 }
 
+std::vector<mocha_ugv::CostTerm> cost_terms_message(const CostTerms& terms) {
+  std::vector<mocha_ugv::CostTerm> messages;
+  for (const auto& [name, value] : terms) {
+    mocha_ugv::CostTerm& term = messages.emplace_back();
+    term.name = name;
+    term.value = value;
+  }
+  return messages;
+}
+
 mocha_ugv::Candidate to_message(const PlanCandidate& candidate, const std::string& frame,
                                 ros::Time stamp) {
   mocha_ugv::Candidate message;
   message.signature.assign(candidate.signature.begin(), candidate.signature.end());
   message.selected = candidate.selected;
   message.cost = candidate.cost;
-  for (const auto& [name, value] : candidate.terms) {
-    mocha_ugv::CostTerm term;
-    term.name = name;
-    term.value = value;
-    message.terms.push_back(term);
-  }
+  message.terms = cost_terms_message(candidate.terms);
   message.status =
       to_message(candidate.reason, candidate.violation, outcome(candidate), frame, stamp);
   message.status.effort.evaluations = candidate.evaluations;

@@ -5,6 +5,7 @@
 #include <mocha_ugv/ReplannerStatus.h>
 
 #include <string>
+#include <vector>
 
 #include "planning/executive/goal_executive.h"
 #include "planning/replanner/ladder.h"
@@ -21,6 +22,8 @@ GoalExecutive::Report from_message(const mocha_ugv::PlannerStatus& status);
 
 /// What a step of the local replanner came to.
 mocha_ugv::ReplannerStatus to_message(Row row, const mocha_ugv::PlannerStatus& status);
+
+std::vector<mocha_ugv::CostTerm> cost_terms_message(const CostTerms& terms);
 
 mocha_ugv::Candidate to_message(const PlanCandidate& candidate, const std::string& frame,
                                 ros::Time stamp);

@@ -16,7 +16,7 @@ struct ObstacleCurves {
   /// different ones cannot be deformed into each other.
   std::vector<Cuts<3>::Curve> curves;
   /// What is no curve: bodies that hang free, which are passed on any side alike, and voxels that
-  /// are neither on curves nor such bodies.
+  /// thinning left on surfaces.
   int bodies = 0;
   int surface_voxels = 0;
 };

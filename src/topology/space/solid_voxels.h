@@ -40,8 +40,8 @@ struct SolidVoxels {
   }
 };
 
-/// What can be reached from `seed` by whoever keeps `clearance_m` >= 0 to all obstacles; nothing
-/// where that is not allowed at the seed, which is to be in the field's bounds.
+/// Returns what a point that keeps `clearance_m` >= 0 to all obstacles can reach from `seed`;
+/// nothing where the seed itself does not keep it. The seed has to be in the field's bounds.
 ///
 /// A voxel is solid if no place in it is proved to keep the clearance, or if it cannot be reached:
 /// so no allowed path meets a solid voxel, and allowed paths do not tell whether what can be

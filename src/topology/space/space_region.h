@@ -10,7 +10,7 @@ namespace mocha {
 /// long as the distances of the map do, and asked often.
 class SpaceRegion {
  public:
-  /// For whoever keeps `clearance_m` to the obstacles of the field, of which the voxels are made.
+  /// `voxels` are those of solid_voxels() for this field and clearance.
   SpaceRegion(const VoxelDistanceField& field, double clearance_m, SolidVoxels voxels);
 
   /// Whether a place belongs to it, or is close enough to be one of its margins.

@@ -19,7 +19,7 @@ struct VoxelChain {
 struct VoxelCycles {
   std::vector<VoxelChain> chains;
   int bodies = 0;          ///< single voxels: what is passed on either side alike
-  int surface_voxels = 0;  ///< that neither are on curves nor single
+  int surface_voxels = 0;  ///< voxels that thinning left on surfaces
 };
 
 /// Of the solid voxels inside of the map, after thin_solid().

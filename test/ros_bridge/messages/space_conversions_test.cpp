@@ -104,6 +104,10 @@ TEST_F(SpaceConversionsTest, APlanSaysWhatIsViolatedWhereAndWhen) {
   candidate.violation.place = {1.0, 2.0, 3.0};
   candidate.violation.time_s = 2.0;
   candidate.signature = {0, -1};
+  candidate.terms = {{"duration", 3.0}, {"obstacle", 0.5}};
+  candidate.evaluations = 42;
+  candidate.parameterisation = Parameterisation::kWaypoints;
+  candidate.fallback = {FallbackKind::kSharpBend, {4.0, 5.0, 6.0}};
   const auto message = to_message(plan, 0.25, "map", stamp_);
   EXPECT_FALSE(message.success);
   EXPECT_TRUE(message.trajectory.points.empty());
@@ -113,6 +117,15 @@ TEST_F(SpaceConversionsTest, APlanSaysWhatIsViolatedWhereAndWhen) {
   ASSERT_EQ(message.candidates.size(), 1u);
   EXPECT_FALSE(message.candidates[0].certified);
   EXPECT_EQ(message.candidates[0].signature, (std::vector<int>{0, -1}));
+  ASSERT_EQ(message.candidates[0].terms.size(), 2u);
+  EXPECT_EQ(message.candidates[0].terms[1].name, "obstacle");
+  EXPECT_EQ(message.candidates[0].terms[1].value, 0.5);
+  const auto& effort = message.candidates[0].status.effort;
+  EXPECT_EQ(effort.evaluations, 42u);
+  EXPECT_EQ(effort.parameterisation, mocha_ugv::PlanningEffort::WAYPOINTS);
+  ASSERT_EQ(effort.fallbacks.size(), 1u);
+  EXPECT_EQ(effort.fallbacks[0].kind, mocha_ugv::Fallback::SHARP_BEND);
+  EXPECT_EQ(effort.fallbacks[0].place.z, 6.0);
   plan.reason = candidate.reason = PlanReason::kSolved;
   candidate.violation = {};
   const auto solved = to_message(plan, 0.25, "map", stamp_);
