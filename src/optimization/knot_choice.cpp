@@ -18,12 +18,14 @@ class KnotChooser {
   using Points = typename KnotCandidates<D>::Points;
 
   KnotChooser(TrajectoryObjective<D, 3>& objective, const KnotCandidates<D>& candidates)
-      : objective_(objective), candidates_(candidates) {}
+      : objective_(objective),
+        candidates_(candidates),
+        step_s_(candidates.duration_s / intervals()) {}
 
   KnotChain<D> choose() {
-    weigh_path();
-    chosen_.clear();
     for (int i = 0; i <= intervals(); i += candidates_.coarsest) chosen_.push_back(i);
+    const Eigen::VectorXd durations_s = place_knots(chosen_);
+    step_s_ *= paced(objective_, durations_s).sum() / durations_s.sum();
     while (halve_pieces()) {
     }
     return chain();
@@ -32,44 +34,54 @@ class KnotChooser {
  private:
   int intervals() const { return static_cast<int>(candidates_.path.cols()) - 1; }
 
-  /// The curve through the chosen points becomes the objective's last.
-  void evaluate() {
-    const int pieces = static_cast<int>(chosen_.size()) - 1;
+  /// Puts the objective's knots there; returns the durations between them.
+  Eigen::VectorXd place_knots(const std::vector<int>& chosen) {
+    const int pieces = static_cast<int>(chosen.size()) - 1;
     Points knots(D, pieces - 1);
     Eigen::VectorXd durations_s(pieces);
     for (int i = 0; i < pieces; ++i) {
-      durations_s[i] = step_s_ * (chosen_[i + 1] - chosen_[i]);
-      if (i > 0) knots.col(i - 1) = candidates_.path.col(chosen_[i]);
+      durations_s[i] = step_s_ * (chosen[i + 1] - chosen[i]);
+      if (i > 0) knots.col(i - 1) = candidates_.path.col(chosen[i]);
     }
     objective_.set_knot_map(std::make_shared<WaypointMap<D>>(knots));
-    Eigen::VectorXd gradient(objective_.variables());
-    objective_.evaluate(objective_.initial(durations_s), gradient);
+    return durations_s;
   }
 
-  /// What each interval of the path is penalised, at a good pace.
-  void weigh_path() {
-    step_s_ = candidates_.duration_s / intervals();
-    chosen_.resize(intervals() + 1);
-    std::iota(chosen_.begin(), chosen_.end(), 0);
-    evaluate();
-    step_s_ = paced(objective_, Eigen::VectorXd::Constant(intervals(), step_s_)).mean();
-    evaluate();
-    for (int i = 0; i < intervals(); ++i) path_penalty_.push_back(objective_.penalty(i));
+  /// What each piece is penalised where the knots are there.
+  std::vector<double> penalties(const std::vector<int>& chosen) {
+    const Eigen::VectorXd durations_s = place_knots(chosen);
+    Eigen::VectorXd gradient(objective_.variables());
+    objective_.evaluate(objective_.initial(durations_s), gradient);
+    std::vector<double> penalties;
+    for (int i = 0; i < durations_s.size(); ++i) penalties.push_back(objective_.penalty(i));
+    return penalties;
+  }
+
+  /// What the path is penalised between two of its points: weighed when it is asked for first.
+  double path_penalty(int from, int to) {
+    if (path_penalty_.empty()) {
+      std::vector<int> all(candidates_.path.cols());
+      std::iota(all.begin(), all.end(), 0);
+      path_penalty_ = penalties(all);
+    }
+    return std::accumulate(path_penalty_.begin() + from, path_penalty_.begin() + to, 0.0);
   }
 
   bool halve_pieces() {
-    evaluate();
+    const std::vector<double> penalty = penalties(chosen_);
     const auto curve = objective_.curve();
+    const double excess = kExcess * objective_.duration_cost();
     std::vector<int> finer;
     for (int i = 0; i < curve.pieces(); ++i) {
-      finer.push_back(chosen_[i]);
-      const int middle = (chosen_[i] + chosen_[i + 1]) / 2;
-      if (middle == chosen_[i]) continue;
+      const int from = chosen_[i];
+      const int to = chosen_[i + 1];
+      finer.push_back(from);
+      const int middle = (from + to) / 2;
+      if (middle == from) continue;
       const double off_m = (curve.derivative({i, 0.5}, 0) - candidates_.path.col(middle)).norm();
-      const double of_path = std::accumulate(path_penalty_.begin() + chosen_[i],
-                                             path_penalty_.begin() + chosen_[i + 1], 0.0);
-      const double most = of_path + kExcess * objective_.duration_cost();
-      if (off_m > candidates_.tolerance_m || objective_.penalty(i) > most) finer.push_back(middle);
+      if (off_m > candidates_.tolerance_m ||
+          (penalty[i] > excess && penalty[i] > excess + path_penalty(from, to)))
+        finer.push_back(middle);
     }
     finer.push_back(chosen_.back());
     chosen_.swap(finer);
@@ -98,9 +110,9 @@ class KnotChooser {
 
   TrajectoryObjective<D, 3>& objective_;
   const KnotCandidates<D>& candidates_;
-  std::vector<int> chosen_;  // columns of the path
-  std::vector<double> path_penalty_;
-  double step_s_ = 0.0;
+  std::vector<int> chosen_;           // columns of the path
+  std::vector<double> path_penalty_;  // of each interval
+  double step_s_;                     // between neighbours
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "camouflage/bounded_maps.h"
 
@@ -15,6 +14,7 @@ constexpr double kSteps = 25.0;       // in the window that rounds corners
 constexpr double kMostSamples = 2e4;  // very long paths are sampled more coarsely
 constexpr int kMostPieces = 2000;
 constexpr double kProfileAcceleration = 0.6;  // leaves room for the curve's own shape
+constexpr double kStraight = 1e-12;           // squared tangent of a turn that is none
 constexpr double kSlowest_mps = 0.01;         // [m/s] of the profile, so that times stay finite
 
 template <int D>
@@ -30,8 +30,9 @@ double length_m(const Points<D>& points) {
 template <int D>
 Points<D> resample(const Points<D>& points, double step_m) {
   Points<D> samples = {points.front()};
+  samples.reserve(points.size() + static_cast<std::size_t>(length_m<D>(points) / step_m));
   for (std::size_t i = 1; i < points.size(); ++i) {
-    const auto step = points[i] - points[i - 1];
+    const Eigen::Matrix<double, D, 1> step = points[i] - points[i - 1];
     const int parts = std::max(1, static_cast<int>(std::ceil(step.norm() / step_m)));
     for (int k = 1; k <= parts; ++k) {
       samples.push_back(points[i - 1] + step * (static_cast<double>(k) / parts));
@@ -44,12 +45,13 @@ Points<D> resample(const Points<D>& points, double step_m) {
 template <int D>
 Points<D> rounded(const Points<D>& samples, int widest) {
   const int last = static_cast<int>(samples.size()) - 1;
-  Points<D> sums = {Eigen::Matrix<double, D, 1>::Zero()};
-  for (const auto& sample : samples) sums.push_back(sums.back() + sample);
-  Points<D> means;
+  Points<D> sums(samples.size() + 1);
+  sums.front().setZero();
+  for (int i = 0; i <= last; ++i) sums[i + 1] = sums[i] + samples[i];
+  Points<D> means(samples.size());
   for (int i = 0; i <= last; ++i) {
     const int reach = std::min({widest, i, last - i});
-    means.push_back((sums[i + reach + 1] - sums[i - reach]) / (2.0 * reach + 1.0));
+    means[i] = (sums[i + reach + 1] - sums[i - reach]) * (1.0 / (2.0 * reach + 1.0));
   }
   return means;
 }
@@ -62,10 +64,12 @@ std::vector<double> corner_speeds(const Points<D>& samples, const MotionLimits& 
   for (int i = 1; i < last; ++i) {
     const Eigen::Matrix<double, D, 1> in = samples[i] - samples[std::max(0, i - reach)];
     const Eigen::Matrix<double, D, 1> out = samples[std::min(last, i + reach)] - samples[i];
-    const double across = (out * in.squaredNorm() - in * in.dot(out)).norm() / (in.norm() + 1e-9);
-    const double turn = std::atan2(across, in.dot(out));
+    const double along = in.dot(out);
+    const Eigen::Matrix<double, D, 1> normal = out * in.squaredNorm() - in * along;  // times |in|^2
+    if (along > 0.0 && normal.squaredNorm() <= kStraight * in.squaredNorm() * along * along)
+      continue;
+    const double turn = std::atan2(normal.norm() / (in.norm() + 1e-9), along);
     const double curvature = turn / (0.5 * (in.norm() + out.norm()) + 1e-9);
-    if (curvature < 1e-6) continue;
     speeds[i] = std::min({speeds[i], limits.max_yaw_rate / curvature,
                           limits.max_wheel_speed / (1.0 + 0.5 * limits.track_m * curvature),
                           std::sqrt(kProfileAcceleration * limits.max_acceleration / curvature)});
@@ -76,23 +80,24 @@ std::vector<double> corner_speeds(const Points<D>& samples, const MotionLimits& 
 /// Times at which the samples are reached, after limiting acceleration forward and deceleration
 /// backward.
 template <int D>
-std::vector<double> arrival_times(const Points<D>& samples, std::vector<double> speeds,
+std::vector<double> arrival_times(const Points<D>& samples, const std::vector<double>& speeds,
                                   double start_speed, const MotionLimits& limits) {
   const double gain = 2.0 * kProfileAcceleration * limits.max_acceleration;
-  speeds.front() = std::min(speeds.front(), start_speed);
-  speeds.back() = 0.0;
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double step = (samples[i] - samples[i - 1]).norm();
-    speeds[i] = std::min(speeds[i], std::sqrt(speeds[i - 1] * speeds[i - 1] + gain * step));
+  const std::size_t last = samples.size() - 1;
+  std::vector<double> steps_m(samples.size());  // to each from the one before
+  std::vector<double> squares(samples.size());  // of the speeds
+  squares[0] = std::pow(std::min(speeds[0], start_speed), 2);
+  for (std::size_t i = 1; i <= last; ++i) {
+    steps_m[i] = (samples[i] - samples[i - 1]).norm();
+    squares[i] = std::min(speeds[i] * speeds[i], squares[i - 1] + gain * steps_m[i]);
   }
-  for (std::size_t i = samples.size() - 1; i > 0; --i) {
-    const double step = (samples[i] - samples[i - 1]).norm();
-    speeds[i - 1] = std::min(speeds[i - 1], std::sqrt(speeds[i] * speeds[i] + gain * step));
-  }
-  std::vector<double> times = {0.0};
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    const double mean = std::max(kSlowest_mps, 0.5 * (speeds[i] + speeds[i - 1]));
-    times.push_back(times.back() + (samples[i] - samples[i - 1]).norm() / mean);
+  squares[last] = 0.0;
+  for (std::size_t i = last; i > 0; --i)
+    squares[i - 1] = std::min(squares[i - 1], squares[i] + gain * steps_m[i]);
+  std::vector<double> times(samples.size(), 0.0);
+  for (std::size_t i = 1; i <= last; ++i) {
+    const double mean = 0.5 * (std::sqrt(squares[i - 1]) + std::sqrt(squares[i]));
+    times[i] = times[i - 1] + steps_m[i] / std::max(kSlowest_mps, mean);
   }
   return times;
 }
@@ -125,7 +130,7 @@ SpeedProfile<D>::SpeedProfile(const Points& points, double start_speed, const Mo
     for (std::size_t i = 0; i < speeds.size(); ++i)
       speeds[i] = std::min(speeds[i], fastest_at(samples_[i]));
   }
-  times_s_ = arrival_times<D>(samples_, std::move(speeds), start_speed, limits);
+  times_s_ = arrival_times<D>(samples_, speeds, start_speed, limits);
 }
 
 template <int D>
