@@ -74,11 +74,10 @@ def run(options):
         planner = mocha_planner.SpacePlanner(options.map, parameters, [options.start, options.goal])
         curves = planner.curves(options.start)
         map_s = time.monotonic() - begin_s
-        begin_s = time.monotonic()
         plan = planner.plan(options.start, options.goal, options.moving)
     except (ValueError, RuntimeError) as error:
         raise Complaint(in_a_line(error)) from error
-    return planner, curves, plan, {"map_s": map_s, "plan_s": time.monotonic() - begin_s}
+    return planner, curves, plan, map_s
 
 
 def count_text(counts):
@@ -94,19 +93,19 @@ def count_text(counts):
     return text
 
 
-def say(planner, curves, plan, times):
+def say(planner, curves, plan, map_s):
     low, high = planner.bounds
     print(f"map: voxels of {planner.resolution_m:g} m, from ({low[0]:g}, {low[1]:g}, {low[2]:g}) to ({high[0]:g}, {high[1]:g}, {high[2]:g}),"
-          f" made ready in {times['map_s']:.2f} s")
+          f" made ready in {map_s:.2f} s")
     if curves:
         print(count_text(curves["counts"]))
-    print(f"{plan.reason} in {1e3 * times['plan_s']:.0f} ms" + (f": {plan.message}" if not plan.solved else ""))
+    print(f"{plan.reason} in {1e3 * plan.took_s:.0f} ms" + (f": {plan.message}" if not plan.solved else ""))
     for number, each in enumerate(plan.candidates, 1):
         print(f"{number:3}  cost {each.cost:7.2f}  {each.duration_s:6.2f} s  {each.length_m:6.2f} m  {each.evaluations:4} evaluations  "
               + ("certified" if each.certified else each.outcome))
 
 
-def as_dict(planner, curves, plan, times):
+def as_dict(planner, curves, plan, map_s):
     def candidate(each):
         samples = each.sample(SAMPLE_S)
         return {"certified": each.certified, "outcome": each.outcome, "cost": each.cost, "terms": each.terms,
@@ -114,7 +113,7 @@ def as_dict(planner, curves, plan, times):
                 "path_m": [list(map(float, point)) for point in each.path],
                 "trajectory": {"time_s": samples["time_s"], "place_m": [list(map(float, point)) for point in samples["place_m"]],
                                "speed_mps": samples["speed_mps"]}}
-    return {"solved": plan.solved, "reason": plan.reason, "message": plan.message, "map_s": times["map_s"], "plan_s": times["plan_s"],
+    return {"solved": plan.solved, "reason": plan.reason, "message": plan.message, "map_s": map_s, "plan_s": plan.took_s,
             "bounds_m": [list(map(float, corner)) for corner in planner.bounds], "resolution_m": planner.resolution_m,
             "curves": curves["counts"] if curves else None, "candidates": [candidate(each) for each in plan.candidates]}
 
@@ -122,13 +121,13 @@ def as_dict(planner, curves, plan, times):
 def main(arguments):
     options = parse(arguments)
     try:
-        planner, curves, plan, times = run(options)
-        say(planner, curves, plan, times)
+        planner, curves, plan, map_s = run(options)
+        say(planner, curves, plan, map_s)
         for path in filter(None, (options.json, options.picture)):
             os.makedirs(os.path.dirname(os.path.abspath(path)), exist_ok=True)
         if options.json:
             with open(options.json, "w") as file:
-                json.dump(as_dict(planner, curves, plan, times), file, indent=1)
+                json.dump(as_dict(planner, curves, plan, map_s), file, indent=1)
         if options.picture:
             from mocha_scripts.space_plot import draw_plan
             draw_plan(planner, curves, plan, options)

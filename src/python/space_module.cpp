@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -37,7 +38,10 @@ std::unique_ptr<SpacePlanner> make_planner(const std::string& map_file, const py
     box.extend(at + room);
   }
   const py::gil_scoped_release others_may_run;
-  return make_space_planner(values, box);
+  return make_space_planner(values, box, [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+  });
 }
 
 /// What of a kind the map holds, by its name.
@@ -125,17 +129,39 @@ void add_candidate(py::module_& module) {
            "speed_mps.");
 }
 
-}  // namespace
-
-void add_space_planning(py::module_& module) {
-  add_candidate(module);
+void add_plan(py::module_& module) {
   py::class_<SpacePlan>(module, "SpacePlan", "The cheapest certified trajectory, or why none.")
       .def_property_readonly("solved",
                              [](const SpacePlan& p) { return p.reason == PlanReason::kSolved; })
       .def_property_readonly("reason", [](const SpacePlan& p) { return to_text(p.reason); })
       .def_readonly("message", &SpacePlan::message, "The same in a sentence.")
+      .def_readonly("took_s", &SpacePlan::took_s, "Searching and optimising.")
       .def_readonly("candidates", &SpacePlan::candidates,
                     "One for each class; certified ones first, the cheapest of them first.");
+}
+
+SpacePlan plan_in_space(SpacePlanner& planner, const py::object& start, const py::object& goal,
+                        const std::vector<py::object>& moving) {
+  SpaceQuery query{to_place("start", start), to_place("goal", goal)};
+  for (const py::object& ball : moving) query.moving.push_back(to_ball("moving", ball));
+  const py::gil_scoped_release others_may_run;
+  return planner.plan(query);
+}
+
+py::object curves_around(SpacePlanner& planner, const py::object& start) {
+  const Eigen::Vector3d from = to_place("start", start);
+  std::shared_ptr<const SpaceRegion> region;
+  {
+    const py::gil_scoped_release others_may_run;
+    region = planner.region_of(from);
+  }
+  if (!region) return py::none();
+  using py::literals::operator""_a;
+  return py::dict("counts"_a = count_curves(region->curves()),
+                  "curves"_a = corners_of(region->curves()));
+}
+
+void add_planner(py::module_& module) {
   py::class_<SpacePlanner>(module, "SpacePlanner", R"(Plans in an OctoMap, in three dimensions.
 
 map_file: .bt or .ot. parameters: values by name, as config/space_planner.yaml lists them. held:
@@ -143,35 +169,13 @@ places (x, y, z) that the map is to reach as far as, if it knows less.
 Bad arguments raise ValueError; a map that cannot be used, RuntimeError.)")
       .def(py::init(&make_planner), py::arg("map_file"), py::arg("parameters") = py::dict(),
            py::arg("held") = std::vector<py::object>())
-      .def(
-          "plan",
-          [](SpacePlanner& planner, const py::object& start, const py::object& goal,
-             const std::vector<py::object>& moving) {
-            SpaceQuery query{to_place("start", start), to_place("goal", goal)};
-            for (const py::object& ball : moving) query.moving.push_back(to_ball("moving", ball));
-            const py::gil_scoped_release others_may_run;
-            return planner.plan(query);
-          },
-          py::arg("start"), py::arg("goal"), py::arg("moving") = std::vector<py::object>(),
-          "From rest at start to rest at goal, (x, y, z) [m], past balls that move: each (x, y, z, "
-          "vx, vy, vz, radius) [m, m/s], when the motion begins.")
-      .def(
-          "curves",
-          [](SpacePlanner& planner, const py::object& start) -> py::object {
-            const Eigen::Vector3d from = to_place("start", start);
-            std::shared_ptr<const SpaceRegion> region;
-            {
-              const py::gil_scoped_release others_may_run;
-              region = planner.region_of(from);
-            }
-            if (!region) return py::none();
-            using py::literals::operator""_a;
-            return py::dict("counts"_a = count_curves(region->curves()),
-                            "curves"_a = corners_of(region->curves()));
-          },
-          py::arg("start"),
-          "What tells classes apart where one comes from start, or None: how many curves of each "
-          "kind and what is none, and their corners.")
+      .def("plan", &plan_in_space, py::arg("start"), py::arg("goal"),
+           py::arg("moving") = std::vector<py::object>(),
+           "From rest at start to rest at goal, (x, y, z) [m], past balls that move: each (x, y, "
+           "z, vx, vy, vz, radius) [m, m/s], when the motion begins.")
+      .def("curves", &curves_around, py::arg("start"),
+           "What tells classes apart where one comes from start, or None: how many curves of each "
+           "kind and what is none, and their corners.")
       .def(
           "surface", [](const SpacePlanner& p) { return p.field().surface(); },
           "For pictures: the centres of solid cells beside open ones.")
@@ -183,6 +187,14 @@ Bad arguments raise ValueError; a map that cannot be used, RuntimeError.)")
             return py::make_tuple(p.field().bounds().min(), p.field().bounds().max());
           },
           "The lowest and the highest corner of where the robot may be.");
+}
+
+}  // namespace
+
+void add_space_planning(py::module_& module) {
+  add_candidate(module);
+  add_plan(module);
+  add_planner(module);
 }
 
 }  // namespace mocha

@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "perception/mapping/voxel_map_file.h"
@@ -32,14 +33,15 @@ Eigen::AlignedBox3d bounds_of(const std::string& text) {
 }  // namespace
 
 std::unique_ptr<SpacePlanner> make_space_planner(const ParameterTable& values,
-                                                 const Eigen::AlignedBox3d& held) {
+                                                 const Eigen::AlignedBox3d& held,
+                                                 std::function<double()> now_s) {
   const VoxelGrid grid =
       load_voxel_map(values.text("map_file"), {bounds_of(values.text("bounds")), held});
   const auto solid = values.text("unknown") == "solid"
                          ? VoxelDistanceField::Solid::kOccupiedOrUnknown
                          : VoxelDistanceField::Solid::kOccupied;
   return std::make_unique<SpacePlanner>(std::make_shared<VoxelDistanceField>(grid, solid),
-                                        SpacePlannerOptions::from(values));
+                                        SpacePlannerOptions::from(values), std::move(now_s));
 }
 
 }  // namespace mocha

@@ -83,7 +83,7 @@ BenchmarkWorld<3> forest_world(int seed, const BenchmarkOptions& options) {
   constexpr double kStartHeight_m = 2.0;
   constexpr double kClimb_m = 8.0;
   constexpr double kCanopy_m = 12.0;
-  constexpr VisibilityPrmOptions kRoadmap{6000, 1, 25.0};
+  const VisibilityPrmOptions roadmap{6000, 1, 25.0};
   std::mt19937 random(1000 + seed);
   const Ground& ground = options.ground;
   const std::vector<Circle> circles = scatter(ground, options.gap_m, corners(ground), random);
@@ -103,7 +103,7 @@ BenchmarkWorld<3> forest_world(int seed, const BenchmarkOptions& options) {
        Eigen::Vector3d(ground.side_m + kBorder_m, ground.side_m + kBorder_m, kCanopy_m)},
       start, {options.front_end_clearance_m, 0.0});
   const auto paths =
-      shortest_classes<3>(visibility_prm<3>(space, start, goal, kRoadmap), space, {1, 1.0});
+      shortest_classes<3>(visibility_prm<3>(space, start, goal, roadmap), space, {1, 1.0});
   if (paths.empty()) throw std::runtime_error("benchmark world: there is no path through");
   world.path = pulled_taut(with_shortcuts<3>(paths.front().points, space), space);
   return world;

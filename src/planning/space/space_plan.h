@@ -37,6 +37,7 @@ struct SpacePlan {
   PlanReason reason = PlanReason::kNoMap;
   std::string message;  ///< the same in a sentence
   std::vector<SpaceCandidate> candidates;
+  double took_s = 0.0;  ///< searching and optimising
 
   /// The cheapest certified candidate, or null.
   const SpaceCandidate* selected() const {

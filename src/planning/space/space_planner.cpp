@@ -48,8 +48,8 @@ std::string coordinates(const Eigen::Vector3d& p) {
 }  // namespace
 
 SpacePlanner::SpacePlanner(std::shared_ptr<const VoxelDistanceField> field,
-                           const SpacePlannerOptions& options)
-    : field_(std::move(field)), options_(options), optimizer_(options) {}
+                           const SpacePlannerOptions& options, std::function<double()> now_s)
+    : field_(std::move(field)), options_(options), optimizer_(options), now_s_(std::move(now_s)) {}
 
 std::shared_ptr<const SpaceRegion> SpacePlanner::region_of(const Eigen::Vector3d& start) {
   if (!field_->bounds().contains(start)) return nullptr;
@@ -100,9 +100,9 @@ SpacePathOptions SpacePlanner::path_options(const SpaceQuery& query) const {
 std::vector<TimedSpacePath> SpacePlanner::paths_among_moving(const SpaceQuery& query,
                                                              const SpaceRegion& region,
                                                              const std::vector<SpacePath>& paths,
-                                                             const SpacePlan& without) const {
+                                                             const Candidates& without) const {
   double duration_s = 0.0;
-  for (const SpaceCandidate& candidate : without.candidates) {
+  for (const SpaceCandidate& candidate : without) {
     if (candidate.curve.pieces() > 0) duration_s = std::max(duration_s, candidate.curve.duration());
   }
   if (duration_s == 0.0) return {};
@@ -114,41 +114,56 @@ std::vector<TimedSpacePath> SpacePlanner::paths_among_moving(const SpaceQuery& q
 }
 
 void SpacePlanner::optimize_all(const std::vector<TimedSpacePath>& paths, const SpaceScene& scene,
-                                const std::function<bool()>& should_stop, SpacePlan& plan) const {
-  const std::size_t before = plan.candidates.size();
-  plan.candidates.resize(before + paths.size());
+                                const std::function<bool()>& should_stop,
+                                Candidates& candidates) const {
+  const std::size_t before = candidates.size();
+  candidates.resize(before + paths.size());
   in_parallel(paths.size(), options_.threads, [&](std::size_t i) {
-    plan.candidates[before + i] = optimizer_.optimize_path(paths[i], scene, should_stop);
+    candidates[before + i] = optimizer_.optimize_path(paths[i], scene, should_stop);
   });
+}
+
+/// Candidates of pairwise different classes, the best first.
+SpacePlanner::Candidates SpacePlanner::find_candidates(const SpaceQuery& query,
+                                                       const SpaceRegion& region) const {
+  const std::vector<SpacePath> paths = find_space_paths(*field_, region, query.start, query.goal,
+                                                        path_options(query), query.should_stop);
+  const SpaceScene scene{*field_, region.cuts(), query.moving};
+  std::vector<TimedSpacePath> untimed;
+  for (const SpacePath& path : paths) untimed.push_back({path.points, {}});
+  Candidates candidates;
+  optimize_all(untimed, scene, query.should_stop, candidates);
+  if (!query.moving.empty()) {
+    const auto timed = paths_among_moving(query, region, paths, candidates);
+    optimize_all(timed, scene, query.should_stop, candidates);
+  }
+  keep_best_of_each_class(candidates);
+  return candidates;
 }
 
 SpacePlan SpacePlanner::plan(const SpaceQuery& query) {
   SpacePlan plan;
   if (is_refused(query, plan)) return plan;
   const auto region = region_of(query.start);
-  const std::vector<SpacePath> paths =
-      region ? find_space_paths(*field_, *region, query.start, query.goal, path_options(query),
-                                query.should_stop)
-             : std::vector<SpacePath>();
-  if (paths.empty()) {
-    const bool is_late = query.should_stop();
-    plan.reason = is_late ? PlanReason::kBudgetExhausted : PlanReason::kNoPath;
-    plan.message = (is_late ? "out of time before there was a path from " : "no path from ") +
-                   coordinates(query.start) + " to " + coordinates(query.goal);
-    return plan;
+  const double begin_s = now_s_();
+  SpaceQuery timed = query;
+  timed.should_stop = [&] {
+    return query.should_stop() || now_s_() - begin_s > options_.planning_time_s;
+  };
+  if (region) plan.candidates = find_candidates(timed, *region);
+  if (plan.candidates.empty()) {
+    plan.reason = PlanReason::kNoPath;
+    plan.message =
+        "found no path from " + coordinates(query.start) + " to " + coordinates(query.goal);
+  } else {
+    plan.reason = plan.candidates.front().reason;
+    plan.message = outcome(plan.candidates.front());
   }
-  const SpaceScene scene{*field_, region->cuts(), query.moving};
-  std::vector<TimedSpacePath> untimed;
-  for (const SpacePath& path : paths) untimed.push_back({path.points, {}});
-  optimize_all(untimed, scene, query.should_stop, plan);
-  if (!query.moving.empty()) {
-    optimize_all(paths_among_moving(query, *region, paths, plan), scene, query.should_stop, plan);
+  if (!plan.selected() && timed.should_stop()) {
+    plan.reason = PlanReason::kBudgetExhausted;
+    plan.message = "out of time: " + plan.message;
   }
-  keep_best_of_each_class(plan.candidates);
-  const SpaceCandidate& best = plan.candidates.front();
-  const bool is_late = !is_certified(best) && query.should_stop();
-  plan.reason = is_late ? PlanReason::kBudgetExhausted : best.reason;
-  plan.message = (is_late ? "out of time: " : "") + outcome(best);
+  plan.took_s = now_s_() - begin_s;
   return plan;
 }
 

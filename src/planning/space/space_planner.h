@@ -22,7 +22,7 @@ struct SpaceQuery {
   /// Balls that move, in time since the motion begins: as large as they are. What they do after the
   /// robot has arrived is not looked at.
   std::vector<Tube<3>> moving = {};
-  /// Ends the planning early; several threads may call it at once.
+  /// Ends the planning before its time is over; several threads may call it at once.
   std::function<bool()> should_stop = [] { return false; };
 };
 
@@ -31,7 +31,9 @@ struct SpaceQuery {
 /// space-time besides.
 class SpacePlanner {
  public:
-  SpacePlanner(std::shared_ptr<const VoxelDistanceField> field, const SpacePlannerOptions& options);
+  /// `now_s` is a steady clock [s], which several threads may read at once.
+  SpacePlanner(std::shared_ptr<const VoxelDistanceField> field, const SpacePlannerOptions& options,
+               std::function<double()> now_s);
 
   /// What can be reached from a place, as topology sees it; null where that is nowhere. Made when
   /// it is first asked for, which takes about as long as the field did.
@@ -43,17 +45,21 @@ class SpacePlanner {
   const VoxelDistanceField& field() const { return *field_; }
 
  private:
+  using Candidates = std::vector<SpaceCandidate>;
+
   bool is_refused(const SpaceQuery& query, SpacePlan& plan) const;
   SpacePathOptions path_options(const SpaceQuery& query) const;
   std::vector<TimedSpacePath> paths_among_moving(const SpaceQuery& query, const SpaceRegion& region,
                                                  const std::vector<SpacePath>& paths,
-                                                 const SpacePlan& without) const;
+                                                 const Candidates& without) const;
   void optimize_all(const std::vector<TimedSpacePath>& paths, const SpaceScene& scene,
-                    const std::function<bool()>& should_stop, SpacePlan& plan) const;
+                    const std::function<bool()>& should_stop, Candidates& candidates) const;
+  Candidates find_candidates(const SpaceQuery& query, const SpaceRegion& region) const;
 
   const std::shared_ptr<const VoxelDistanceField> field_;
   const SpacePlannerOptions options_;
   const SpaceOptimizer optimizer_;
+  const std::function<double()> now_s_;
   std::mutex regions_mutex_;
   std::vector<std::shared_ptr<const SpaceRegion>> regions_;
 };

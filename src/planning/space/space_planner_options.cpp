@@ -23,6 +23,7 @@ SpacePlannerOptions SpacePlannerOptions::from(const ParameterTable& values) {
   options.longest_ratio = values.number("longest_ratio");
   options.prm_samples = values.integer("prm_samples");
   options.prm_reach_m = values.number("prm_reach");
+  options.planning_time_s = values.number("planning_time");
   options.threads = values.integer("planning_threads");
   return options;
 }

@@ -26,6 +26,7 @@ struct SpacePlannerOptions {
   double longest_ratio;
   int prm_samples;
   double prm_reach_m;
+  double planning_time_s;
   int threads;
 
   double required_clearance_m() const { return radius_m + margin_m; }

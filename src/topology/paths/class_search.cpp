@@ -169,7 +169,8 @@ class Search {
         to_goal_m_[Roadmap<2>::kStart] == kInfinity)
       return found;
     push({Roadmap<2>::kStart, kNone, kNone, 0, 0.0});
-    while (!queue_.empty() && static_cast<int>(found.size()) < options_.classes) {
+    while (!queue_.empty() && static_cast<int>(found.size()) < options_.classes &&
+           !options_.should_stop()) {
       const int current = queue_.top().second;
       queue_.pop();
       const Step step = steps_[current];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -13,6 +14,8 @@ struct ClassSearchOptions {
   int classes;           ///< at most this many, at least 1
   double longest_ratio;  ///< longer than the shortest by more than this is not a path; >= 1
   double longest_m = std::numeric_limits<double>::infinity();  ///< longer is none, either
+  /// Ends the search early, with the paths that it has found.
+  std::function<bool()> should_stop = [] { return false; };
 };
 
 /// A path through a roadmap from start to goal.

@@ -174,12 +174,14 @@ Roadmap<D> visibility_prm(const SampledSpace<D>& space, const PointOf<D>& start,
 
   Sampler<D> sampler(space, {start, goal}, options);
   for (const PointOf<D>& place : first) {
+    if (options.should_stop()) break;
     if (space.clearance_m(place)) sampler.add(place);
   }
-  for (int i = 0; i < options.samples; ++i) sampler.draw();
+  for (int i = 0; i < options.samples && !options.should_stop(); ++i) sampler.draw();
 
   const std::vector<PointOf<D>> nodes = sampler.nodes();
   for (int i = Roadmap<D>::kGoal + 1; i < static_cast<int>(nodes.size()); ++i) {
+    if (options.should_stop()) break;
     add_node(nodes[i]);
     for (int other : within<D>(options.reach_m, nodes[i], nodes)) {
       if (other < i) join(other, i, space, roadmap);

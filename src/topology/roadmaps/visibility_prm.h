@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "topology/roadmaps/roadmap.h"
@@ -14,6 +15,8 @@ struct VisibilityPrmOptions {
   int samples;         ///< points that are tried, at least 0
   std::uint64_t seed;  ///< the same one gives the same roadmap, on every machine
   double reach_m;      ///< farther points do not see each other, above 0
+  /// Ends the sampling early; the roadmap of what was sampled by then may lack edges.
+  std::function<bool()> should_stop = [] { return false; };
 };
 
 /// A sampled roadmap that stays small however many samples are drawn, yet keeps a path of every

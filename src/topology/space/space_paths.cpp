@@ -62,11 +62,14 @@ std::vector<SpacePath> find_space_paths(const VoxelDistanceField& field, const S
                                         const SpacePathOptions& options,
                                         const std::function<bool()>& should_stop) {
   const StaticSpace<3> space(field, region.cuts(), field.bounds(), start, options.clearance);
-  Roadmap<3> roadmap = visibility_prm<3>(space, start, goal, options.roadmap);
+  VisibilityPrmOptions sampling = options.roadmap;
+  sampling.should_stop = should_stop;
+  Roadmap<3> roadmap = visibility_prm<3>(space, start, goal, sampling);
   add_landmarks(region.landmarks(), space, options.roadmap.reach_m, roadmap);
   if (should_stop()) return {};
-  const std::vector<ClassPath<3>> found = shortest_classes(
-      roadmap, space, {kSpare * options.classes, options.longest_ratio / kShortened});
+  ClassSearchOptions search{kSpare * options.classes, options.longest_ratio / kShortened};
+  search.should_stop = should_stop;
+  const std::vector<ClassPath<3>> found = shortest_classes(roadmap, space, search);
   std::vector<SpacePath> paths(found.size());
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
     paths[i].points = pulled_taut(with_shortcuts<3>(found[i].points, space), space);

@@ -19,11 +19,12 @@ SpacePlannerOptions shipped_space_options() {
   return SpacePlannerOptions::from(ParameterTable::from_schema("config/space_planner.yaml"));
 }
 
-SpacePlanner planner_in(const VoxelGrid& grid,
-                        const SpacePlannerOptions& options = shipped_space_options()) {
+SpacePlanner planner_in(
+    const VoxelGrid& grid, const SpacePlannerOptions& options = shipped_space_options(),
+    std::function<double()> now_s = [] { return 0.0; }) {
   return SpacePlanner(
       std::make_shared<VoxelDistanceField>(grid, VoxelDistanceField::Solid::kOccupiedOrUnknown),
-      options);
+      options, std::move(now_s));
 }
 
 /// What is said of each candidate holds, by looking at many places.
@@ -126,6 +127,19 @@ TEST(SpacePlanner, SaysThatTimeRanOutHoweverFarItCame) {
     EXPECT_EQ(found.reason, PlanReason::kBudgetExhausted) << most;
     EXPECT_EQ(found.message.rfind("out of time", 0), 0u) << found.message;
   }
+}
+
+TEST(SpacePlanner, EndsWhenItsTimeIsOver) {
+  const SpaceWorld world = two_windows(0.1);
+  SpacePlannerOptions options = shipped_space_options();
+  options.planning_time_s = 2.0;
+  options.prm_samples = 1'000'000;  // would take minutes
+  std::atomic<int> looks = 0;
+  SpacePlanner planner = planner_in(world.grid, options, [&] { return 0.01 * looks++; });
+  const SpacePlan plan = planner.plan({world.start, world.goal});
+  EXPECT_EQ(plan.reason, PlanReason::kBudgetExhausted) << plan.message;
+  EXPECT_LT(looks, 1000);
+  EXPECT_GT(plan.took_s, 2.0);
 }
 
 TEST(SpacePlanner, FindsNoWayToWhereThereIsNone) {
