@@ -7,6 +7,8 @@
 
 namespace mocha {
 
+constexpr double kCubeHalfDiagonal = 0.8660254037844387;  ///< of a cube with edges of 1
+
 /// A map of cubic cells in space, layer by layer and row by row from its lowest corner `origin` [m,
 /// map frame].
 struct VoxelGrid {

@@ -29,7 +29,10 @@ Voxels voxels_of(const Eigen::AlignedBox3d& box, double resolution_m, const std:
     return (corner.array().abs() < kMostGridCells).all();
   };
   if (!is_near(cells.min()) || !is_near(cells.max()))
-    throw MapError(path + ": the box that is wanted of the map is too large");
+    throw MapError(path +
+                   ": the box that is wanted of the map has a corner that is more than 100 "
+                   "million cells of " +
+                   std::to_string(resolution_m) + " m away");
   return {cells.min().array().floor().matrix().cast<int>(),
           cells.max().array().ceil().matrix().cast<int>() - Eigen::Vector3i::Ones()};
 }

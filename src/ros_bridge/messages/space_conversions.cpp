@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "ros_bridge/messages/conversions.h"
 #include "ros_bridge/messages/status_conversions.h"
@@ -106,8 +107,11 @@ mocha_ugv::SpaceTrajectory curve_message(const PiecewisePolynomial<3, 3>& curve,
 PiecewisePolynomial<3, 3> from_message(const mocha_ugv::SpaceTrajectory& message) {
   const auto pieces = static_cast<int>(message.durations.size());
   if (pieces < 1 || message.points.size() != message.durations.size() + 1)
-    throw std::invalid_argument("has not one point more than durations");
-  if (message.s != 3) throw std::invalid_argument("is not of order 3");
+    throw std::invalid_argument("has " + std::to_string(message.points.size()) + " points and " +
+                                std::to_string(message.durations.size()) +
+                                " durations: expected at least one duration, and one point more");
+  if (message.s != 3)
+    throw std::invalid_argument("s = " + std::to_string(message.s) + ": expected 3");
   Minco<3, 3>::State start = Minco<3, 3>::State::Zero();
   Minco<3, 3>::State end = Minco<3, 3>::State::Zero();
   Eigen::Matrix3Xd points(3, pieces + 1);
@@ -115,7 +119,8 @@ PiecewisePolynomial<3, 3> from_message(const mocha_ugv::SpaceTrajectory& message
   for (int i = 0; i <= pieces; ++i) points.col(i) = from_message(message.points[i]);
   for (int i = 0; i < pieces; ++i) durations_s[i] = message.durations[i];
   if (!points.allFinite() || !durations_s.allFinite() || !(durations_s.minCoeff() > 0.0))
-    throw std::invalid_argument("has a point or a duration that is none");
+    throw std::invalid_argument(
+        "has points that are not finite, or durations that are not above 0");
   start.col(0) = points.col(0);
   end.col(0) = points.col(pieces);
   Minco<3, 3> minco;

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace mocha {
 namespace {
 
-constexpr double kHalfDiagonal = 0.8660254037844387;  // of a cube
-constexpr std::uint8_t kOpen = 2;                     // not solid, not reached yet
+constexpr std::uint8_t kOpen = 2;  // not solid, not reached yet
 
 /// Marks as reached what is linked to the seed face to face, and all else that is open as solid.
 void reach_from(int seed, SolidVoxels& voxels) {
@@ -40,11 +40,13 @@ std::optional<SolidVoxels> solid_voxels(const VoxelDistanceField& field, double 
   voxels.size = field.size();
   const double count = (voxels.size.cast<double>().array() + 2.0).prod();
   if (count > std::numeric_limits<int>::max())
-    throw std::length_error("solid_voxels: the map has too many voxels");
+    throw std::length_error("solid_voxels: the map has " + std::to_string(std::llround(count)) +
+                            " voxels with its margin, allowed are " +
+                            std::to_string(std::numeric_limits<int>::max()));
   voxels.solid.assign(static_cast<std::size_t>(count), 1);
   voxels.distance_m.assign(voxels.solid.size(), 0.0f);
   // Every place of a voxel is that close to one of its corners.
-  const double open_m = std::max(0.0, clearance_m - kHalfDiagonal * voxels.resolution_m);
+  const double open_m = std::max(0.0, clearance_m - kCubeHalfDiagonal * voxels.resolution_m);
   Eigen::Vector3i at;
   for (at.z() = 0; at.z() < voxels.size.z(); ++at.z()) {
     for (at.y() = 0; at.y() < voxels.size.y(); ++at.y()) {

@@ -18,7 +18,7 @@ constexpr double kShortened = 0.8;  // what is left of a path when it is shorten
 /// The landmarks' nodes and edges, too; start and goal are joined to those that they see.
 void add_landmarks(const Roadmap<3>& landmarks, const SampledSpace<3>& space, double reach_m,
                    Roadmap<3>& roadmap) {
-  constexpr int kEnds = 2;  // start and goal
+  constexpr int kEnds = Roadmap<3>::kGoal + 1;
   const int shift = static_cast<int>(roadmap.nodes.size()) - kEnds;
   for (auto edge : landmarks.edges) {
     edge.from += shift;

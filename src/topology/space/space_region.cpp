@@ -9,7 +9,7 @@ namespace mocha {
 namespace {
 
 Roadmap<3> roadmap_of(const Landmarks& landmarks, const StaticSpace<3>& space) {
-  constexpr int kEnds = 2;  // start and goal
+  constexpr int kEnds = Roadmap<3>::kGoal + 1;
   Roadmap<3> roadmap;
   roadmap.nodes.resize(kEnds);
   for (const Eigen::Vector3d& place : landmarks.places)

@@ -16,34 +16,51 @@ constexpr int kOutside = 0;  // the node that stands for all that is outside of 
 constexpr int kNoNode = -1;
 constexpr int kLeastShell = 6;  // voxels about one that is hollow
 
+/// The sides of the map that a voxel touches, a bit for each.
+unsigned rim_of(const Eigen::Vector3i& voxel, const Eigen::Vector3i& size) {
+  unsigned rim = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (voxel[axis] == 0) rim |= 1u << axis;
+    if (voxel[axis] == size[axis] - 1) rim |= 8u << axis;
+  }
+  return rim;
+}
+
 /// Solid voxels as nodes; neighbours are linked.
 struct VoxelGraph {
-  std::vector<int> number;  // of the voxel of each node
+  std::vector<int> number;    // of the voxel of each node
+  std::vector<unsigned> rim;  // sides of the map that it touches; the outside has them all
   std::vector<std::vector<int>> links;
+
+  /// Whether three nodes that are linked to each other touch in one place, so that they enclose
+  /// nothing. Voxels do; with the outside, they do where two of them are at the same side.
+  bool touch(int a, int b, int c) const {
+    return (a != kOutside && b != kOutside && c != kOutside) || (rim[a] & rim[b] & rim[c]) != 0;
+  }
 };
 
 VoxelGraph graph_of(const SolidVoxels& voxels) {
   VoxelGraph graph;
   std::unordered_map<int, int> node_of;
   graph.number.push_back(kNoNode);
+  graph.rim.push_back(~0u);
   for (int number = 0; number < static_cast<int>(voxels.solid.size()); ++number) {
     if (voxels.solid[number] == 0 || !voxels.contains(voxels.voxel(number))) continue;
     node_of[number] = static_cast<int>(graph.number.size());
     graph.number.push_back(number);
+    graph.rim.push_back(rim_of(voxels.voxel(number), voxels.size));
   }
   graph.links.resize(graph.number.size());
   const Eigen::Vector3i steps = voxels.steps();
   for (int node = 1; node < static_cast<int>(graph.number.size()); ++node) {
-    bool is_outermost = false;
     for (int i = 0; i < 27; ++i) {
       const Eigen::Vector3i away(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
       const int next = graph.number[node] + away.dot(steps);
       if (next == graph.number[node]) continue;
       const auto other = node_of.find(next);
       if (other != node_of.end()) graph.links[node].push_back(other->second);
-      is_outermost = is_outermost || !voxels.contains(voxels.voxel(next));
     }
-    if (!is_outermost) continue;
+    if (graph.rim[node] == 0) continue;
     graph.links[node].push_back(kOutside);
     graph.links[kOutside].push_back(node);
   }
@@ -91,7 +108,7 @@ class SpanningForest {
 };
 
 /// Edges outside of the forest, each of which closes a cycle, less those whose cycle is a sum of
-/// others' and of triangles: neighbours that are neighbours of each other enclose nothing.
+/// others' and of triangles that enclose nothing.
 class CycleEdges {
  public:
   CycleEdges(const VoxelGraph& graph, const SpanningForest& forest) {
@@ -107,7 +124,9 @@ class CycleEdges {
       std::vector<int> shared;
       std::set_intersection(graph.links[a].begin(), graph.links[a].end(), graph.links[b].begin(),
                             graph.links[b].end(), std::back_inserter(shared));
-      for (const int c : shared) reduce(triangle(a, b, c));
+      for (const int c : shared) {
+        if (graph.touch(a, b, c)) reduce(triangle(a, b, c));
+      }
     }
   }
 

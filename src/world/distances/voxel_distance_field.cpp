@@ -5,13 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "world/distances/distance_transform.h"
 
 namespace mocha {
 namespace {
-
-constexpr double kHalfDiagonal = 0.8660254037844387;  // of a cube
 
 /// Squared distances [cells^2] from every corner of a grid's cells to the nearest corner of a cell
 /// that is (or is not) solid; outside of the grid all is solid.
@@ -58,7 +57,12 @@ VoxelDistanceField::VoxelDistanceField(const VoxelGrid& grid, Solid solid)
                                                      : static_cast<std::size_t>(grid.size.x()) *
                                                            grid.size.y() * grid.size.z();
   if (cells == 0 || grid.cells.size() != cells || !(grid.resolution_m > 0.0)) {
-    throw std::invalid_argument("VoxelDistanceField: the grid is empty or its sizes do not match");
+    const std::string sizes = std::to_string(grid.size.x()) + " x " +
+                              std::to_string(grid.size.y()) + " x " + std::to_string(grid.size.z());
+    throw std::invalid_argument("VoxelDistanceField: a grid of " + sizes + " cells of " +
+                                std::to_string(grid.resolution_m) + " m with values for " +
+                                std::to_string(grid.cells.size()) +
+                                ": expected one for each, and sizes above 0");
   }
   const bool unknown_is_solid = solid == Solid::kOccupiedOrUnknown;
   const auto scale = static_cast<float>(resolution_m_);
@@ -156,7 +160,7 @@ double VoxelDistanceField::room(const Vector& p, double radius_m) const {
   if (!is_inside(at)) return 0.0;
   const Eigen::Vector3i nearest = (at.array() + 0.5).matrix().cast<int>();
   const double bound_m = at_corner(nearest.x(), nearest.y(), nearest.z());
-  return std::max(0.0, bound_m - radius_m - 2.0 * kHalfDiagonal * resolution_m_);
+  return std::max(0.0, bound_m - radius_m - 2.0 * kCubeHalfDiagonal * resolution_m_);
 }
 
 bool VoxelDistanceField::clear(const Box& box, double radius_m) const {

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <random>
 #include <variant>
 
 #include "topology/space/voxel_figures.h"
@@ -143,6 +147,99 @@ TEST(ObstacleCurves, AsManyAsThereAreWaysThroughAGrating) {
     return voxel.x() == 10 && is_bar;
   });
   EXPECT_EQ(found.curves.size(), 15u);
+}
+
+/// The open voxels that can be reached from one of them, each with the one from which it was.
+std::map<int, int> open_tree(const SolidVoxels& voxels) {
+  std::map<int, int> from;
+  std::vector<int> queue;
+  const auto reach = [&](int number, int before) {
+    if (voxels.solid[number] == 0 && from.emplace(number, before).second) queue.push_back(number);
+  };
+  for (int number = 0; queue.empty() && number < static_cast<int>(voxels.solid.size()); ++number)
+    reach(number, number);
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      reach(queue[i] + voxels.steps()[axis], queue[i]);
+      reach(queue[i] - voxels.steps()[axis], queue[i]);
+    }
+  }
+  return from;
+}
+
+/// Closed paths of which all others in what is open are sums.
+std::vector<std::vector<Vector3d>> closed_paths(const SolidVoxels& voxels) {
+  const std::map<int, int> from = open_tree(voxels);
+  const auto to_root = [&](int number) {
+    std::vector<Vector3d> path = {voxels.centre(voxels.voxel(number))};
+    for (; from.at(number) != number; number = from.at(number))
+      path.push_back(voxels.centre(voxels.voxel(from.at(number))));
+    return path;
+  };
+  std::vector<std::vector<Vector3d>> paths;
+  for (const auto& [number, before] : from) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto next = from.find(number + voxels.steps()[axis]);
+      if (next == from.end() || next->second == number || before == next->first) continue;
+      std::vector<Vector3d> path = to_root(number);
+      const std::vector<Vector3d> back = to_root(next->first);
+      path.insert(path.end(), back.rbegin(), back.rend());
+      paths.push_back(std::move(path));
+    }
+  }
+  return paths;
+}
+
+/// Bars of voxels along the axes, some of them to the rim; what is enclosed is solid.
+SolidVoxels random_bars(std::mt19937& random) {
+  constexpr int kSide = 13;
+  std::uniform_int_distribution<int> place(0, kSide - 1);
+  std::uniform_int_distribution<int> thickness(1, 2);
+  std::vector<Eigen::AlignedBox3i> bars;
+  for (int i = 0; i < 24; ++i) {
+    const Vector3i from(place(random), place(random), place(random));
+    Vector3i to = from.array() + thickness(random) - 1;
+    to[i % 3] = place(random);
+    bars.emplace_back(from.cwiseMin(to), from.cwiseMax(to));
+  }
+  SolidVoxels voxels = voxel_figure(Vector3i::Constant(kSide), [&](const Vector3i& voxel) {
+    return std::any_of(bars.begin(), bars.end(),
+                       [&](const auto& bar) { return bar.contains(voxel); });
+  });
+  const auto open = open_tree(voxels);
+  for (std::size_t i = 0; i < voxels.solid.size(); ++i)
+    voxels.solid[i] = open.count(static_cast<int>(i)) ? 0 : 1;
+  return voxels;
+}
+
+/// How many independent closed ways lead around what is solid and what is outside, by the Euler
+/// number of both.
+int ways_around(const SolidVoxels& voxels) {
+  const SolidVoxels with_rim = voxel_figure(voxels.size.array() + 2, [&](const Vector3i& voxel) {
+    const Vector3i inner = voxel.array() - 1;
+    return !voxels.contains(inner) || voxels.solid[voxels.number(inner)] == 1;
+  });
+  return parts(with_rim, 1) + parts(with_rim, 0) - euler_number(with_rim);
+}
+
+TEST(ObstacleCurves, AreABasisOfAllWaysAround) {
+  std::mt19937 random(1);
+  int most = 0;
+  for (int run = 0; run < 40; ++run) {
+    const SolidVoxels voxels = random_bars(random);
+    const ObstacleCurves found = obstacle_curves(voxels);
+    const int curves = static_cast<int>(found.curves.size());
+    most = std::max(most, curves);
+    ASSERT_EQ(curves, ways_around(voxels)) << run;
+    if (curves == 0) continue;
+    std::vector<Signature> signatures;
+    for (const auto& path : closed_paths(voxels)) signatures.push_back(links(found, path));
+    Eigen::MatrixXd rows(signatures.size(), curves);
+    for (std::size_t i = 0; i < signatures.size(); ++i)
+      for (int k = 0; k < curves; ++k) rows(static_cast<int>(i), k) = signatures[i][k];
+    EXPECT_EQ(Eigen::FullPivLU<Eigen::MatrixXd>(rows).rank(), curves) << run;
+  }
+  EXPECT_GT(most, 5);
 }
 
 }  // namespace
