@@ -292,6 +292,28 @@ TYPED_TEST(CurveCertificates, AgreeWithDenseSamplingOnWhatMoves) {
   EXPECT_GT(refused, 20);
 }
 
+TYPED_TEST(CurveCertificates, WhatGrowsOrShrinksIsNeverTakenForSmaller) {
+  constexpr int D = TypeParam::value;
+  for (int seed = 0; seed < 60; ++seed) {
+    const Curve<D> curve = winding<D>(seed, 2 + seed % 5);
+    TubePiece<D> ball = crossing<D>(curve, seed).front();
+    ball.radius_rate = 0.2 * std::sin(seed);
+    const double largest_m = std::max(ball.radius_at(0.0), ball.radius_at(ball.end_s));
+    double room = std::numeric_limits<double>::infinity();
+    double least_room = room;  // if it were always as large as it gets
+    for (double t = 0.0; t < ball.end_s; t += 2e-4) {
+      const double away_m = (curve.position(t) - ball.centre_at(t)).norm();
+      room = std::min(room, away_m - ball.radius_at(t));
+      least_room = std::min(least_room, away_m - largest_m);
+    }
+    if (ball.radius_at(ball.end_s) < 0.0 || ball.radius_at(0.0) < 0.0 || least_room < 0.01)
+      continue;
+    const CurveCertificate<D, 3> certificate(curve);
+    EXPECT_TRUE(certificate.check_separation(0.0, {ball}, room + 2e-3)) << seed;
+    EXPECT_FALSE(certificate.check_separation(0.0, {ball}, least_room - 2e-3)) << seed;
+  }
+}
+
 TYPED_TEST(CurveCertificates, NotANumberIsNoProof) {
   constexpr int D = TypeParam::value;
   const double nan = std::nan("");
