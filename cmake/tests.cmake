@@ -8,6 +8,7 @@ add_test(NAME install_space COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/t
 
 if(TARGET mocha_planner)
   add_test(NAME python_module COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/python/mocha_planner_test.py $<TARGET_FILE_DIR:mocha_planner>)
+  add_test(NAME python_space COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/python/space_planner_test.py $<TARGET_FILE_DIR:mocha_planner>)
 endif()
 
 include(cmake/core_tests.cmake)

@@ -79,6 +79,14 @@ class SpacePlanner(unittest.TestCase):
             self.assertFalse(found.success)
             self.assertEqual(found.status.reason, PlannerStatus.INVALID_INPUT, found.message)
 
+    def test_as_many_balls_as_it_says_and_no_more(self):
+        balls = [MovingBall(position=Point(9.0, 1.0 + 0.02 * i, 1.0), radius=0.2) for i in range(100)]
+        self.assertTrue(self.plan(START, GOAL, 0, balls).success)
+        found = self.plan(START, GOAL, 0, balls + balls[:1])
+        self.assertEqual(found.status.reason, PlannerStatus.INVALID_INPUT, found.message)
+        self.assertIn("100", found.message)
+        wait_until(lambda: self.counted("/space_planner: planning in space", "refused: moving: more than") == "1", "the refusal in diagnostics")
+
     def test_two_clicks_are_a_plan_and_others_are_refused(self):
         clicks = rospy.Publisher("/clicked_point", PointStamped, queue_size=5)
         wait_until(lambda: clicks.get_num_connections() > 0, "the node to listen")

@@ -142,12 +142,12 @@ void SpaceOptimizer::optimize_once(const TimedSpacePath& path, const SpaceScene&
 BasicViolation<3> SpaceOptimizer::first_violation(const PiecewisePolynomial<3, 3>& curve,
                                                   const SpaceScene& scene) const {
   const CurveCertificate<3, 3> certificate(curve);
-  auto violation = certificate.check_limits(options_.max_speed, options_.max_acceleration);
-  if (!violation)
-    violation = certificate.check_clearance(options_.radius_m, scene.field, options_.margin_m);
+  // Limits come last: where there is no room, the optimiser exceeds them as well.
+  auto violation = certificate.check_clearance(options_.radius_m, scene.field, options_.margin_m);
   for (std::size_t i = 0; !violation && i < scene.moving.size(); ++i)
     violation = certificate.check_separation(options_.radius_m, scene.moving[i], options_.margin_m);
-  return violation;
+  if (violation) return violation;
+  return certificate.check_limits(options_.max_speed, options_.max_acceleration);
 }
 
 SpaceCandidate SpaceOptimizer::optimize_path(const TimedSpacePath& path, const SpaceScene& scene,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <set>
@@ -163,6 +164,26 @@ TEST(SpacePlanner, TellsRoomsApartThatAreNotJoined) {
   EXPECT_EQ(planner.region_of({5.0, 4.0, 1.5}), nullptr);
 }
 
+TEST(SpacePlanner, ForgetsARegionWhereThereAreMany) {
+  constexpr int kRooms = 6;
+  VoxelGrid grid;
+  grid.size = {16 * kRooms, 20, 20};
+  grid.cells.assign(static_cast<std::size_t>(grid.size.prod()), VoxelGrid::kFree);
+  for (int x = 0; x < grid.size.x(); x += 16) {
+    for (int z = 0; z < grid.size.z(); ++z)
+      for (int y = 0; y < grid.size.y(); ++y) grid.at(x, y, z) = VoxelGrid::kOccupied;
+  }
+  SpacePlanner planner = planner_in(grid);
+  for (int again = 0; again < 2; ++again) {
+    for (int room = 0; room < kRooms; ++room) {
+      const double x_m = 1.6 * room + 0.8;
+      EXPECT_EQ(planner.plan({{x_m, 0.5, 0.5}, {x_m, 1.5, 1.5}}).reason, PlanReason::kSolved);
+      EXPECT_EQ(planner.plan({{x_m, 0.5, 0.5}, {std::fmod(x_m + 1.6, 9.6), 1.5, 1.5}}).reason,
+                PlanReason::kNoPath);
+    }
+  }
+}
+
 class AmongMoving : public testing::Test {
  protected:
   SpacePlan plan(const std::vector<Tube<3>>& moving) {
@@ -214,7 +235,13 @@ TEST_F(AmongMoving, SaysWhatIsInTheWayWhereBothAreBlocked) {
                                 steady_tube<3>({5.0, 6.2, 3.0}, {0.0, 0.0, 0.0}, 0.8)});
   EXPECT_EQ(found.reason, PlanReason::kNotCertified);
   EXPECT_EQ(found.selected(), nullptr);
-  EXPECT_FALSE(found.message.empty());
+  ASSERT_FALSE(found.candidates.empty());
+  const BasicViolation<3>& violation = found.candidates.front().violation;
+  EXPECT_TRUE(violation.term == ViolatedTerm::kClearance ||
+              violation.term == ViolatedTerm::kSeparation);
+  EXPECT_LT(violation.value, violation.limit);
+  EXPECT_NEAR(violation.place.x(), 5.0, 1.5);
+  EXPECT_NE(found.message.find(describe(violation)), std::string::npos) << found.message;
 }
 
 TEST_F(AmongMoving, IsSoundAmongMany) {
