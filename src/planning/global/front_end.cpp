@@ -177,10 +177,7 @@ GlobalSeeds FrontEnd::seeds(const PlanQuery& query, const PlanningScene& scene,
   GlobalSeeds result = under_way(start, std::move(found), drives_of(query));
   if (result.list.size() == count) return result;
   for (Seed& seed : after_braking(query, scene, goal).list) {
-    const bool known = std::any_of(result.list.begin(), result.list.end(), [&](const Seed& other) {
-      return other.signature == seed.signature;
-    });
-    if (!known) result.list.push_back(std::move(seed));
+    if (!has_class(result.list, seed.signature)) result.list.push_back(std::move(seed));
   }
   return result;
 }

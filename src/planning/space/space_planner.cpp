@@ -31,10 +31,8 @@ void keep_best_of_each_class(std::vector<SpaceCandidate>& candidates) {
                    });
   std::vector<SpaceCandidate> kept;
   for (SpaceCandidate& candidate : candidates) {
-    const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const SpaceCandidate& other) {
-      return other.signature == candidate.signature;
-    });
-    if (kept.empty() || (is_new && has_curve(candidate))) kept.push_back(std::move(candidate));
+    if (kept.empty() || (!has_class(kept, candidate.signature) && has_curve(candidate)))
+      kept.push_back(std::move(candidate));
   }
   candidates = std::move(kept);
 }

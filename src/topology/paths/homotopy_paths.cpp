@@ -82,10 +82,7 @@ void keep_best(std::vector<HomotopyPath>& found, const std::optional<Signature>&
   });
   std::vector<HomotopyPath> kept;
   for (HomotopyPath& found_path : found) {
-    const auto twin = std::find_if(kept.begin(), kept.end(), [&](const HomotopyPath& other) {
-      return other.signature == found_path.signature;
-    });
-    if (twin != kept.end()) continue;
+    if (has_class(kept, found_path.signature)) continue;
     const bool good = static_cast<int>(kept.size()) < options.classes &&
                       found_path.cost_m <= options.longest_ratio * found.front().cost_m;
     if (good || found_path.signature == driven) kept.push_back(std::move(found_path));

@@ -151,4 +151,11 @@ SignatureKey key_of(const Cuts<D>& cuts, const Eigen::Matrix<double, D, 1>& p,
   return key;
 }
 
+/// Whether one of the items is of that class.
+template <typename Item>
+bool has_class(const std::vector<Item>& items, const Signature& signature) {
+  return std::any_of(items.begin(), items.end(),
+                     [&](const Item& item) { return item.signature == signature; });
+}
+
 }  // namespace mocha

@@ -45,10 +45,9 @@ std::vector<SpacePath> shortest_of_each(std::vector<SpacePath> paths,
                    [](const SpacePath& a, const SpacePath& b) { return a.length_m < b.length_m; });
   std::vector<SpacePath> kept;
   for (SpacePath& path : paths) {
-    const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const SpacePath& other) {
-      return other.signature == path.signature;
-    });
-    if (!is_new || path.length_m > options.longest_ratio * paths.front().length_m) continue;
+    if (has_class(kept, path.signature) ||
+        path.length_m > options.longest_ratio * paths.front().length_m)
+      continue;
     kept.push_back(std::move(path));
     if (static_cast<int>(kept.size()) == options.classes) break;
   }

@@ -82,10 +82,7 @@ void keep_best(std::vector<SpaceTimePath>& found, const SpaceTimeOptions& option
   });
   std::vector<SpaceTimePath> kept;
   for (SpaceTimePath& found_path : found) {
-    const bool is_twin = std::any_of(kept.begin(), kept.end(), [&](const SpaceTimePath& other) {
-      return other.signature == found_path.signature;
-    });
-    if (is_twin) continue;
+    if (has_class(kept, found_path.signature)) continue;
     const bool good = static_cast<int>(kept.size()) < options.classes &&
                       found_path.length_m <= options.longest_ratio * found.front().length_m;
     if (good || found_path.driven) kept.push_back(std::move(found_path));
