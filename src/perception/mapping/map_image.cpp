@@ -109,10 +109,12 @@ Description read_description(const std::string& path) {
 }  // namespace
 
 std::string read_file(const std::string& path) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream bytes;
   if (!file || !(bytes << file.rdbuf())) {
-    throw MapError(path + ": cannot be read, or is empty (" + std::strerror(errno) + ")");
+    if (errno == 0) throw MapError(path + ": is empty");
+    throw MapError(path + ": cannot be read (" + std::strerror(errno) + ")");
   }
   return bytes.str();
 }

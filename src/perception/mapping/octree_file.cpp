@@ -18,6 +18,8 @@ const std::string kTreeType = "OcTree";
 constexpr int kDepth = 16;
 constexpr int kLowest = -(1 << (kDepth - 1));  // index of a voxel
 constexpr float kLargestLogOdds = 100.0F;
+constexpr double kLeastResolution_m = 1e-3;
+constexpr double kMostResolution_m = 1e3;
 
 /// Walks a serialised tree without building it.
 class NodeWalker {
@@ -113,7 +115,7 @@ OctreeFile parse_octree_file(const std::string& bytes, const std::string& path) 
   }
   std::string type;
   double size = -1.0;
-  file.resolution_m = 0.0;
+  std::string resolution;
   while (true) {
     if (!std::getline(in, line)) throw fail("has no data");
     std::istringstream words(line);
@@ -122,12 +124,13 @@ OctreeFile parse_octree_file(const std::string& bytes, const std::string& path) 
     if (key == "data") break;
     if (key == "id") words >> type;
     if (key == "size") words >> size;
-    if (key == "res") words >> file.resolution_m;
+    if (key == "res") words >> resolution;
   }
   if (type != kTreeType) throw fail("holds a tree of type '" + type + "', not OcTree");
-  if (!(file.resolution_m > 0.0) || !std::isfinite(file.resolution_m)) {
-    throw fail("has no valid resolution");
-  }
+  file.resolution_m = 0.0;  // stays where there is nothing to read
+  std::istringstream(resolution) >> file.resolution_m;
+  if (!(file.resolution_m >= kLeastResolution_m && file.resolution_m <= kMostResolution_m))
+    throw fail("resolution '" + resolution + "': expected a value from 0.001 to 1000 (m)");
   if (!(size >= 0.0)) throw fail("has no valid size");
   if (size == 0.0) return file;
   file.nodes = bytes.substr(static_cast<std::size_t>(in.tellg()));

@@ -376,6 +376,10 @@ TEST_F(MapFiles, GarbageNeverCrashes) {
 
 TEST_F(MapFiles, ReasonsAreInWords) {
   EXPECT_NE(error_of_loading(map_, path("none.bt")).find("No such file"), std::string::npos);
+  for (const char* name : {"nothing.bt", "nothing.ot", "nothing.yaml"}) {
+    write_file(path(name), "");
+    EXPECT_EQ(error_of_loading(map_, path(name)), path(name) + ": is empty");
+  }
   EXPECT_NE(error_of_loading(map_, path("map.png")).find(".bt, .ot or .yaml"), std::string::npos);
   EXPECT_THROW(map_.save(path("map.txt")), MapError);
   EXPECT_THROW(map_.save("/nonexistent/folder/map.bt"), MapError);

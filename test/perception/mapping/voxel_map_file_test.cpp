@@ -4,6 +4,8 @@
 #include <octomap/octomap.h>
 
 #include <fstream>
+#include <sstream>
+#include <string>
 
 #include "perception/mapping/map_error.h"
 
@@ -103,6 +105,32 @@ TEST_F(VoxelMapFileTest, RefusesWhatIsNoMap) {
   EXPECT_THROW(load_voxel_map(path, far), MapError);
   std::ofstream(path, std::ios::app) << "more";
   EXPECT_THROW(load_voxel_map(path, {}), MapError);
+}
+
+TEST_F(VoxelMapFileTest, RefusesResolutionsThatNoMapHas) {
+  mark({0.1, 0.1, 0.1}, true);
+  const std::string path = write(".bt");
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  const std::string line = "res 0.2\n";
+  const auto at = bytes.str().find(line);
+  ASSERT_NE(at, std::string::npos);
+  const auto error_with = [&](const std::string& resolution) -> std::string {
+    std::ofstream(path, std::ios::binary)
+        << bytes.str().replace(at, line.size(), "res " + resolution + "\n");
+    try {
+      load_voxel_map(path, {});
+      return "";
+    } catch (const MapError& error) {
+      return error.what();
+    }
+  };
+  for (const char* allowed : {"0.001", "0.2", "1e3"}) EXPECT_EQ(error_with(allowed), "");
+  for (const char* refused : {"0.0009", "1001", "1e38", "1e400", "-1e400", "1e-400", "0", "-0.2",
+                              "nan", "inf", "fine", ""}) {
+    EXPECT_EQ(error_with(refused),
+              path + ": resolution '" + refused + "': expected a value from 0.001 to 1000 (m)");
+  }
 }
 
 }  // namespace
