@@ -14,6 +14,7 @@
 
 #include "python/arguments.h"
 #include "python/config_directory.h"
+#include "python/signal_watch.h"
 #include "stack/space_planning.h"
 #include "trajectory/arc_length.h"
 
@@ -144,8 +145,15 @@ SpacePlan plan_in_space(SpacePlanner& planner, const py::object& start, const py
                         const std::vector<py::object>& moving) {
   SpaceQuery query{to_place("start", start), to_place("goal", goal)};
   for (const py::object& ball : moving) query.moving.push_back(to_ball("moving", ball));
-  const py::gil_scoped_release others_may_run;
-  return planner.plan(query);
+  SignalWatch signals;
+  query.should_stop = [&] { return signals.has_raised(); };
+  SpacePlan plan;
+  {
+    const py::gil_scoped_release others_may_run;
+    plan = planner.plan(query);
+  }
+  signals.rethrow();
+  return plan;
 }
 
 py::object curves_around(SpacePlanner& planner, const py::object& start) {

@@ -4,6 +4,8 @@
     space_planner_test.py DIRECTORY     (where the module is)"""
 import math
 import pathlib
+import signal
+import subprocess
 import sys
 import threading
 import unittest
@@ -87,6 +89,29 @@ class PlanningInSpace(unittest.TestCase):
         plan = two_windows({"planning_time": 0.05, "prm_samples": 1000000}).plan(START, GOAL)
         self.assertEqual(plan.reason, "budget exhausted")
         self.assertIn("out of time", plan.message)
+
+    def test_planning_ends_with_ctrl_c(self):
+        """In a process of its own: without an answer it would plan for ten minutes."""
+        code = f"""
+import sys, threading
+sys.path.insert(0, {sys.path[0]!r})
+import mocha_planner
+planner = mocha_planner.SpacePlanner({str(MAPS / "two_windows.bt")!r}, {{"planning_time": 600.0, "prm_samples": 1000000}})
+planner.curves({START})  # so that the map is ready
+threading.Timer(0.3, print, ["plans"], {{"flush": True}}).start()
+try:
+    planner.plan({START}, {GOAL})
+except KeyboardInterrupt:
+    print("interrupted;", "solved" if planner.plan({START}, {START}).solved else "planner can be used")
+"""
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:
+            try:
+                self.assertEqual(process.stdout.readline(), "plans\n")
+                process.send_signal(signal.SIGINT)
+                said, _ = process.communicate(timeout=30)
+            finally:
+                process.kill()
+        self.assertEqual((said, process.returncode), ("interrupted; planner can be used\n", 0))
 
     def test_threads_may_plan_at_once(self):
         expected = [each.cost for each in self.planner.plan(START, GOAL).candidates]

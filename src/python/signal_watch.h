@@ -1,0 +1,28 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace mocha {
+
+/// Hears of Ctrl-C, and of all that makes Python's signal handlers raise, while the GIL is
+/// released.
+class SignalWatch {
+ public:
+  /// Whether a handler has raised. The thread that made this lets them run, at most every 50 ms;
+  /// others, several at once, only hear of it.
+  bool has_raised();
+
+  /// Throws what a handler has raised, with the GIL held again.
+  void rethrow() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  const std::thread::id owner_ = std::this_thread::get_id();
+  Clock::time_point next_{};  // of the owner only
+  std::atomic<bool> raised_{false};
+};
+
+}  // namespace mocha
