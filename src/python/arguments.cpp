@@ -36,6 +36,14 @@ std::vector<double> to_numbers(const char* name, const char* wanted, const py::o
   return numbers;
 }
 
+/// As Python writes flags, numbers and lists of them, YAML reads them, too.
+std::string yaml_of(py::object value) {
+  if (py::isinstance<py::sequence>(value) && !py::isinstance<py::str>(value)) {
+    if (const auto array = py::array::ensure(value)) value = array.attr("tolist")();
+  }
+  return py::str(value).cast<std::string>();
+}
+
 using Cells = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
 Cells to_cells(const py::object& object) {
@@ -102,8 +110,7 @@ Tube<3> to_ball(const char* name, const py::object& ball) {
 void assign(const py::dict& parameters, ParameterTable& values) {
   YAML::Node node(YAML::NodeType::Map);
   for (const auto& [name, value] : parameters) {
-    // As Python writes flags, YAML reads them, too.
-    node[py::str(name).cast<std::string>()] = py::str(value).cast<std::string>();
+    node[py::str(name).cast<std::string>()] = yaml_of(py::reinterpret_borrow<py::object>(value));
   }
   values.assign(node, "parameters");
 }

@@ -2,10 +2,12 @@
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -23,12 +25,15 @@ namespace {
 
 namespace py = pybind11;
 
-std::unique_ptr<SpacePlanner> make_planner(const std::string& map_file, const py::dict& parameters,
+std::unique_ptr<SpacePlanner> make_planner(const std::filesystem::path& map_file,
+                                           const py::dict& parameters,
                                            const std::vector<py::object>& held) {
+  if (parameters.contains("map_file"))
+    throw std::invalid_argument("parameters: map_file has to be given as the argument map_file");
   ParameterTable values = ParameterTable::from_schema(config_directory() + "/space_planner.yaml");
   assign(parameters, values);
   YAML::Node map;
-  map["map_file"] = map_file;
+  map["map_file"] = map_file.string();
   values.assign(map, "SpacePlanner");
   const SpacePlannerOptions options = SpacePlannerOptions::from(values);
   const Eigen::Vector3d room = Eigen::Vector3d::Constant(options.required_clearance_m());
@@ -79,9 +84,9 @@ py::list corners_of(const ObstacleCurves& found) {
 /// Every `step_s` from begin to end, both of them included: times, places and speeds.
 py::dict sample_curve(const SpaceCandidate& candidate, double step_s) {
   constexpr double kLeastStep_s = 1e-4;
-  if (!(step_s >= kLeastStep_s))
-    throw std::invalid_argument("step_s: has to be at least 0.0001 s, and is " +
-                                std::to_string(step_s));
+  if (!(step_s >= kLeastStep_s) || !std::isfinite(step_s))
+    throw std::invalid_argument("step_s: has to be finite and at least 0.0001 s, and is " +
+                                py::repr(py::float_(step_s)).cast<std::string>());
   const double duration_s = candidate.curve.pieces() > 0 ? candidate.curve.duration() : 0.0;
   std::vector<double> time_s, speed_mps;
   std::vector<Eigen::Vector3d> place;
@@ -172,8 +177,9 @@ py::object curves_around(SpacePlanner& planner, const py::object& start) {
 void add_planner(py::module_& module) {
   py::class_<SpacePlanner>(module, "SpacePlanner", R"(Plans in an OctoMap, in three dimensions.
 
-map_file: .bt or .ot. parameters: values by name, as config/space_planner.yaml lists them. held:
-places (x, y, z) that the map is to reach as far as, if it knows less.
+map_file: .bt or .ot. parameters: values by name, as config/space_planner.yaml lists them; bounds
+may be a list, a tuple or an array. held: places (x, y, z) that the map is to reach as far as, if it
+knows less.
 Bad arguments raise ValueError; a map that cannot be used, RuntimeError.)")
       .def(py::init(&make_planner), py::arg("map_file"), py::arg("parameters") = py::dict(),
            py::arg("held") = std::vector<py::object>())

@@ -3,6 +3,7 @@
 
     space_planner_test.py DIRECTORY     (where the module is)"""
 import math
+import os
 import pathlib
 import signal
 import subprocess
@@ -60,15 +61,19 @@ class PlanningInSpace(unittest.TestCase):
                                           (START, GOAL, [(0, 0, 0, 1e7, 0, 0, 1)], "moving"), (START, GOAL, [(0, 0, math.nan, 0, 0, 0, 1)], "moving")):
             with self.subTest(start=start, goal=goal, moving=moving), self.assertRaisesRegex(ValueError, word):
                 self.planner.plan(start, goal, moving)
-        with self.assertRaisesRegex(ValueError, "step_s"):
-            self.planner.plan(START, GOAL).candidates[0].sample(0.0)
+        best = self.planner.plan(START, GOAL).candidates[0]
+        for step_s in (0.0, -1.0, 1e-9, math.inf, math.nan):
+            with self.assertRaisesRegex(ValueError, f"step_s.* {step_s}"):
+                best.sample(step_s)
         with self.assertRaisesRegex(ValueError, "start"):
             self.planner.curves((1.0, math.nan, 1.0))
 
     def test_bad_parameters_and_maps_are_refused(self):
         for parameters, word in (({"radius": -1.0}, "radius"), ({"radiuss": 0.2}, "radiuss"), ({"radius": "wide"}, "radius"),
                                  ({"classes": 0}, "classes"), ({"bounds": "[0, 0, 0, 1, 1]"}, "bounds"),
-                                 ({"bounds": "[0, 0, 0, -1, 1, 1]"}, "bounds"), ({"unknown": "maybe"}, "unknown")):
+                                 ({"bounds": "[0, 0, 0, -1, 1, 1]"}, "bounds"), ({"unknown": "maybe"}, "unknown"),
+                                 ({"bounds": (0, 0, 0, 1, 1)}, "bounds"), ({"bounds": np.full(6, np.nan)}, "bounds"), ({"bounds": [[0, 0], 1]}, "bounds"),
+                                 ({"map_file": "two_windows.bt"}, "map_file has to be given as the argument")):
             with self.subTest(parameters=parameters), self.assertRaisesRegex(ValueError, word):
                 two_windows(parameters)
         for path in (MAPS / "none.bt", MAPS, pathlib.Path(__file__)):
@@ -76,6 +81,16 @@ class PlanningInSpace(unittest.TestCase):
                 mocha_planner.SpacePlanner(str(path))
         with self.assertRaisesRegex(ValueError, "held"):
             two_windows(held=[(0.0, 0.0)])
+
+    def test_maps_may_be_paths_and_bounds_rows_of_numbers(self):
+        for path in (MAPS / "two_windows.bt", os.fsencode(MAPS / "two_windows.bt")):
+            np.testing.assert_array_equal(mocha_planner.SpacePlanner(path).bounds, self.planner.bounds)
+        corners = [0.0, 0.2, 0.0, 9.8, 7.8, 2.4]
+        for bounds in (corners, tuple(corners), np.array(corners), list(np.array(corners)), str(corners)):
+            with self.subTest(bounds=bounds):
+                np.testing.assert_allclose(np.ravel(two_windows({"bounds": bounds}).bounds), corners)
+        for path in (None, 3):
+            self.assertRaises(TypeError, mocha_planner.SpacePlanner, path)
 
     def test_where_nothing_can_be_planned_the_reason_is_given(self):
         for start, goal, reason in ((START, START, "invalid input"), ((5.0, 4.0, 1.5), GOAL, "start occupied"), (START, (9.0, 4.0, 60.0), "goal occupied")):
