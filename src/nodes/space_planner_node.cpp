@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -59,11 +60,10 @@ class SpacePlannerNode {
       for (const mocha_ugv::MovingBall& ball : request.moving)
         query.moving.push_back(from_message(ball));
     } catch (const std::invalid_argument& error) {
-      refusals_.add(error.what());
       SpacePlan refused;
       refused.reason = PlanReason::kInvalidInput;
       refused.message = error.what();
-      response = to_message(refused, radius_m_, identity_.map_frame, ros::Time::now());
+      response = publish(refused, query.start);
       return true;
     }
     response = plan(std::move(query));
@@ -87,19 +87,23 @@ class SpacePlannerNode {
 
   mocha_ugv::PlanInSpace::Response plan(SpaceQuery query) {
     query.should_stop = [] { return !ros::ok(); };
-    const SpacePlan plan = planner_->plan(query);
+    return publish(planner_->plan(query), query.start);
+  }
+
+  /// Every plan, and every refusal of one, goes this way.
+  mocha_ugv::PlanInSpace::Response publish(const SpacePlan& plan, const Eigen::Vector3d& start) {
     took_s_ = plan.took_s;
-    ++plans_;
-    solved_ += plan.reason == PlanReason::kSolved;
+    last_reason_ = plan.reason;
+    ++plans_[plan.reason];
     last_ = to_text(plan.reason) + (": " + plan.message);
     const ros::Time now = ros::Time::now();
     const auto response = to_message(plan, radius_m_, identity_.map_frame, now);
     paths_.publish(response.path);
     trajectories_.publish(response.trajectory);
-    const auto region = plan.candidates.empty() ? nullptr : planner_->region_of(query.start);
+    const auto region = plan.candidates.empty() ? nullptr : planner_->region_of(start);
     markers_.publish(space_markers(plan, region ? region->curves() : ObstacleCurves(),
                                    planner_->field(), identity_.map_frame, now));
-    if (plan.reason == PlanReason::kInvalidInput) refusals_.add("plan: " + plan.message);
+    if (plan.reason == PlanReason::kInvalidInput) refusals_.add(plan.message);
     if (response.success) {
       ROS_INFO("%zu classes in %.0f ms, the cheapest of %.2f m in %.2f s",
                response.candidates.size(), 1e3 * took_s_, response.candidates.front().length,
@@ -112,9 +116,15 @@ class SpacePlannerNode {
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
-    status.summary(DiagnosticStatus::OK, plans_ == 0 ? "nothing was asked yet" : last_);
-    status.add("plans", plans_);
-    status.add("solved", solved_);
+    status.summary(
+        last_reason_ == PlanReason::kSolved ? DiagnosticStatus::OK : DiagnosticStatus::WARN, last_);
+    int plans = 0;
+    for (const auto& [reason, times] : plans_) plans += times;
+    status.add("plans", plans);
+    for (const auto& [reason, times] : plans_) {
+      const std::string kind = reason == PlanReason::kSolved ? "" : "not solved: ";
+      status.add(kind + to_text(reason), times);
+    }
     status.add("time of the last plan [s]", took_s_);
     for (const auto& [reason, times] : refusals_.counts()) status.add("refused: " + reason, times);
   }
@@ -124,10 +134,10 @@ class SpacePlannerNode {
   std::unique_ptr<SpacePlanner> planner_;
   std::optional<Eigen::Vector3d> clicked_;
   Refusals refusals_;
-  int plans_ = 0;
-  int solved_ = 0;
+  std::map<PlanReason, int> plans_ = {{PlanReason::kSolved, 0}};
+  PlanReason last_reason_ = PlanReason::kSolved;
+  std::string last_ = "nothing was asked yet";
   double took_s_ = 0.0;
-  std::string last_;
 
   ros::Publisher paths_;
   ros::Publisher trajectories_;

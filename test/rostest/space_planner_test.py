@@ -6,13 +6,13 @@ import unittest
 
 import rospy
 import rostest
-from diagnostic_msgs.msg import DiagnosticArray
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Point, PointStamped, Vector3
 from mocha_ugv.msg import MovingBall, PlannerStatus, SpaceTrajectory
 from mocha_ugv.srv import PlanInSpace
 from nav_msgs.msg import Path
 from sensor_msgs.msg import PointCloud2
-from visualization_msgs.msg import MarkerArray
+from visualization_msgs.msg import Marker, MarkerArray
 
 from waiting import wait_until
 
@@ -82,10 +82,23 @@ class SpacePlanner(unittest.TestCase):
     def test_as_many_balls_as_it_says_and_no_more(self):
         balls = [MovingBall(position=Point(9.0, 1.0 + 0.02 * i, 1.0), radius=0.2) for i in range(100)]
         self.assertTrue(self.plan(START, GOAL, 0, balls).success)
+        wait_until(lambda: self.shown() == {True}, "the plan on its topics")
         found = self.plan(START, GOAL, 0, balls + balls[:1])
         self.assertEqual(found.status.reason, PlannerStatus.INVALID_INPUT, found.message)
         self.assertIn("100", found.message)
-        wait_until(lambda: self.counted("/space_planner: planning in space", "refused: moving: more than") == "1", "the refusal in diagnostics")
+        wait_until(lambda: self.shown() == {False}, "no plan on its topics")
+        wait_until(lambda: self.counted("refused: moving: more than") == "1", "the refusal in diagnostics")
+
+    def test_diagnostics_warn_of_plans_that_were_not_solved(self):
+        for goal, level, says in ((START, DiagnosticStatus.WARN, "invalid input"), (Point(6.0, 5.0, 1.0), DiagnosticStatus.WARN, "goal occupied"),
+                                  (GOAL, DiagnosticStatus.OK, "solved")):
+            self.plan(START, goal, 0, [])
+            wait_until(lambda: self.status().message.startswith(says + ":"), f"'{says}' in diagnostics")
+            status = self.status()
+            self.assertEqual(status.level, level)
+            counts = {each.key: int(each.value) for each in status.values if each.key in ("plans", "solved") or each.key.startswith("not solved: ")}
+            self.assertGreater(counts[says if level == DiagnosticStatus.OK else f"not solved: {says}"], 0)
+            self.assertEqual(2 * counts["plans"], sum(counts.values()))
 
     def test_two_clicks_are_a_plan_and_others_are_refused(self):
         clicks = rospy.Publisher("/clicked_point", PointStamped, queue_size=5)
@@ -101,15 +114,22 @@ class SpacePlanner(unittest.TestCase):
         click(3.0, 6.0, 1.5)
         wait_until(lambda: self.latest.get("space_path") is not None and self.latest["space_path"].poses
                    and math.dist(self.end_of_path(), (3.0, 6.0, 1.5)) < 1e-6, "the plan between the clicks")
-        wait_until(lambda: self.counted("/space_planner: planning in space", "refused: clicked_point") == "2", "two refusals in diagnostics")
+        wait_until(lambda: self.counted("refused: clicked_point") == "2", "two refusals in diagnostics")
 
     def end_of_path(self):
         end = self.latest["space_path"].poses[-1].pose.position
         return end.x, end.y, end.z
 
-    def counted(self, name, key):
-        status = next((status for status in self.words.values() if status.name.lstrip("/") == name.lstrip("/")), None)
-        return next((each.value for each in status.values if each.key.startswith(key)), None) if status else None
+    def shown(self):
+        """Whether there is something on the topics of the last plan: {True}, {False}, or both while they change."""
+        path, trajectory, markers = map(self.latest.get, ("space_path", "space_trajectory", "space_markers"))
+        return path and trajectory and markers and {bool(path.poses), bool(trajectory.points), any(each.action == Marker.ADD for each in markers.markers)}
+
+    def status(self):
+        return next((status for status in self.words.values() if status.name.lstrip("/") == "space_planner: planning in space"), DiagnosticStatus())
+
+    def counted(self, key):
+        return next((each.value for each in self.status().values if each.key.startswith(key)), None)
 
     def test_a_map_that_is_none_is_said(self):
         wait_until(lambda: any("space_planner.yaml" in status.message for status in self.words.values()), "what is wrong with the other's map")
