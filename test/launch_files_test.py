@@ -10,6 +10,7 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 import roslaunch.config
+import roslaunch.core
 import roslaunch.xmlloader
 import yaml
 
@@ -53,6 +54,12 @@ class LaunchFiles(unittest.TestCase):
         everywhere = [path.name for path in ROOT.rglob("*.launch") if "_build" not in path.parts]
         self.assertEqual([path.name for path in FILES if everywhere.count(path.name) > 1], [])
 
+    def test_a_map_that_is_missing_is_named(self):
+        loader = roslaunch.xmlloader.XmlLoader()
+        loader.ignore_unset_args = False  # as roslaunch does
+        with self.assertRaisesRegex(roslaunch.core.RLException, "requires the 'map_file' arg"):
+            loader.load(str(ROOT / "launch/space.launch"), roslaunch.config.ROSLaunchConfig(), argv=[], verbose=False)
+
     def test_can_be_loaded_whatever_the_switches_say(self):
         for path in FILES:
             for given in switches(path):
@@ -92,7 +99,7 @@ class OwnFiles(unittest.TestCase):
 
     def test_are_found_from_where_roslaunch_is_started(self):
         for file, names in {"agent": ("map_file", "keep_out_file", "fleet_key"), "robot": ("map_file", "keep_out_file", "fleet_key"),
-                            "emulated_robot": ("world",), "fleet_sim": ("world", "map_file", "fleet_key"), "replay": ("world", "bag")}.items():
+                            "emulated_robot": ("world",), "fleet_sim": ("world", "map_file", "fleet_key"), "replay": ("world", "bag"), "space": ("map_file",)}.items():
             for name in names:
                 self.check(file + ".launch", name)
 
