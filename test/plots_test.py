@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What scripts/plots says of files that it cannot draw: a line, and no traceback."""
+"""What scripts/plots says of files that it cannot draw, and scripts/plan3d of those that it cannot write: a line, and no traceback."""
 import contextlib
 import io
 import os
@@ -8,13 +8,14 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import rosbag
 from std_msgs.msg import String
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "test")]
-from mocha_scripts import plots, worlds  # noqa: E402
+from mocha_scripts import plan3d, plots, worlds  # noqa: E402
 from mocha_scripts.complaint import Complaint  # noqa: E402
 
 WORLD = ROOT / "config/worlds/corridor.yaml"
@@ -65,6 +66,31 @@ class Plots(unittest.TestCase):
         mine, other = [robot["model"] for robot in worlds.read_world(world)["robots"]]
         self.assertEqual((worlds.robot_values(mine)["max_speed"], other), (0.4, "rover"))
         self.assertRaises(Complaint, worlds.read_world, "/no/such.yaml")
+
+
+class Plan3d(unittest.TestCase):
+    def check(self, *arguments, says):
+        """Before it plans: there is no such map."""
+        words = io.StringIO()
+        with contextlib.redirect_stderr(words), self.assertRaises(SystemExit) as ended:
+            plan3d.main(["/no/such.bt", "--start", "0,0,0", "--goal", "1,0,0", *arguments])
+        self.assertEqual(ended.exception.code, 2)
+        self.assertRegex(words.getvalue(), f": {says}\n$")
+
+    def test_files_to_write(self):
+        for option in ("--json", "--picture"):
+            for name in ("/tmp", "/tmp/", "no/such/", ""):
+                self.check(option, name, says=f"argument {option}: {name}: expected the name of a file, not of a directory")
+        for name in ("x.foo", "x", "out/.png", "png", "x.png.gz"):
+            self.check("--picture", name, says=f"argument --picture: {name}: expected a name that ends in .png, .pdf or .svg")
+
+    def test_ctrl_c_is_no_traceback(self):
+        with unittest.mock.patch.object(plan3d, "run", side_effect=KeyboardInterrupt):
+            self.assertEqual(plan3d.main(["map.bt", "--start", "0,0,0", "--goal", "1,0,0"]), 130)
+
+    def test_pictures_that_can_be_drawn(self):
+        for name in ("x.png", "out/x.pdf", "/x.y.SVG"):
+            self.assertEqual(plan3d.parse(["map.bt", "--start", "0,0,0", "--goal", "1,0,0", "--picture", name]).picture, name)
 
 
 if __name__ == "__main__":

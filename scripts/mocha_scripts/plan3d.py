@@ -12,6 +12,7 @@ import time
 from mocha_scripts.complaint import Complaint, in_a_line
 
 SAMPLE_S = 0.05
+PICTURES = (".png", ".pdf", ".svg")
 
 
 def numbers_of(count, expected):
@@ -42,6 +43,18 @@ def parameter(text):
     return name, value
 
 
+def file_to_write(text):
+    if os.path.isdir(text) or not os.path.basename(text):
+        raise argparse.ArgumentTypeError(f"{text}: expected the name of a file, not of a directory")
+    return text
+
+
+def picture(text):
+    if os.path.splitext(file_to_write(text))[1].lower() not in PICTURES:
+        raise argparse.ArgumentTypeError(f"{text}: expected a name that ends in {', '.join(PICTURES[:-1])} or {PICTURES[-1]}")
+    return text
+
+
 def parse(arguments):
     parser = argparse.ArgumentParser(prog="scripts/plan3d", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("map", metavar="MAP.bt", help="an OctoMap file (.bt or .ot)")
@@ -52,8 +65,8 @@ def parse(arguments):
                         help="a ball that moves: where it is when the plan begins [m], its velocity [m/s], its radius [m]; may be given several times")
     parser.add_argument("--parameter", type=parameter, action="append", default=[], metavar="NAME=VALUE",
                         help="one of config/space_planner.yaml; may be given several times")
-    parser.add_argument("--json", metavar="FILE", help="write the plan there")
-    parser.add_argument("--picture", metavar="FILE", help="draw map, curves and trajectories there (.png)")
+    parser.add_argument("--json", type=file_to_write, metavar="FILE", help="write the plan there")
+    parser.add_argument("--picture", type=picture, metavar="FILE", help="draw map, curves and trajectories there (.png, .pdf or .svg)")
     # A place may begin with a minus sign, which argparse takes for an option.
     joined = []
     for word in arguments:
@@ -135,6 +148,8 @@ def main(arguments):
     except (Complaint, OSError) as complaint:
         print(f"plan3d: {complaint}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        return 130  # as shells have it
     return 0 if plan.solved else 1
 
 
