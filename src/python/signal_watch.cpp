@@ -2,14 +2,16 @@
 
 #include <pybind11/pybind11.h>
 
+#include "python/steady_now.h"
+
 namespace mocha {
 
 bool SignalWatch::has_raised() {
-  constexpr std::chrono::milliseconds kPeriod(50);
-  if (raised_ || std::this_thread::get_id() != owner_ || Clock::now() < next_) return raised_;
+  constexpr double kPeriod_s = 0.05;
+  if (raised_ || std::this_thread::get_id() != owner_ || steady_now_s() < next_s_) return raised_;
   const pybind11::gil_scoped_acquire python;
   raised_ = PyErr_CheckSignals() != 0;
-  next_ = Clock::now() + kPeriod;
+  next_s_ = steady_now_s() + kPeriod_s;
   return raised_;
 }
 

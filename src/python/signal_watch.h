@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <thread>
 
 namespace mocha {
@@ -18,10 +17,8 @@ class SignalWatch {
   void rethrow() const;
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   const std::thread::id owner_ = std::this_thread::get_id();
-  Clock::time_point next_{};  // of the owner only
+  double next_s_ = 0.0;  // of the owner only
   std::atomic<bool> raised_{false};
 };
 

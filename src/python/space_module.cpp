@@ -5,7 +5,6 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -17,6 +16,7 @@
 #include "python/arguments.h"
 #include "python/config_directory.h"
 #include "python/signal_watch.h"
+#include "python/steady_now.h"
 #include "stack/space_planning.h"
 #include "trajectory/arc_length.h"
 
@@ -44,10 +44,7 @@ std::unique_ptr<SpacePlanner> make_planner(const std::filesystem::path& map_file
     box.extend(at + room);
   }
   const py::gil_scoped_release others_may_run;
-  return make_space_planner(values, box, [] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-  });
+  return make_space_planner(values, box, steady_now_s);
 }
 
 /// What of a kind the map holds, by its name.
