@@ -100,10 +100,10 @@ class PlanningInSpace(unittest.TestCase):
             self.assertTrue(plan.message)
         self.assertIsNone(self.planner.curves((5.0, 4.0, 1.5)))
 
-    def test_planning_ends_when_its_time_is_over(self):
-        plan = two_windows({"planning_time": 0.05, "prm_samples": 1000000}).plan(START, GOAL)
-        self.assertEqual(plan.reason, "budget exhausted")
-        self.assertIn("out of time", plan.message)
+    def test_sampling_ends_with_its_share_of_the_time(self):
+        plan = two_windows({"planning_time": 0.1, "prm_samples": 1000000}).plan(START, GOAL)  # all of them would take minutes
+        self.assertGreater(plan.took_s, 0.025)
+        self.assertIn(plan.reason, ("solved", "budget exhausted"))
 
     def test_planning_ends_with_ctrl_c(self):
         """In a process of its own: without an answer it would plan for ten minutes."""

@@ -13,6 +13,11 @@ namespace {
 constexpr std::uint64_t kSeed = 1;       // of the roadmaps
 constexpr std::size_t kMostRegions = 4;  // that are kept, of a map in pieces
 constexpr double kMoreTime = 1.25;       // for paths past what moves
+// Shares of the planning time by which searches for paths end: the rest is for optimising them.
+constexpr double kSamples = 0.25;
+constexpr double kPaths = 0.5;
+constexpr double kMovingSamples = 0.65;
+constexpr double kMovingPaths = 0.75;
 
 bool is_certified(const SpaceCandidate& candidate) {
   return candidate.reason == PlanReason::kSolved;
@@ -87,18 +92,20 @@ bool SpacePlanner::is_refused(const SpaceQuery& query, SpacePlan& plan) const {
   return is_occupied("goal", query.goal, options_.required_clearance_m());
 }
 
-SpacePathOptions SpacePlanner::path_options(const SpaceQuery& query) const {
+SpacePathOptions SpacePlanner::path_options(const SpaceQuery& query,
+                                            std::function<bool()> stop_sampling) const {
   return {{options_.required_clearance_m(), 0.0},
           query.classes > 0 ? query.classes : options_.classes,
           options_.longest_ratio,
-          {options_.prm_samples, kSeed, options_.prm_reach_m}};
+          {options_.prm_samples, kSeed, options_.prm_reach_m, std::move(stop_sampling)}};
 }
 
 /// Paths past what moves, that take as long as the static plan, and a little longer.
 std::vector<TimedSpacePath> SpacePlanner::paths_among_moving(const SpaceQuery& query,
                                                              const SpaceRegion& region,
                                                              const std::vector<SpacePath>& paths,
-                                                             const Candidates& without) const {
+                                                             const Candidates& without,
+                                                             const Past& past) const {
   double duration_s = 0.0;
   for (const SpaceCandidate& candidate : without) {
     if (candidate.curve.pieces() > 0) duration_s = std::max(duration_s, candidate.curve.duration());
@@ -108,7 +115,8 @@ std::vector<TimedSpacePath> SpacePlanner::paths_among_moving(const SpaceQuery& q
       {query.start, query.goal, 0.0, kMoreTime * duration_s}, options_.max_speed, {}};
   for (const Tube<3>& tube : query.moving)
     moving.tubes.push_back(enlarged<3>(tube, options_.required_clearance_m()));
-  return find_moving_paths(*field_, region, moving, paths, path_options(query), query.should_stop);
+  return find_moving_paths(*field_, region, moving, paths,
+                           path_options(query, past(kMovingSamples)), past(kMovingPaths));
 }
 
 void SpacePlanner::optimize_all(const std::vector<TimedSpacePath>& paths, const SpaceScene& scene,
@@ -123,17 +131,18 @@ void SpacePlanner::optimize_all(const std::vector<TimedSpacePath>& paths, const 
 
 /// Candidates of pairwise different classes, the best first.
 SpacePlanner::Candidates SpacePlanner::find_candidates(const SpaceQuery& query,
-                                                       const SpaceRegion& region) const {
-  const std::vector<SpacePath> paths = find_space_paths(*field_, region, query.start, query.goal,
-                                                        path_options(query), query.should_stop);
+                                                       const SpaceRegion& region,
+                                                       const Past& past) const {
+  const std::vector<SpacePath> paths = find_space_paths(
+      *field_, region, query.start, query.goal, path_options(query, past(kSamples)), past(kPaths));
   const SpaceScene scene{*field_, region.cuts(), query.moving};
   std::vector<TimedSpacePath> untimed;
   for (const SpacePath& path : paths) untimed.push_back({path.points, {}});
   Candidates candidates;
-  optimize_all(untimed, scene, query.should_stop, candidates);
+  optimize_all(untimed, scene, past(1.0), candidates);
   if (!query.moving.empty()) {
-    const auto timed = paths_among_moving(query, region, paths, candidates);
-    optimize_all(timed, scene, query.should_stop, candidates);
+    const auto timed = paths_among_moving(query, region, paths, candidates, past);
+    optimize_all(timed, scene, past(1.0), candidates);
   }
   keep_best_of_each_class(candidates);
   return candidates;
@@ -144,11 +153,12 @@ SpacePlan SpacePlanner::plan(const SpaceQuery& query) {
   if (is_refused(query, plan)) return plan;
   const auto region = region_of(query.start);
   const double begin_s = now_s_();
-  SpaceQuery timed = query;
-  timed.should_stop = [&] {
-    return query.should_stop() || now_s_() - begin_s > options_.planning_time_s;
+  const Past past = [&](double share) {
+    return [this, &query, until_s = begin_s + share * options_.planning_time_s] {
+      return query.should_stop() || now_s_() > until_s;
+    };
   };
-  if (region) plan.candidates = find_candidates(timed, *region);
+  if (region) plan.candidates = find_candidates(query, *region, past);
   if (plan.candidates.empty()) {
     plan.reason = PlanReason::kNoPath;
     plan.message =
@@ -157,7 +167,8 @@ SpacePlan SpacePlanner::plan(const SpaceQuery& query) {
     plan.reason = plan.candidates.front().reason;
     plan.message = outcome(plan.candidates.front());
   }
-  if (!plan.selected() && timed.should_stop()) {
+  // Where there is no path at all, searching has ended with its own share.
+  if (!plan.selected() && past(plan.candidates.empty() ? kPaths : 1.0)()) {
     plan.reason = PlanReason::kBudgetExhausted;
     plan.message = "out of time: " + plan.message;
   }

@@ -46,15 +46,18 @@ class SpacePlanner {
 
  private:
   using Candidates = std::vector<SpaceCandidate>;
+  /// What says whether that share of the planning time is over.
+  using Past = std::function<std::function<bool()>(double share)>;
 
   bool is_refused(const SpaceQuery& query, SpacePlan& plan) const;
-  SpacePathOptions path_options(const SpaceQuery& query) const;
+  SpacePathOptions path_options(const SpaceQuery& query, std::function<bool()> stop_sampling) const;
   std::vector<TimedSpacePath> paths_among_moving(const SpaceQuery& query, const SpaceRegion& region,
                                                  const std::vector<SpacePath>& paths,
-                                                 const Candidates& without) const;
+                                                 const Candidates& without, const Past& past) const;
   void optimize_all(const std::vector<TimedSpacePath>& paths, const SpaceScene& scene,
                     const std::function<bool()>& should_stop, Candidates& candidates) const;
-  Candidates find_candidates(const SpaceQuery& query, const SpaceRegion& region) const;
+  Candidates find_candidates(const SpaceQuery& query, const SpaceRegion& region,
+                             const Past& past) const;
 
   const std::shared_ptr<const VoxelDistanceField> field_;
   const SpacePlannerOptions options_;

@@ -55,6 +55,10 @@ Cuts<3>::Cuts(const std::vector<Curve>& curves)
       column_obstacles_.push_back(r);
     }
   }
+  std::stable_sort(sides_.begin(), sides_.end(),
+                   [](const Side& a, const Side& b) { return a.low.x() < b.low.x(); });
+  for (std::size_t i = 1; i < sides_.size(); ++i)
+    sides_[i].reach_x = std::max(sides_[i].reach_x, sides_[i - 1].reach_x);
 }
 
 void Cuts<3>::add_sides(const std::vector<Point>& corners, std::size_t least, bool is_closed,
@@ -64,9 +68,15 @@ void Cuts<3>::add_sides(const std::vector<Point>& corners, std::size_t least, bo
                                 ": corners = " + std::to_string(corners.size()) + ", at least " +
                                 std::to_string(least));
   }
-  for (std::size_t i = 1; i < corners.size(); ++i)
-    sides_.push_back({snapped(corners[i - 1]), snapped(corners[i]), obstacle});
-  if (is_closed) sides_.push_back({snapped(corners.back()), snapped(corners.front()), obstacle});
+  for (std::size_t i = 1; i < corners.size(); ++i) add_side(corners[i - 1], corners[i], obstacle);
+  if (is_closed) add_side(corners.back(), corners.front(), obstacle);
+}
+
+void Cuts<3>::add_side(const Point& from, const Point& to, int obstacle) {
+  const Point a = snapped(from);
+  const Point b = snapped(to);
+  const Point high = a.cwiseMax(b);
+  sides_.push_back({a.cwiseMin(b), high.x(), high.y(), high.x(), a, b, obstacle});
 }
 
 /// To a grid so coarse that turns of points up to 500 m from the origin are exact.

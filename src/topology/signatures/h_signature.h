@@ -110,26 +110,38 @@ class Cuts<3> {
                    [&](int column, int sign) { visit(column_obstacles_[column], sign); });
     const Point from = snapped(p);
     const Point to = snapped(q);
-    for (const Side& side : sides_) {
-      if (const int sign = crossing(side, from, to); sign != 0) visit(side.obstacle, sign);
+    const Point low = from.cwiseMin(to);
+    const Point high = from.cwiseMax(to);
+    const auto first = std::partition_point(
+        sides_.begin(), sides_.end(), [&](const Side& side) { return side.reach_x < low.x(); });
+    for (auto side = first; side != sides_.end() && side->low.x() <= high.x(); ++side) {
+      const bool is_apart = side->high_x < low.x() || side->low.y() > high.y() ||
+                            side->high_y < low.y() || side->low.z() > high.z();
+      if (is_apart) continue;
+      if (const int sign = crossing(*side, from, to); sign != 0) visit(side->obstacle, sign);
     }
   }
 
  private:
   struct Side {
+    Point low;  // of the box about both ends
+    double high_x;
+    double high_y;
+    double reach_x;  // the highest x of this side and of all before it
     Point from;
     Point to;
     int obstacle;
   };
   void add_sides(const std::vector<Point>& corners, std::size_t least, bool is_closed,
                  int obstacle);
+  void add_side(const Point& from, const Point& to, int obstacle);
   static Point snapped(const Point& p);
   static int crossing(const Side& side, const Point& p, const Point& q);
 
   int obstacles_;
   Cuts<2> columns_;
   std::vector<int> column_obstacles_;
-  std::vector<Side> sides_;
+  std::vector<Side> sides_;  // by their lowest x
 };
 
 /// Of a path with straight lines between its points.

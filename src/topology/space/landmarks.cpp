@@ -25,73 +25,142 @@ std::vector<int> middle_voxels(const SolidVoxels& voxels) {
   return middle;
 }
 
-/// Places by the cube that they are in.
+constexpr int kNone = -1;
+
+/// Places by how far they are apart, and by cubes of that size: so that few cubes are looked at,
+/// and few places in each.
 class PlaceIndex {
  public:
-  explicit PlaceIndex(double cube_m) : cube_m_(cube_m) {}
+  explicit PlaceIndex(double least_m) : least_m_(least_m) {}
 
-  void add(const Eigen::Vector3d& place, int number) { cubes_[key(cube(place))].push_back(number); }
+  /// `apart_m`: no other place is as close.
+  void add(const Eigen::Vector3d& place, double apart_m) {
+    const auto level = static_cast<std::size_t>(std::max(0.0, std::log2(apart_m / least_m_)));
+    if (level >= levels_.size()) levels_.resize(level + 1);
+    levels_[level][key(cube(place, level))].push_back(static_cast<int>(places_.size()));
+    places_.push_back(place);
+  }
 
-  /// Calls visit(number) for all places that are within `radius_m`, and others, until it returns
-  /// false.
-  template <typename Visit>
-  void around(const Eigen::Vector3d& place, double radius_m, const Visit& visit) const {
-    const Eigen::Vector3i low = cube(place - Eigen::Vector3d::Constant(radius_m));
-    const Eigen::Vector3i high = cube(place + Eigen::Vector3d::Constant(radius_m));
+  /// Returns a place within `radius_m`, by its number in the order in which they came, or kNone.
+  int find(const Eigen::Vector3d& place, double radius_m) const {
+    int found = kNone;
+    for (std::size_t level = 0; found == kNone && level < levels_.size(); ++level)
+      found = find(place, radius_m, level);
+    return found;
+  }
+
+ private:
+  int find(const Eigen::Vector3d& place, double radius_m, std::size_t level) const {
+    if (levels_[level].empty()) return kNone;
+    const Eigen::Vector3d aside = Eigen::Vector3d::Constant(radius_m);
+    const Eigen::Vector3i low = cube(place - aside, level);
+    const Eigen::Vector3i high = cube(place + aside, level);
     Eigen::Vector3i at;
     for (at.z() = low.z(); at.z() <= high.z(); ++at.z()) {
       for (at.y() = low.y(); at.y() <= high.y(); ++at.y()) {
         for (at.x() = low.x(); at.x() <= high.x(); ++at.x()) {
-          const auto found = cubes_.find(key(at));
-          if (found == cubes_.end()) continue;
+          const auto found = levels_[level].find(key(at));
+          if (found == levels_[level].end()) continue;
           for (const int number : found->second) {
-            if (!visit(number)) return;
+            if ((places_[number] - place).norm() <= radius_m) return number;
           }
         }
       }
     }
+    return kNone;
   }
 
- private:
-  Eigen::Vector3i cube(const Eigen::Vector3d& place) const {
-    return (place / cube_m_).array().floor().matrix().cast<int>();
+  Eigen::Vector3i cube(const Eigen::Vector3d& place, std::size_t level) const {
+    const double cube_m = std::ldexp(least_m_, static_cast<int>(level) + 1);
+    return (place / cube_m).array().floor().matrix().cast<int>();
   }
   static std::int64_t key(const Eigen::Vector3i& cube) {
     return (static_cast<std::int64_t>(cube.x()) * 2097152 + cube.y()) * 2097152 + cube.z();
   }
 
-  const double cube_m_;
-  std::unordered_map<std::int64_t, std::vector<int>> cubes_;
+  const double least_m_;
+  std::vector<Eigen::Vector3d> places_;
+  std::vector<std::unordered_map<std::int64_t, std::vector<int>>> levels_;
 };
+
+/// The best place within a voxel: its centre, or the corner with the most room. Where a way is an
+/// even number of voxels wide, corners are in its middle.
+Eigen::Vector3d best_place(const SolidVoxels& voxels, const VoxelDistanceField& field,
+                           const Eigen::Vector3i& voxel) {
+  Eigen::Vector3d best = voxels.centre(voxel);
+  double most_m = field.distance_bound(best);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d step(corner & 1, corner >> 1 & 1, corner >> 2);
+    const Eigen::Vector3d place =
+        voxels.origin + voxels.resolution_m * (voxel.cast<double>() + step);
+    const double room_m = field.distance_bound(place);
+    if (room_m <= most_m) continue;
+    most_m = room_m;
+    best = place;
+  }
+  return best;
+}
+
+using Pairs = std::vector<std::pair<int, int>>;
+
+void keep_one_of_each(Pairs& pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+/// Pairs of places that stand for voxels beside each other.
+Pairs neighbours_of(const SolidVoxels& voxels, const std::vector<int>& middle,
+                    const std::vector<int>& place_of) {
+  Pairs pairs;
+  for (const int number : middle) {
+    for (const int step : voxels.steps()) {
+      const int other = place_of[number + step];
+      if (other != kNone && other != place_of[number])
+        pairs.push_back(std::minmax(place_of[number], other));
+    }
+  }
+  keep_one_of_each(pairs);
+  return pairs;
+}
+
+/// The pairs, and those of places that have a neighbour in common: ways through these are
+/// straighter.
+Pairs with_next_but_one(Pairs pairs, std::size_t places) {
+  std::vector<std::vector<int>> beside(places);
+  for (const auto& [a, b] : pairs) {
+    beside[a].push_back(b);
+    beside[b].push_back(a);
+  }
+  for (const std::vector<int>& around : beside) {
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) pairs.push_back(std::minmax(around[i], around[k]));
+    }
+  }
+  keep_one_of_each(pairs);
+  return pairs;
+}
 
 }  // namespace
 
-Landmarks landmarks(const SolidVoxels& voxels, double clearance_m) {
+Landmarks landmarks(const SolidVoxels& voxels, const VoxelDistanceField& field,
+                    double clearance_m) {
   Landmarks found;
   const std::vector<int> middle = middle_voxels(voxels);
-  if (middle.empty()) return found;
+  std::vector<int> place_of(voxels.solid.size(), kNone);  // that stands for a voxel
   const double least_m = kLeastSpacingCells * voxels.resolution_m;
-  const double most_m = std::max(voxels.distance_m[middle.front()] - clearance_m, least_m);
-  PlaceIndex index(most_m);
-  std::vector<double> spare_m;  // room beyond the clearance, of each place
+  PlaceIndex index(least_m);
   for (const int number : middle) {
-    const Eigen::Vector3d place = voxels.centre(voxels.voxel(number));
-    const double own_m = std::max(voxels.distance_m[number] - clearance_m, least_m);
-    bool is_apart = true;
-    index.around(place, own_m, [&](int other) {
-      return is_apart = (found.places[other] - place).norm() > own_m;
-    });
-    if (!is_apart) continue;
-    const int next = static_cast<int>(found.places.size());
-    index.around(place, own_m + most_m + least_m, [&](int other) {
-      const double away_m = (found.places[other] - place).norm();
-      if (away_m <= own_m + spare_m[other] + least_m) found.neighbours.emplace_back(other, next);
-      return true;
-    });
-    index.add(place, next);
-    found.places.push_back(place);
-    spare_m.push_back(own_m);
+    const Eigen::Vector3i voxel = voxels.voxel(number);
+    const Eigen::Vector3d centre = voxels.centre(voxel);
+    const double apart_m = std::max(voxels.distance_m[number] - clearance_m, least_m);
+    place_of[number] = index.find(centre, apart_m);
+    if (place_of[number] != kNone) continue;
+    place_of[number] = static_cast<int>(found.places.size());
+    index.add(centre, apart_m);
+    found.places.push_back(best_place(voxels, field, voxel));
   }
+  found.neighbours =
+      with_next_but_one(neighbours_of(voxels, middle, place_of), found.places.size());
   return found;
 }
 

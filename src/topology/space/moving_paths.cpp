@@ -55,14 +55,12 @@ std::vector<TimedSpacePath> find_moving_paths(const VoxelDistanceField& field,
     return {};
   VisibilityPrmOptions sampling = options.roadmap;
   sampling.reach_m *= M_SQRT2;  // time is an axis as well
-  sampling.should_stop = should_stop;
   const Roadmap<4> roadmap = visibility_prm<4>(space, space.start(), space.goal(), sampling,
                                                along_static(static_paths, space, query));
   ClassSearchOptions search{options.classes, M_SQRT2 * options.longest_ratio};
   search.should_stop = should_stop;
   std::vector<TimedSpacePath> paths;
   for (ClassPath<4>& found : shortest_classes<4>(roadmap, space, search)) {
-    if (should_stop()) return {};
     TimedSpacePath& path = paths.emplace_back();
     for (const SpaceTimePoint& point : with_shortcuts<4>(std::move(found.points), space)) {
       path.points.push_back(point.head<3>());

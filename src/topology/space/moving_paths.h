@@ -26,7 +26,7 @@ struct TimedSpacePath {
 /// beside motions along the static paths at several speeds, and searched for the shortest paths
 /// that differ in some projection onto (x, y, t), (x, z, t) or (y, z, t). In space and time the
 /// free space around balls has but one class, so what differs are not classes but beginnings of an
-/// optimisation that ends in other local optima.
+/// optimisation that ends in other local optima. Both `should_stop` are as in find_space_paths().
 std::vector<TimedSpacePath> find_moving_paths(const VoxelDistanceField& field,
                                               const SpaceRegion& region, const MovingQuery& query,
                                               const std::vector<SpacePath>& static_paths,

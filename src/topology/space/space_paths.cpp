@@ -61,21 +61,19 @@ std::vector<SpacePath> find_space_paths(const VoxelDistanceField& field, const S
                                         const SpacePathOptions& options,
                                         const std::function<bool()>& should_stop) {
   const StaticSpace<3> space(field, region.cuts(), field.bounds(), start, options.clearance);
-  VisibilityPrmOptions sampling = options.roadmap;
-  sampling.should_stop = should_stop;
-  Roadmap<3> roadmap = visibility_prm<3>(space, start, goal, sampling);
+  Roadmap<3> roadmap = visibility_prm<3>(space, start, goal, options.roadmap);
   add_landmarks(region.landmarks(), space, options.roadmap.reach_m, roadmap);
-  if (should_stop()) return {};
   ClassSearchOptions search{kSpare * options.classes, options.longest_ratio / kShortened};
   search.should_stop = should_stop;
   const std::vector<ClassPath<3>> found = shortest_classes(roadmap, space, search);
   std::vector<SpacePath> paths(found.size());
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
-    paths[i].points = pulled_taut(with_shortcuts<3>(found[i].points, space), space);
+    paths[i].points = found[i].points;
+    if (!should_stop())
+      paths[i].points = pulled_taut(with_shortcuts<3>(std::move(paths[i].points), space), space);
     paths[i].length_m = length_of<3>(paths[i].points);
     paths[i].signature = signature_of<3>(region.cuts(), paths[i].points);
   });
-  if (should_stop()) return {};
   return shortest_of_each(std::move(paths), options);
 }
 

@@ -26,8 +26,9 @@ struct SpacePath {
 };
 
 /// The shortest paths of pairwise different classes (paper IV-E) in space, shortest first: by a
-/// sampled roadmap, and shortened as far as their class allows. None where there is no path, where
-/// start or goal keep no clearance, or where `should_stop()` said so.
+/// sampled roadmap, and shortened as far as their class allows. None where there is no path, or
+/// where start or goal keep no clearance. Once `should_stop()` says so, what was found by then is
+/// returned as it is; that of the roadmap's options ends only the sampling.
 std::vector<SpacePath> find_space_paths(const VoxelDistanceField& field, const SpaceRegion& region,
                                         const Eigen::Vector3d& start, const Eigen::Vector3d& goal,
                                         const SpacePathOptions& options,

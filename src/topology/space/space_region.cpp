@@ -28,7 +28,7 @@ Roadmap<3> roadmap_of(const Landmarks& landmarks, const StaticSpace<3>& space) {
 
 SpaceRegion::SpaceRegion(const VoxelDistanceField& field, double clearance_m, SolidVoxels voxels)
     : voxels_(std::move(voxels)), curves_(obstacle_curves(voxels_)), cuts_(curves_.curves) {
-  const Landmarks found = mocha::landmarks(voxels_, clearance_m);
+  const Landmarks found = mocha::landmarks(voxels_, field, clearance_m);
   std::vector<float>().swap(voxels_.distance_m);  // nobody asks for it any more
   if (found.places.empty()) return;
   landmarks_ = roadmap_of(found, StaticSpace<3>(field, cuts_, field.bounds(), found.places.front(),
