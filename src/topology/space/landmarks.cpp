@@ -11,6 +11,7 @@ namespace mocha {
 namespace {
 
 constexpr double kLeastSpacingCells = 2.0;
+constexpr double kMuchMore = 1.1;  // room at a corner of a voxel, over that at its centre
 
 /// What remains of the open voxels, widest first.
 std::vector<int> middle_voxels(const SolidVoxels& voxels) {
@@ -83,12 +84,12 @@ class PlaceIndex {
   std::vector<std::unordered_map<std::int64_t, std::vector<int>>> levels_;
 };
 
-/// The best place within a voxel: its centre, or the corner with the most room. Where a way is an
+/// The best place within a voxel: its centre, or a corner with much more room. Where a way is an
 /// even number of voxels wide, corners are in its middle.
 Eigen::Vector3d best_place(const SolidVoxels& voxels, const VoxelDistanceField& field,
                            const Eigen::Vector3i& voxel) {
   Eigen::Vector3d best = voxels.centre(voxel);
-  double most_m = field.distance_bound(best);
+  double most_m = kMuchMore * field.distance_bound(best);
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3d step(corner & 1, corner >> 1 & 1, corner >> 2);
     const Eigen::Vector3d place =

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "world/distances/distance_transform.h"
 
@@ -133,24 +134,74 @@ VoxelDistanceField::Sample VoxelDistanceField::sample(const Vector& p) const {
   return {-beyond.norm(), beyond.normalized()};
 }
 
+/// A lower bound [cells^2] at the centre of a cell. An obstacle at r in direction u keeps the
+/// distance d to the corner c in the octant of u: r^2 - 2 r u.c + 3/4 >= d^2 with u.c >= 1/2, so
+/// r >= 1/2 + sqrt(d^2 - 1/2), unless it may be on this side of the corner.
+double VoxelDistanceField::squared_at_centre(const Eigen::Vector3i& cell) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (int corner = 0; corner < 8; ++corner) {
+    least = std::min(least, at_corner(cell.x() + (corner & 1), cell.y() + (corner >> 1 & 1),
+                                      cell.z() + (corner >> 2)));
+  }
+  least *= cells_per_m_;
+  if (!(least * least >= 0.75) || least < 0.0) return 0.0;
+  const double r = 0.5 + std::sqrt(least * least - 0.5);
+  return r * r;
+}
+
+/// A lower bound [cells^2] in the pyramid of a cell that stands on the face nearest to `share`, and
+/// in that of the cell beyond: by both centres and two corners of the face.
+double VoxelDistanceField::squared_between_centres(const Eigen::Vector3i& cell,
+                                                   const Vector& share) const {
+  const Vector off = share - Vector::Constant(0.5);
+  int axis = 0;
+  off.cwiseAbs().maxCoeff(&axis);
+  const int side = off[axis] > 0.0 ? 1 : -1;
+  Eigen::Vector3i beyond = cell;
+  beyond[axis] += side;
+  if (beyond[axis] < 0 || beyond[axis] >= corners_[axis] - 1) return 0.0;
+  const double above = 0.5 - std::abs(off[axis]);  // the face
+  int u = (axis + 1) % 3;
+  int v = (axis + 2) % 3;
+  if (std::abs(off[u]) < std::abs(off[v])) std::swap(u, v);
+  // The weights of the corners make up the place beside the middle of the face.
+  const double corners = 2.0 * std::abs(off[u]);
+  Eigen::Vector3i corner = cell;
+  corner[axis] += side > 0 ? 1 : 0;
+  corner[u] += off[u] > 0.0 ? 1 : 0;
+  const auto at = [&] {
+    const double distance =
+        cells_per_m_ * std::max(0.0, at_corner(corner.x(), corner.y(), corner.z()));
+    return distance * distance;
+  };
+  double mean = (0.5 * corners - off[v]) * at();
+  corner[v] += 1;
+  mean += (0.5 * corners + off[v]) * at();
+  mean += (0.5 - 0.5 * corners + above) * squared_at_centre(cell);
+  mean += (0.5 - 0.5 * corners - above) * squared_at_centre(beyond);
+  return mean - 0.25 - 0.25 * corners + above * above + off[u] * off[u] + off[v] * off[v];
+}
+
 double VoxelDistanceField::distance_bound(const Vector& p) const {
+  constexpr double kFar =
+      64.0;  // [cells^2]: what the corners fall short by does not count any more
   const Vector at = cells_per_m_ * (p - origin_);
   if (!is_inside(at)) return 0.0;
   const Eigen::Vector3i low = at.cast<int>().cwiseMin(corners_ - Eigen::Vector3i::Constant(2));
   const Vector share = at - low.cast<double>();
-  double mean = 0.0;
+  double squared = -share.cwiseProduct(Vector::Ones() - share).sum();
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3i step(corner & 1, corner >> 1 & 1, corner >> 2);
     double weight = 1.0;
     for (int axis = 0; axis < 3; ++axis)
       weight *= step[axis] == 1 ? share[axis] : 1.0 - share[axis];
     const double distance =
+        cells_per_m_ *
         std::max(0.0, at_corner(low.x() + step.x(), low.y() + step.y(), low.z() + step.z()));
-    mean += weight * distance * distance;
+    squared += weight * distance * distance;
   }
-  const double sag =
-      resolution_m_ * resolution_m_ * share.cwiseProduct(Vector::Ones() - share).sum();
-  return std::sqrt(std::max(0.0, mean - sag));
+  if (squared < kFar) squared = std::max({0.0, squared, squared_between_centres(low, share)});
+  return resolution_m_ * std::sqrt(squared);
 }
 
 double VoxelDistanceField::room(const Vector& p, double radius_m) const {

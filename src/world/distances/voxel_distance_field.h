@@ -12,8 +12,11 @@ namespace mocha {
 ///
 /// As DistanceField has it in the plane, distances are kept at the corners of the cells, where they
 /// are exact, and distance_bound() uses that d(p)^2 - |p|^2 is concave in between. At a distance of
-/// d from one wall it falls short by up to h^2 / (4 d), where h is the edge of a cell; midway
-/// between several by up to about a cell.
+/// d from one wall it falls short by up to h^2 / (4 d), where h is the edge of a cell. Midway
+/// between walls that are an odd number of cells apart no corner is, so centres of cells are
+/// vertices as well: each obstacle is in some octant about a centre, and farther from it than from
+/// the corner there, which it keeps its distance to. So five cells and more apart, along a line of
+/// centres, it falls short by at most a fifth of a cell, and somewhere else by up to about a cell.
 class VoxelDistanceField : public ObstacleField<3> {
  public:
   enum class Solid { kOccupied, kOccupiedOrUnknown };
@@ -48,6 +51,8 @@ class VoxelDistanceField : public ObstacleField<3> {
     return distance_m_[(static_cast<std::size_t>(z) * corners_.y() + y) * corners_.x() + x];
   }
   Sample interpolated(const Vector& at) const;
+  double squared_at_centre(const Eigen::Vector3i& cell) const;
+  double squared_between_centres(const Eigen::Vector3i& cell, const Vector& share) const;
 
   double resolution_m_;
   double cells_per_m_;

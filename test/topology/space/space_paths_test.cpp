@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+#include <string>
 
 #include "world/space_worlds.h"
 
@@ -11,23 +13,23 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kClearance_m = 0.3;
 const auto kGoOn = [] { return false; };
 
 class SpacePathsTest : public testing::Test {
  protected:
-  void use(const SpaceWorld& world) {
+  void use(const SpaceWorld& world, double clearance_m = 0.3) {
     world_ = world;
+    clearance_m_ = clearance_m;
     field_ = std::make_unique<VoxelDistanceField>(world.grid, VoxelDistanceField::Solid::kOccupied);
-    auto voxels = solid_voxels(*field_, kClearance_m, world.start);
+    auto voxels = solid_voxels(*field_, clearance_m_, world.start);
     ASSERT_TRUE(voxels);
-    region_ = std::make_unique<SpaceRegion>(*field_, kClearance_m, std::move(*voxels));
+    region_ = std::make_unique<SpaceRegion>(*field_, clearance_m_, std::move(*voxels));
   }
 
   std::vector<SpacePath> find(double longest_ratio = 1.5, int classes = 8, int samples = 300,
                               std::uint64_t seed = 1) const {
     return find_space_paths(*field_, *region_, world_.start, world_.goal,
-                            {{kClearance_m, 0.0}, classes, longest_ratio, {samples, seed, 10.0}},
+                            {{clearance_m_, 0.0}, classes, longest_ratio, {samples, seed, 10.0}},
                             kGoOn);
   }
 
@@ -45,12 +47,13 @@ class SpacePathsTest : public testing::Test {
         for (double share = 0.0; share <= 1.0; share += 0.02) {
           EXPECT_GE(field_->distance_bound(path.points[i - 1] +
                                            share * (path.points[i] - path.points[i - 1])),
-                    kClearance_m - 1e-9);
+                    clearance_m_ - 1e-9);
         }
       }
     }
   }
 
+  double clearance_m_ = 0.0;
   SpaceWorld world_;
   std::unique_ptr<VoxelDistanceField> field_;
   std::unique_ptr<SpaceRegion> region_;
@@ -118,6 +121,40 @@ TEST_F(SpacePathsTest, ThereIsNoneThroughAGapThatIsTooNarrow) {
   }
   use(slit);
   EXPECT_TRUE(find().empty());
+}
+
+/// Two rooms, and a wall between them with one window of so many cells, off the middle.
+SpaceWorld window(int wide, int high, int thick) {
+  SpaceWorld world;
+  world.grid.size = {50, 31, 27};
+  for (int i = 0; i < world.grid.size.prod(); ++i) {
+    const int x = i % 50;
+    const int y = i / 50 % 31;
+    const int z = i / (50 * 31);
+    const bool is_in_wall = x >= 25 && x < 25 + thick;
+    const bool is_in_window = y >= 9 && y < 9 + wide && z >= 12 && z < 12 + high;
+    const bool is_solid = is_in_wall && !is_in_window;
+    world.grid.cells.push_back(is_solid ? VoxelGrid::kOccupied : VoxelGrid::kFree);
+  }
+  world.start = {0.8, 1.0, 1.0};
+  world.goal = {4.2, 1.7, 1.5};
+  return world;
+}
+
+TEST_F(SpacePathsTest, LeadThroughAnyDoorOfFourVoxelsThatIsOneWiderThanNeeded) {
+  constexpr double kSpare_m = 0.1;  // a voxel, in all  // of 0.1 m voxels
+  for (int wide = 4; wide <= 9; ++wide) {
+    for (int high = 4; high <= 9; ++high) {
+      for (const int thick : {1, 2, 12}) {
+        SCOPED_TRACE(std::to_string(wide) + " " + std::to_string(high) + " " +
+                     std::to_string(thick));
+        use(window(wide, high, thick), 0.05 * std::min(wide, high) - 0.5 * kSpare_m);
+        const auto paths = find(1.5, 1, 0);  // by landmarks alone
+        ASSERT_EQ(paths.size(), 1u);
+        expect_sound(paths);
+      }
+    }
+  }
 }
 
 }  // namespace

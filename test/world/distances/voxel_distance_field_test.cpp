@@ -142,6 +142,39 @@ TEST(VoxelDistanceField, IsCloseBesideAWall) {
   }
 }
 
+/// All solid but for a tunnel along x of so many cells across.
+VoxelGrid tunnel(int wide, int high) {
+  VoxelGrid grid;
+  grid.resolution_m = kResolution_m;
+  grid.size = {30, wide + 2, high + 2};
+  for (int i = 0; i < grid.size.prod(); ++i) {
+    const int y = i / 30 % (wide + 2);
+    const int z = i / 30 / (wide + 2);
+    const bool is_open = y > 0 && y <= wide && z > 0 && z <= high;
+    grid.cells.push_back(is_open ? VoxelGrid::kFree : VoxelGrid::kOccupied);
+  }
+  return grid;
+}
+
+TEST(VoxelDistanceField, IsCloseInTheMiddleOfNarrowWays) {
+  for (int wide = 5; wide <= 9; ++wide) {
+    for (int high = 5; high <= 9; ++high) {
+      const VoxelDistanceField field(tunnel(wide, high), Solid::kOccupied);
+      // Where rows of corners or of centres are, of which one is in the middle of the narrower way.
+      const double shift = std::min(wide, high) % 2 == 0 ? 0.0 : 0.5;
+      const double y = 1.0 + std::floor(0.5 * wide) + shift;
+      const double z = 1.0 + std::floor(0.5 * high) + shift;
+      const double truth = std::min({y - 1.0, wide + 1.0 - y, z - 1.0, high + 1.0 - z});
+      for (double x = 8.0; x < 22.0; x += 0.07) {
+        const double bound =
+            field.distance_bound(kResolution_m * Vector3d(x, y, z)) / kResolution_m;
+        EXPECT_LE(bound, truth + 1e-5);
+        EXPECT_GE(bound, truth - 0.2) << wide << " " << high << " " << x;
+      }
+    }
+  }
+}
+
 TEST(VoxelDistanceField, IsNegativeInsideOfWhatIsSolidAndOutside) {
   VoxelGrid grid;
   grid.resolution_m = kResolution_m;
