@@ -104,7 +104,8 @@ void measure(const char* name, const SpaceWorld& world, bool is_first) {
       world.grid, VoxelDistanceField::Solid::kOccupiedOrUnknown);
   const double field_s = now_s() - begin_s;
   SpacePlanner planner(
-      field, SpacePlannerOptions::from(ParameterTable::from_schema("config/space_planner.yaml")));
+      field, SpacePlannerOptions::from(ParameterTable::from_schema("config/space_planner.yaml")),
+      now_s);
   const auto region = planner.region_of(world.start);
   const double map_s = now_s() - begin_s;
   std::vector<double> plan_s;
