@@ -44,7 +44,7 @@ void keep_best_of_each_class(std::vector<SpaceCandidate>& candidates) {
 
 std::string coordinates(const Eigen::Vector3d& p) {
   char text[96];
-  std::snprintf(text, sizeof text, "(%.2f, %.2f, %.2f)", p.x(), p.y(), p.z());
+  std::snprintf(text, sizeof text, "(%g, %g, %g)", p.x(), p.y(), p.z());
   return text;
 }
 
