@@ -1,6 +1,7 @@
 #include "planning/space/space_planner.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <cstdio>
 #include <utility>
@@ -16,8 +17,9 @@ constexpr double kMoreTime = 1.25;       // for paths past what moves
 // Shares of the planning time by which searches for paths end: the rest is for optimising them.
 constexpr double kSamples = 0.25;
 constexpr double kPaths = 0.5;
-constexpr double kMovingSamples = 0.65;
-constexpr double kMovingPaths = 0.75;
+constexpr double kStaticPlans = 0.6;  // where there is something that moves
+constexpr double kMovingSamples = 0.7;
+constexpr double kMovingPaths = 0.8;
 
 bool is_certified(const SpaceCandidate& candidate) {
   return candidate.reason == PlanReason::kSolved;
@@ -139,7 +141,7 @@ SpacePlanner::Candidates SpacePlanner::find_candidates(const SpaceQuery& query,
   std::vector<TimedSpacePath> untimed;
   for (const SpacePath& path : paths) untimed.push_back({path.points, {}});
   Candidates candidates;
-  optimize_all(untimed, scene, past(1.0), candidates);
+  optimize_all(untimed, scene, past(query.moving.empty() ? 1.0 : kStaticPlans), candidates);
   if (!query.moving.empty()) {
     const auto timed = paths_among_moving(query, region, paths, candidates, past);
     optimize_all(timed, scene, past(1.0), candidates);
@@ -153,9 +155,12 @@ SpacePlan SpacePlanner::plan(const SpaceQuery& query) {
   if (is_refused(query, plan)) return plan;
   const auto region = region_of(query.start);
   const double begin_s = now_s_();
+  std::atomic<bool> is_late = false;
   const Past past = [&](double share) {
-    return [this, &query, until_s = begin_s + share * options_.planning_time_s] {
-      return query.should_stop() || now_s_() > until_s;
+    return [this, &query, &is_late, until_s = begin_s + share * options_.planning_time_s] {
+      const bool is_over = query.should_stop() || now_s_() > until_s;
+      if (is_over) is_late = true;
+      return is_over;
     };
   };
   if (region) plan.candidates = find_candidates(query, *region, past);
@@ -167,8 +172,7 @@ SpacePlan SpacePlanner::plan(const SpaceQuery& query) {
     plan.reason = plan.candidates.front().reason;
     plan.message = outcome(plan.candidates.front());
   }
-  // Where there is no path at all, searching has ended with its own share.
-  if (!plan.selected() && past(plan.candidates.empty() ? kPaths : 1.0)()) {
+  if (!plan.selected() && is_late) {
     plan.reason = PlanReason::kBudgetExhausted;
     plan.message = "out of time: " + plan.message;
   }

@@ -181,7 +181,6 @@ Roadmap<D> visibility_prm(const SampledSpace<D>& space, const PointOf<D>& start,
 
   const std::vector<PointOf<D>> nodes = sampler.nodes();
   for (int i = Roadmap<D>::kGoal + 1; i < static_cast<int>(nodes.size()); ++i) {
-    if (options.should_stop()) break;
     add_node(nodes[i]);
     for (int other : within<D>(options.reach_m, nodes[i], nodes)) {
       if (other < i) join(other, i, space, roadmap);

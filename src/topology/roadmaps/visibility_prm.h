@@ -15,7 +15,7 @@ struct VisibilityPrmOptions {
   int samples;         ///< points that are tried, at least 0
   std::uint64_t seed;  ///< the same one gives the same roadmap, on every machine
   double reach_m;      ///< farther points do not see each other, above 0
-  /// Ends the sampling early; the roadmap of what was sampled by then may lack edges.
+  /// Ends the sampling early; the roadmap is that of what was sampled by then.
   std::function<bool()> should_stop = [] { return false; };
 };
 

@@ -75,13 +75,14 @@ class PlaceIndex {
     const double cube_m = std::ldexp(least_m_, static_cast<int>(level) + 1);
     return (place / cube_m).array().floor().matrix().cast<int>();
   }
-  static std::int64_t key(const Eigen::Vector3i& cube) {
-    return (static_cast<std::int64_t>(cube.x()) * 2097152 + cube.y()) * 2097152 + cube.z();
+  static std::uint64_t key(const Eigen::Vector3i& cube) {
+    constexpr std::uint64_t kMost = 2097152;  // others share a key, which costs a look
+    return (static_cast<std::uint64_t>(cube.x()) * kMost + cube.y()) * kMost + cube.z();
   }
 
   const double least_m_;
   std::vector<Eigen::Vector3d> places_;
-  std::vector<std::unordered_map<std::int64_t, std::vector<int>>> levels_;
+  std::vector<std::unordered_map<std::uint64_t, std::vector<int>>> levels_;
 };
 
 /// The best place within a voxel: its centre, or a corner with much more room. Where a way is an

@@ -62,7 +62,8 @@ std::vector<TimedSpacePath> find_moving_paths(const VoxelDistanceField& field,
   std::vector<TimedSpacePath> paths;
   for (ClassPath<4>& found : shortest_classes<4>(roadmap, space, search)) {
     TimedSpacePath& path = paths.emplace_back();
-    for (const SpaceTimePoint& point : with_shortcuts<4>(std::move(found.points), space)) {
+    if (!should_stop()) found.points = with_shortcuts<4>(std::move(found.points), space);
+    for (const SpaceTimePoint& point : found.points) {
       path.points.push_back(point.head<3>());
       path.times_s.push_back(space.since_start_s(point));
     }

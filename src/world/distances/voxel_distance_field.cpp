@@ -149,8 +149,8 @@ double VoxelDistanceField::squared_at_centre(const Eigen::Vector3i& cell) const 
   return r * r;
 }
 
-/// A lower bound [cells^2] in the pyramid of a cell that stands on the face nearest to `share`, and
-/// in that of the cell beyond: by both centres and two corners of the face.
+/// A lower bound [cells^2] by the face of the cell that is nearest to `share`: in the tetrahedron
+/// of the centres on both of its sides and two of its corners.
 double VoxelDistanceField::squared_between_centres(const Eigen::Vector3i& cell,
                                                    const Vector& share) const {
   const Vector off = share - Vector::Constant(0.5);
@@ -183,8 +183,6 @@ double VoxelDistanceField::squared_between_centres(const Eigen::Vector3i& cell,
 }
 
 double VoxelDistanceField::distance_bound(const Vector& p) const {
-  constexpr double kFar =
-      64.0;  // [cells^2]: what the corners fall short by does not count any more
   const Vector at = cells_per_m_ * (p - origin_);
   if (!is_inside(at)) return 0.0;
   const Eigen::Vector3i low = at.cast<int>().cwiseMin(corners_ - Eigen::Vector3i::Constant(2));
@@ -200,8 +198,7 @@ double VoxelDistanceField::distance_bound(const Vector& p) const {
         std::max(0.0, at_corner(low.x() + step.x(), low.y() + step.y(), low.z() + step.z()));
     squared += weight * distance * distance;
   }
-  if (squared < kFar) squared = std::max({0.0, squared, squared_between_centres(low, share)});
-  return resolution_m_ * std::sqrt(squared);
+  return resolution_m_ * std::sqrt(std::max({0.0, squared, squared_between_centres(low, share)}));
 }
 
 double VoxelDistanceField::room(const Vector& p, double radius_m) const {

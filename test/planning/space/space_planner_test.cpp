@@ -185,6 +185,9 @@ TEST(SpacePlanner, ForgetsARegionWhereThereAreMany) {
       for (int y = 0; y < grid.size.y(); ++y) grid.at(x, y, z) = VoxelGrid::kOccupied;
   }
   SpacePlanner planner = planner_in(grid);
+  const Vector3d in_first(0.8, 0.5, 0.5);
+  const auto first = planner.region_of(in_first);
+  EXPECT_EQ(planner.region_of(in_first), first);
   for (int again = 0; again < 2; ++again) {
     for (int room = 0; room < kRooms; ++room) {
       const double x_m = 1.6 * room + 0.8;
@@ -193,6 +196,7 @@ TEST(SpacePlanner, ForgetsARegionWhereThereAreMany) {
                 PlanReason::kNoPath);
     }
   }
+  EXPECT_NE(planner.region_of(in_first), first);
 }
 
 class AmongMoving : public testing::Test {

@@ -199,6 +199,17 @@ TEST(VisibilityPrm, StaysSmallHoweverManySamplesAreDrawn) {
   EXPECT_LT(few, 150u);
 }
 
+TEST(VisibilityPrm, JoinsWhatWasSampledWhenItIsStopped) {
+  PlanarWorld world;
+  world.circles = {{{10.0, 10.0}, 2.0}};
+  VisibilityPrmOptions options = prm_options(1'000'000);
+  int looks = 0;
+  options.should_stop = [&] { return ++looks > 500; };
+  const Roadmap<2> roadmap = world.roadmap(options);
+  EXPECT_TRUE(joined(roadmap));
+  EXPECT_LE(looks, 502);
+}
+
 TEST(VisibilityPrm, IsTheSameForTheSameSeed) {
   const PlanarWorld world = random_world(5, 30);
   VisibilityPrmOptions options = prm_options(500);

@@ -142,7 +142,7 @@ SpaceWorld window(int wide, int high, int thick) {
 }
 
 TEST_F(SpacePathsTest, LeadThroughAnyDoorOfFourVoxelsThatIsOneWiderThanNeeded) {
-  constexpr double kSpare_m = 0.1;  // a voxel, in all  // of 0.1 m voxels
+  constexpr double kSpare_m = 0.1;  // a voxel
   for (int wide = 4; wide <= 9; ++wide) {
     for (int high = 4; high <= 9; ++high) {
       for (const int thick : {1, 2, 12}) {
@@ -154,6 +154,38 @@ TEST_F(SpacePathsTest, LeadThroughAnyDoorOfFourVoxelsThatIsOneWiderThanNeeded) {
         expect_sound(paths);
       }
     }
+  }
+}
+
+/// Two rooms, and a tunnel of so many cells across from one to the other with a bend.
+SpaceWorld bent_tunnel(int across) {
+  SpaceWorld world;
+  world.grid.size = {40, 40, 20};
+  for (int i = 0; i < world.grid.size.prod(); ++i) {
+    const int x = i % 40;
+    const int y = i / 40 % 40;
+    const int z = i / (40 * 40);
+    const bool is_in_room = x < 12 || y > 28;
+    const bool is_in_x = y >= 8 && y < 8 + across && x < 25 + across;
+    const bool is_in_y = x >= 25 && x < 25 + across && y >= 8;
+    const bool is_in_tunnel = (is_in_x || is_in_y) && z >= 7 && z < 7 + across;
+    const bool is_wall = x >= 12 && y <= 28;
+    const bool is_solid = (is_wall || (x < 14 && y > 24)) && !is_in_tunnel;
+    world.grid.cells.push_back(is_solid || !(is_in_room || is_in_tunnel) ? VoxelGrid::kOccupied
+                                                                         : VoxelGrid::kFree);
+  }
+  world.start = {0.6, 1.0, 1.0};
+  world.goal = {3.2, 3.4, 1.0};
+  return world;
+}
+
+TEST_F(SpacePathsTest, LeadAroundTheBendOfATunnelOfSixVoxelsThatIsOneWiderThanNeeded) {
+  for (int across = 6; across <= 9; ++across) {
+    SCOPED_TRACE(across);
+    use(bent_tunnel(across), 0.05 * across - 0.05);
+    const auto paths = find(1.5, 1, 0);
+    EXPECT_EQ(paths.size(), 1u);
+    expect_sound(paths);
   }
 }
 
