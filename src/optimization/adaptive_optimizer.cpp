@@ -1,6 +1,7 @@
 #include "optimization/adaptive_optimizer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double kRough = 1e-3;        // fall of the cost at which the first search stops
 constexpr double kNegligible = 1e-3;   // of the cost: estimated gains that are left out in all
-constexpr int kFineSearches = 3;       // at most
+constexpr int kRefinements = 3;        // at most, each with a search that is no rougher
 constexpr double kMostScaling = 10.0;  // between the variables of knots near and far apart
 
 /// The closer knots are, the more a metre of one costs: variables are scaled so that they are alike
@@ -37,13 +38,15 @@ class AdaptiveSearch {
   AdaptiveTrajectory<D> run(KnotChain<D> chain) {
     objective_.set_knot_map(std::make_shared<AdaptiveMap<D>>(chain.knots, travel_m_));
     chain.durations_s = paced(objective_, chain.durations_s);
-    search(std::move(chain), std::max(kRough, options_.relative_cost));
-    for (int fine = 0; fine < kFineSearches && !has_ended(); ++fine) {
+    const double finest = options_.relative_cost;
+    const double roughest = std::max(kRough, finest);
+    search(std::move(chain), roughest);
+    for (int round = 0; round < kRefinements && !has_ended(); ++round) {
       KnotChain<D> refined = result_.chain;
       const bool has_more = refine(refined, trial(), kNegligible);
       // What is left idle costs little; that alone is no reason to search again.
-      if (fine > 0 && !has_more) break;
-      search(std::move(refined), options_.relative_cost);
+      if (round > 1 && !has_more) break;
+      search(std::move(refined), round == 0 ? std::sqrt(roughest * finest) : finest);
     }
     return std::move(result_);
   }

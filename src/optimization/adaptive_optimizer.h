@@ -16,9 +16,9 @@ struct AdaptiveTrajectory {
 
 /// Minimises the objective over knots whose number and freedom it finds as well: few, each on its
 /// ray, are optimised roughly from a well-paced start; then refine() adds and removes what is worth
-/// it, and the search goes on by the caller's rules from the curve in hand, until nothing of worth
-/// is left to add. Whatever knots the objective has are replaced. `travel_m` is that of
-/// AdaptiveMap.
+/// it, and the search goes on from the curve in hand, ever finer, until it ends by the caller's
+/// rules and nothing of worth is left to add. Whatever knots the objective has are replaced.
+/// `travel_m` is that of AdaptiveMap.
 template <int D>
 AdaptiveTrajectory<D> optimize_adaptively(TrajectoryObjective<D, 3>& objective,
                                           const KnotCandidates<D>& candidates, double travel_m,

@@ -246,8 +246,8 @@ TEST_F(AmongMoving, GoesByTheOtherWindowWhereOneIsBlocked) {
 }
 
 TEST_F(AmongMoving, SaysWhatIsInTheWayWhereBothAreBlocked) {
-  const SpacePlan found = plan({steady_tube<3>({5.0, 2.0, 1.8}, {0.0, 0.0, 0.0}, 0.8),
-                                steady_tube<3>({5.0, 6.2, 3.0}, {0.0, 0.0, 0.0}, 0.8)});
+  const SpacePlan found = plan({steady_tube<3>({5.0, 2.0, 1.8}, {0.0, 0.0, 0.0}, 1.0),
+                                steady_tube<3>({5.0, 6.2, 3.0}, {0.0, 0.0, 0.0}, 1.0)});
   EXPECT_EQ(found.reason, PlanReason::kNotCertified);
   EXPECT_EQ(found.selected(), nullptr);
   ASSERT_FALSE(found.candidates.empty());
