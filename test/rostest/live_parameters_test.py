@@ -178,10 +178,10 @@ class LiveParametersTest(unittest.TestCase):
         self.client("perception").update_configuration({"map_rate": 0.5})
         self.assertLessEqual(maps_of(4.0), 3)
 
-    def drive(self, x, gains):
-        """Turns and drives along the lane, as soon as it moves with other weights and gains; the mean error across [m]."""
+    def drive(self, x, y, gains):
+        """Turns and drives across the hall, as soon as it moves with other weights and gains; the mean error across [m]."""
         del self.errors[:]
-        self.robot.send(x, -1.5)
+        self.robot.send(x, y)
         self.robot.run_until(lambda: not self.robot.standing(), PATIENCE_S, "it moves")
         self.client("trajectory_tracker").update_configuration(gains)
         self.client().update_configuration({"weight_duration": 2.0, "soft_margin": 0.3})
@@ -191,8 +191,8 @@ class LiveParametersTest(unittest.TestCase):
 
     def test_weights_and_gains_change_while_driving(self):
         self.robot.arrive(4.0, -1.5)
-        stiff_m = self.drive(-4.0, {"across_gain": 2.5})
-        slack_m = self.drive(4.0, {"across_gain": 0.1, "max_bandwidth": 0.1, "heading_gain": 0.1, "damping": 0.3})
+        stiff_m = self.drive(-4.0, 1.5, {"across_gain": 2.5})
+        slack_m = self.drive(4.0, -1.5, {"across_gain": 0.1, "max_bandwidth": 0.1, "heading_gain": 0.1, "damping": 0.3})
         self.assertGreater(slack_m, 5.0 * stiff_m)
 
     def test_a_respawned_node_has_them_again(self):
