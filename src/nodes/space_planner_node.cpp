@@ -95,7 +95,8 @@ class SpacePlannerNode {
     took_s_ = plan.took_s;
     last_reason_ = plan.reason;
     ++plans_[plan.reason];
-    last_ = to_text(plan.reason) + (": " + plan.message);
+    last_ = to_text(plan.reason);
+    if (plan.message != last_) last_ += ": " + plan.message;
     const ros::Time now = ros::Time::now();
     const auto response = to_message(plan, radius_m_, identity_.map_frame, now);
     paths_.publish(response.path);
