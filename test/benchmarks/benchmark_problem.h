@@ -12,6 +12,7 @@
 #include "optimization/obstacle_penalty.h"
 #include "optimization/trajectory_objective.h"
 #include "planning/candidates/speed_profile.h"
+#include "trajectory/polyline.h"
 
 namespace mocha {
 
@@ -30,13 +31,6 @@ struct TableOptions {
   double travel_m = 8.0;  ///< of a knot along its ray
 };
 
-template <int D>
-double length_m(const std::vector<Eigen::Matrix<double, D, 1>>& path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
-  return length;
-}
-
 /// How a front-end path would be driven; corners are rounded over `window_m`.
 template <int D>
 SpeedProfile<D> table_profile(const std::vector<Eigen::Matrix<double, D, 1>>& path, double window_m,
@@ -53,7 +47,7 @@ template <int D>
 InitialKnots<D> knots_on(const std::vector<Eigen::Matrix<double, D, 1>>& path, double spacing_m,
                          const TableOptions& options) {
   return table_profile<D>(path, spacing_m, options)
-      .knots(static_cast<int>(std::round(length_m<D>(path) / spacing_m)));
+      .knots(static_cast<int>(std::round(length_of<D>(path) / spacing_m)));
 }
 
 /// Where the rays of camouflage start, one reference point a knot.

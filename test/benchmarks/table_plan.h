@@ -67,7 +67,7 @@ TablePlan<D> plan_adaptively(const BenchmarkWorld<D>& world, const TableOptions&
   return timed_plan<D>(world, options, [&](TablePlan<D>& plan) {
     const double coarsest_m = kCoarsest * kSpacing_m;
     const int pieces =
-        kCoarsest * static_cast<int>(std::round(length_m<D>(world.path) / coarsest_m));
+        kCoarsest * static_cast<int>(std::round(length_of<D>(world.path) / coarsest_m));
     const SpeedProfile<D> profile = table_profile<D>(world.path, kSpacing_m, options);
     const InitialKnots<D> knots = profile.knots(pieces);
     TrajectoryObjective<D, 3> objective(table_objective_options<D>(world, knots, false, options));

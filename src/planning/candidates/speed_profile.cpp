@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "camouflage/bounded_maps.h"
+#include "trajectory/polyline.h"
 
 namespace mocha {
 namespace {
@@ -21,16 +22,9 @@ template <int D>
 using Points = std::vector<Eigen::Matrix<double, D, 1>>;
 
 template <int D>
-double length_m(const Points<D>& points) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
-  return length;
-}
-
-template <int D>
 Points<D> resample(const Points<D>& points, double step_m) {
   Points<D> samples = {points.front()};
-  samples.reserve(points.size() + static_cast<std::size_t>(length_m<D>(points) / step_m));
+  samples.reserve(points.size() + static_cast<std::size_t>(length_of<D>(points) / step_m));
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Eigen::Matrix<double, D, 1> step = points[i] - points[i - 1];
     const int parts = std::max(1, static_cast<int>(std::ceil(step.norm() / step_m)));
@@ -114,7 +108,7 @@ double InitialKnots<D>::metres_per_eta() const {
 template <int D>
 SpeedProfile<D>::SpeedProfile(const Points& points, double start_speed, const MotionLimits& limits,
                               double window_m, const SpeedAt<D>& fastest_at) {
-  const double length = length_m<D>(points);
+  const double length = length_of<D>(points);
   if (points.size() < 2 || !std::isfinite(length)) {
     throw std::invalid_argument("SpeedProfile: needs at least two points, all of them finite");
   }

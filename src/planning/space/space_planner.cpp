@@ -110,7 +110,7 @@ std::vector<TimedSpacePath> SpacePlanner::paths_among_moving(const SpaceQuery& q
                                                              const Past& past) const {
   double duration_s = 0.0;
   for (const SpaceCandidate& candidate : without) {
-    if (candidate.curve.pieces() > 0) duration_s = std::max(duration_s, candidate.curve.duration());
+    if (has_curve(candidate)) duration_s = std::max(duration_s, candidate.curve.duration());
   }
   if (duration_s == 0.0) return {};
   MovingQuery moving{

@@ -10,6 +10,7 @@
 namespace mocha {
 namespace {
 
+constexpr int kNone = -1;
 constexpr double kLeastSpacingCells = 2.0;
 constexpr double kMuchMore = 1.1;  // room at a corner of a voxel, over that at its centre
 
@@ -25,8 +26,6 @@ std::vector<int> middle_voxels(const SolidVoxels& voxels) {
                    [&](int a, int b) { return voxels.distance_m[a] > voxels.distance_m[b]; });
   return middle;
 }
-
-constexpr int kNone = -1;
 
 /// Places by how far they are apart, and by cubes of that size: so that few cubes are looked at,
 /// and few places in each.
